@@ -48,17 +48,36 @@ std::optional<Predicate> where_below(const std::vector<Features>& failing, Quant
                    [=](const Features& f) { return f.*quantity < limit; }};
 }
 
-// The greatest power of ten that all failing questions reach.
-std::optional<Predicate> from(const std::vector<Features>& failing, Quantity quantity, const char* text) {
-  double least = std::numeric_limits<double>::infinity();
+std::optional<Predicate> least(Quantity quantity, double limit, const std::string& text) {
+  return Predicate{text, [=](const Features& f) { return f.*quantity >= limit; }};
+}
+
+// The smallest of them; nothing if one has no such quantity.
+std::optional<double> smallest(const std::vector<Features>& failing, Quantity quantity) {
+  double smallest = std::numeric_limits<double>::infinity();
   for (const Features& f : failing) {
     if (!(f.*quantity > 0)) return std::nullopt;
-    least = std::min(least, f.*quantity);
+    smallest = std::min(smallest, f.*quantity);
   }
-  if (!std::isfinite(least)) return std::nullopt;
-  const double limit = std::pow(10, std::floor(std::log10(least)));
-  return Predicate{fmt::format(fmt::runtime(text), limit),
-                   [=](const Features& f) { return f.*quantity >= limit; }};
+  return std::isfinite(smallest) ? std::optional(smallest) : std::nullopt;
+}
+
+// The greatest power of ten that all failing questions reach.
+std::optional<Predicate> from(const std::vector<Features>& failing, Quantity quantity, const char* text) {
+  const auto reached = smallest(failing, quantity);
+  if (!reached) return std::nullopt;
+  const double limit = std::pow(10, std::floor(std::log10(*reached)));
+  return least(quantity, limit, fmt::format(fmt::runtime(text), limit));
+}
+
+// The greatest power of two, of lengths in radii, if that is far: nothing cancels nearby.
+std::optional<Predicate> from_afar(const std::vector<Features>& failing, Quantity quantity,
+                                   const char* text) {
+  constexpr int kFar = 10;
+  const auto reached = smallest(failing, quantity);
+  const int exponent = reached ? std::ilogb(*reached) : 0;
+  if (exponent < kFar) return std::nullopt;
+  return least(quantity, std::ldexp(1, exponent), fmt::format(fmt::runtime(text), exponent));
 }
 
 std::vector<Predicate> predicates_for(const std::vector<Features>& failing) {
@@ -75,6 +94,9 @@ std::vector<Predicate> predicates_for(const std::vector<Features>& failing) {
         where_below(failing, &Features::flight, "on flights shorter than {:g} lattice vectors"),
         from(failing, &Features::start, "from starts {:g} lattice vectors or more from the origin"),
         from(failing, &Features::cell, "in far cells, with numbers of {:g} or more"),
+        from_afar(failing, &Features::distance,
+                  "from starts 2^{} radii or more from the obstacle in question"),
+        from_afar(failing, &Features::flight_in_radii, "after flights of 2^{} radii or more"),
         where_below(failing, &Features::speed, "at velocities shorter than {:g}"),
         from(failing, &Features::speed, "at velocities of length {:g} or more")})
     if (one) all.push_back(*one);

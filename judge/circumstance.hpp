@@ -17,7 +17,7 @@ struct Circumstance {
 
 /// Something that is true of all the failing questions and of at most half of the right ones, and that would
 /// be true of all the failing ones by chance with less than 1 in 1000 (share^number). Limits are powers of
-/// ten. The rarest among the right answers, or nothing.
+/// ten, those of lengths in radii of two. The rarest among the right answers, or nothing.
 std::optional<Circumstance> circumstance_of(const std::vector<Features>& failing,
                                             const std::vector<Features>& right);
 

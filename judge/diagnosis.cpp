@@ -5,13 +5,10 @@
 #include <cmath>
 
 #include "fuzz/examine/tie.hpp"
+#include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::judge {
 namespace {
-
-bool names_obstacle(const Answer& answer) {
-  return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
-}
 
 bool exists(const Question& question, const ObstacleId& obstacle) {
   return !flaw_of(Query{question.query.x, question.query.v, obstacle}, question.place->scene());
@@ -73,33 +70,51 @@ Fault of_another_answer(const Question& question, const Answer& given,
   return graded(Cause::never_for_grazing, Cause::never_for_hit, approach.gap);
 }
 
-constexpr std::array<std::string_view, kCauses> kCauseNames{"passed-over-grazing",
-                                                            "passed-over",
-                                                            "never-for-grazing",
-                                                            "never-for-hit",
-                                                            "false-hit-grazing",
-                                                            "false-hit",
-                                                            "behind",
-                                                            "leaving",
-                                                            "inside-unseen",
-                                                            "inside-not-so",
-                                                            "inside-another",
-                                                            "tie",
-                                                            "no-obstacle",
-                                                            "not-the-time",
-                                                            "wrong-time",
-                                                            "refused",
-                                                            "no-answer",
-                                                            "answers-nonsense"};
+struct CauseWords {
+  std::string_view name, title;
+};
+constexpr std::array<CauseWords, kCauses> kCauseWords{{
+    {"passed-over-grazing", "names a later obstacle than one it grazes"},
+    {"passed-over", "passes through an obstacle"},
+    {"never-for-grazing", "misses what it grazes"},
+    {"never-for-hit", "misses what it hits"},
+    {"false-hit-grazing", "hits what it misses by a hair"},
+    {"false-hit", "hits what it misses"},
+    {"behind", "hits what lies behind the start"},
+    {"leaving", "hits the obstacle that it leaves"},
+    {"inside-unseen", "starts inside unseen"},
+    {"inside-not-so", "says inside, and starts outside"},
+    {"inside-another", "starts inside several, and names another"},
+    {"tie", "names the other of a tie"},
+    {"no-obstacle", "names an obstacle that does not exist"},
+    {"not-the-time", "another quantity as the time"},
+    {"wrong-time", "wrong time"},
+    {"refused", "refuses a valid question"},
+    {"no-answer", "died or silent"},
+    {"bad-line", "bad lines"},
+    {"answers-nonsense", "answers an invalid question"},
+}};
+
+const CauseWords& words_for(Cause cause) {
+  return kCauseWords[static_cast<std::size_t>(cause)];
+}
+
+// Of the right obstacle.
+Diagnosis of_wrong_time(const Question& question, const Answer& given, bool other_quantity) {
+  return {other_quantity ? Cause::other_quantity : Cause::wrong_time, Severity::wrong_time,
+          radii_off(question, given)};
+}
 
 }  // namespace
+
+bool names_obstacle(const Answer& answer) {
+  return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
+}
 
 std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& given,
                                       const oracle::Judgement& judgement) {
   using oracle::Verdict;
-  if (judgement.wrong_time)
-    return Diagnosis{judgement.other_quantity ? Cause::other_quantity : Cause::wrong_time,
-                     Severity::wrong_time};
+  if (judgement.wrong_time) return of_wrong_time(question, given, judgement.other_quantity);
   if (judgement.verdict == Verdict::error) return Diagnosis{Cause::refused, Severity::error};
   if (judgement.verdict == Verdict::missing) return Diagnosis{Cause::no_answer, Severity::error};
   const bool wrong = judgement.verdict == Verdict::wrong;
@@ -109,8 +124,45 @@ std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& gi
   return Diagnosis{fault.cause, wrong ? Severity::wrong : Severity::ill_posed, fault.by_radii};
 }
 
+double smallest_semiaxis(const Atom& atom, int dimension) {
+  return atom.is_ball() ? atom.radius
+                        : principal_semiaxes(atom, dimension)[static_cast<std::size_t>(dimension) - 1];
+}
+
+std::optional<double> radii_off(const Question& question, const Answer& given) {
+  const Answer& exact = question.exact;
+  if (!exact.time || !given.time || !std::isfinite(*exact.time) || !std::isfinite(*given.time))
+    return std::nullopt;
+  const Scene& scene = question.place->scene();
+  const Atom& atom = scene.lattices[static_cast<std::size_t>(exact.obstacle.lattice)]
+                         .atoms[static_cast<std::size_t>(exact.obstacle.atom)];
+  const Vec& v = question.query.v;
+  return std::fabs(*given.time - *exact.time) / smallest_semiaxis(atom, scene.dimension) *
+         std::hypot(v[0], v[1], v[2]);
+}
+
+Group Diagnosis::group() const {
+  if (severity == Severity::ill_posed) return Group::rounding;
+  if (cause == Cause::no_answer) return Group::ended;
+  const bool is_protocol =
+      cause == Cause::bad_line || cause == Cause::answered_nonsense || cause == Cause::refused;
+  return is_protocol ? Group::protocol : Group::engine;
+}
+
 std::string_view name_of(Cause cause) {
-  return kCauseNames[static_cast<std::size_t>(cause)];
+  return words_for(cause).name;
+}
+
+std::string_view title_of(Cause cause) {
+  return words_for(cause).title;
+}
+
+std::string_view title_of(Group group) {
+  constexpr std::string_view kTitles[] = {
+      "the engine's own faults", "died or silent",
+      "protocol: bad lines, invalid questions answered, valid ones refused",
+      "of floating point, no blame (ill-posed)"};
+  return kTitles[static_cast<int>(group)];
 }
 
 std::string_view name_of(Severity severity) {
@@ -131,6 +183,11 @@ std::string sentence_of(Cause cause, std::optional<double> by_radii) {
     return by_radii && *by_radii > 0
                ? fmt::format("{} by less than {} of their radii", what, power_of_ten_above(*by_radii))
                : fmt::format("{} at one point only", what);
+  };
+  const auto along = [&](const char* what) {
+    return by_radii && std::isfinite(*by_radii)
+               ? fmt::format("{}, by up to {:.3g} radii along the ray", what, *by_radii)
+               : std::string(what);
   };
   switch (cause) {
     case Cause::passed_over_grazing:
@@ -160,13 +217,16 @@ std::string sentence_of(Cause cause, std::optional<double> by_radii) {
     case Cause::no_such_obstacle:
       return "names an obstacle that the scene does not have";
     case Cause::other_quantity:
-      return "gives, for the right obstacle, something else than the time at which it is entered";
+      return along("gives, for the right obstacle, something else than the time at which it is entered");
     case Cause::wrong_time:
-      return "gives times of the right obstacle that are off by more than rounding of the inputs explains";
+      return along(
+          "gives times of the right obstacle that are off by more than rounding of the inputs explains");
     case Cause::refused:
       return "calls a valid question an error";
     case Cause::no_answer:
-      return "gives no answer: it dies, falls silent, or writes something that is no answer";
+      return "gives no answer: it dies, falls silent, or leaves the question out";
+    case Cause::bad_line:
+      return "writes lines that are no answers";
     case Cause::answered_nonsense:
       return "answers invalid questions, where error is right";
   }

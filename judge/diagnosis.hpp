@@ -32,10 +32,15 @@ enum class Cause {
   other_quantity,     ///< the right obstacle with something else than the time of its entry
   wrong_time,         ///< the right obstacle, and a time that is off by more than rounding explains
   refused,            ///< a valid question is called an error
-  no_answer,          ///< another program died, fell silent, or wrote what is no answer
+  no_answer,          ///< another program died, fell silent, or left the question out
+  bad_line,           ///< it wrote something in the answer's place that is no answer
   answered_nonsense   ///< an invalid question was answered
 };
-inline constexpr int kCauses = 18;
+inline constexpr int kCauses = 19;
+
+/// Whose findings are, in the order in which reports tell of them.
+enum class Group { engine, ended, protocol, rounding };
+inline constexpr std::array kGroups{Group::engine, Group::ended, Group::protocol, Group::rounding};
 
 /// Below this part of an obstacle's radius it is only just met or missed.
 inline constexpr double kGrazing = 1e-6;
@@ -47,17 +52,32 @@ struct Diagnosis {
   Cause cause{};
   Severity severity{};
   /// By so many of its radii the obstacle in question is entered or missed, or x lies inside or outside of
-  /// it.
+  /// it. Of a wrong time: radii_off.
   std::optional<double> by_radii = {};
+
+  Group group() const;
 };
+
+/// A ball's radius, or the smallest of an ellipsoid's principal semiaxes.
+double smallest_semiaxis(const Atom& atom, int dimension);
+
+/// |t' - t| |v| / r: so far along the ray the time of the right obstacle is off, in its radii (of an ellipsoid its
+/// smallest semiaxis). Nothing if the two answers have no two finite times.
+std::optional<double> radii_off(const Question& question, const Answer& given);
+
+bool names_obstacle(const Answer& answer);
 
 /// Of an answer that departs from the exact one, or has a wrong time, or is an error, or missing; else
 /// nothing. Where several obstacles are in question it is about the one that the judgement rests on.
 std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& given,
                                       const oracle::Judgement& judgement);
 
-/// "passed-over-grazing"
+/// "passed-over-grazing", for programs.
 std::string_view name_of(Cause cause);
+/// "misses what it grazes", for people.
+std::string_view title_of(Cause cause);
+/// "the engine's own faults"
+std::string_view title_of(Group group);
 std::string_view name_of(Severity severity);
 
 /// "passes over obstacles that the line enters by less than 1e-09 of their radii": of all answers that went

@@ -71,10 +71,13 @@ Examination::Start Examination::warm_up() {
 // Returns how long it took.
 double Examination::ask(const std::vector<Question>& questions) {
   replies_.clear();
+  answerer_->take_last_words();  // what it said of earlier questions
   const auto start = Clock::now();
   question::ask_all(question::all_of(questions), *answerer_,
                     [this](const Question&, Reply& reply) { replies_.push_back(std::move(reply)); });
-  return seconds_since(start);
+  const double took = seconds_since(start);
+  last_words_ = answerer_->take_last_words();
+  return took;
 }
 
 void Examination::run(ExaminedRow row, const Source& source, double seconds, const Look& look) {
@@ -117,6 +120,8 @@ void Examination::take_over(const Examination& other) {
   };
   const double ns = time(its) + time(more);
   its.add(more);
+  if (const auto theirs = other.rows_.back().max_radii)
+    rows_.back().max_radii = std::max(rows_.back().max_radii.value_or(0), *theirs);
   rows_.back().nonsense += other.rows_.back().nonsense;
   rows_.back().scenes_given_up += other.rows_.back().scenes_given_up;
   if (rows_.back().last_failure.empty()) rows_.back().last_failure = other.rows_.back().last_failure;
@@ -133,34 +138,46 @@ void Examination::leave(Place& place, ExaminedRow& row) const {
   row.last_failure = last_fault_;
 }
 
+std::optional<Diagnosis> Examination::diagnosed(const Question& question, const Reply& reply,
+                                                const Judgement& judgement) {
+  auto diagnosis = diagnosis_of(question, reply.answer, judgement);
+  if (diagnosis && reply.origin == Origin::bad_line) diagnosis->cause = Cause::bad_line;
+  return diagnosis;
+}
+
 Judgement Examination::judgement_of(const Question& question, const Reply& reply) const {
-  if (reply.origin == Origin::fault) return {Verdict::missing};
+  if (reply.is_fault()) return {Verdict::missing};
   return question::judgement_of(question, reply.answer, ulps_);
 }
 
 std::optional<Example> Examination::departing(const Question& question, const Reply& reply) const {
   if (!reply.was_asked()) return std::nullopt;
   const Judgement judgement = judgement_of(question, reply);
-  const auto diagnosis = diagnosis_of(question, reply.answer, judgement);
-  return diagnosis ? std::optional(Example{question, reply.answer, judgement, *diagnosis}) : std::nullopt;
+  const auto diagnosis = diagnosed(question, reply, judgement);
+  return diagnosis ? std::optional(Example{question, reply.answer, judgement, *diagnosis, last_words_})
+                   : std::nullopt;
 }
 
 void Examination::take(const Question& question, const Reply& reply, ExaminedRow& row) {
   if (!reply.was_asked()) return leave(*question.place, row);
   const Judgement judgement = judgement_of(question, reply);
-  if (reply.origin == Origin::fault) last_fault_ = reply.answer.message;
-  const auto diagnosis = diagnosis_of(question, reply.answer, judgement);
+  if (reply.is_fault()) last_fault_ = reply.answer.message;
+  const auto diagnosis = diagnosed(question, reply, judgement);
   const bool is_nonsense = diagnosis && diagnosis->severity == Severity::nonsense;
   if (is_nonsense)
     ++row.nonsense;
   else
     row.tally.count(judgement);
   question.place->note(judgement.verdict == Verdict::unsupported);
-  if (diagnosis) findings_.add({question, reply.answer, judgement, *diagnosis}, row.name);
+  if (diagnosis) findings_.add({question, reply.answer, judgement, *diagnosis, last_words_}, row.name);
+  if (const auto off = radii_off(question, reply.answer); judgement.ulps && off)
+    row.max_radii = std::max(row.max_radii.value_or(0), *off);
   if (!question.is_query() || row.tally.queries > kCompared) return;
-  const Features features = features_of(question);
+  const Features features = features_of(
+      question, names_obstacle(question.exact) ? std::optional(question.exact.obstacle) : std::nullopt);
   if (!diagnosis && judgement.verdict == Verdict::agree) findings_.add_right(features);
-  calls_.add(diagnosis && diagnosis->by_radii ? diagnosis->by_radii : features.depth, judgement.verdict);
+  const bool is_about_another = diagnosis && !judgement.wrong_time && diagnosis->by_radii;
+  calls_.add(is_about_another ? diagnosis->by_radii : features.depth, judgement.verdict);
 }
 
 std::vector<Finding> Examination::findings() const {

@@ -31,7 +31,9 @@ struct ExaminedRow {
   question::Tally tally = {};  ///< with ns_per_query, the mean, of another program by the wall
   /// Invalid questions that were answered as if they were valid; these are not in the tally.
   std::size_t nonsense = 0;
-  bool is_exhausted = false;        ///< its source had no more questions that the engine does
+  std::optional<double> max_radii = {};       ///< the largest radii_off of a right obstacle
+  std::optional<std::uint64_t> records = {};  ///< of a golden set: so many there are
+  bool is_exhausted = false;                  ///< its source had no more questions that the engine does
   std::size_t scenes_given_up = 0;  ///< in which another program failed until it was asked no further
   std::string last_failure = {};    ///< of the last of these
 
@@ -103,6 +105,8 @@ class Examination {
   double ask(const std::vector<Question>& questions);
   void take(const Question& question, const Reply& reply, ExaminedRow& row);
   void leave(Place& place, ExaminedRow& row) const;
+  static std::optional<Diagnosis> diagnosed(const Question& question, const Reply& reply,
+                                            const oracle::Judgement& judgement);
   oracle::Judgement judgement_of(const Question& question, const Reply& reply) const;
   std::optional<Example> departing(const Question& question, const Reply& reply) const;
 
@@ -116,7 +120,7 @@ class Examination {
   const bool is_command_;
   std::unique_ptr<question::Answerer> answerer_;
   std::vector<Reply> replies_;
-  std::string last_fault_;
+  std::string last_fault_, last_words_;  // last_words_: while the last questions were asked
   std::vector<ExaminedRow> rows_;
   Findings findings_;
   Calls calls_;

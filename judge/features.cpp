@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
+#include "judge/diagnosis.hpp"
 
 namespace lorentz::judge {
 namespace {
@@ -19,8 +20,7 @@ double shortest_vector(const Scene& scene) {
 double smallest_radius(const Scene& scene) {
   double smallest = std::numeric_limits<double>::infinity();
   for_each_atom(scene, [&](const Atom& atom) {
-    if (atom.is_ball()) smallest = std::min(smallest, atom.radius);
-    for (const Vec& axis : atom.semiaxes) smallest = std::min(smallest, length(axis));
+    smallest = std::min(smallest, smallest_semiaxis(atom, scene.dimension));
   });
   return smallest;
 }
@@ -38,15 +38,34 @@ double largest_number(const Question& question) {
   const auto see = [&](const ObstacleId& obstacle) {
     for (const Integer& number : obstacle.cell) largest = std::fmax(largest, std::fabs(as_double(number)));
   };
-  const Outcome outcome = question.exact.outcome;
-  if (outcome == Outcome::hit || outcome == Outcome::inside) see(question.exact.obstacle);
+  if (names_obstacle(question.exact)) see(question.exact.obstacle);
   if (question.query.from) see(*question.query.from);
   return largest;
 }
 
+// The only one of a scene; nothing if there are several.
+std::optional<ObstacleId> lone_obstacle(const Scene& scene) {
+  const Lattice& first = scene.lattices[0];
+  const bool is_lone =
+      scene.lattices.size() == 1 && first.atoms.size() == 1 && first.rank(scene.dimension) == 0;
+  return is_lone ? std::optional(ObstacleId{}) : std::nullopt;
+}
+
+// From x to its centre, in its radii (of an ellipsoid the smallest semiaxis).
+void measure_from(const Question& question, const ObstacleId& obstacle, Features& its) {
+  const Scene& scene = question.place->scene();
+  const Lattice& lattice = scene.lattices[static_cast<std::size_t>(obstacle.lattice)];
+  const Atom& atom = lattice.atoms[static_cast<std::size_t>(obstacle.atom)];
+  Vec centre = atom.position;
+  for (int i = 0; i < lattice.rank(scene.dimension); ++i)
+    centre = plus(centre, as_double(obstacle.cell[i]), lattice.vectors[i]);
+  const Vec away = plus(centre, -1, question.query.x);
+  its.distance = std::hypot(away[0], away[1], away[2]) / smallest_semiaxis(atom, scene.dimension);
+}
+
 }  // namespace
 
-Features features_of(const Question& question) {
+Features features_of(const Question& question, const std::optional<ObstacleId>& in_question) {
   const Scene& scene = question.place->scene();
   const Query& query = question.query;
   const double unit = shortest_vector(scene);
@@ -63,8 +82,15 @@ Features features_of(const Question& question) {
   its.start = length(query.x) / unit;
   its.cell = largest_number(question);
   its.speed = length(query.v);
+  if (const auto obstacle = in_question ? in_question : lone_obstacle(scene))
+    measure_from(question, *obstacle, its);
   if (question.exact.outcome != Outcome::hit) return its;
-  its.flight = question.exact.time.value_or(Features::kNone) * its.speed / unit;
+  const double flown = question.exact.time.value_or(Features::kNone) * its.speed;
+  its.flight = flown / unit;
+  const ObstacleId& hit = question.exact.obstacle;
+  const Atom& atom =
+      scene.lattices[static_cast<std::size_t>(hit.lattice)].atoms[static_cast<std::size_t>(hit.atom)];
+  its.flight_in_radii = flown / smallest_semiaxis(atom, scene.dimension);
   its.depth = -question.place->margins().approach(query, question.exact.obstacle).gap;
   return its;
 }

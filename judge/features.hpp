@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "question/question.hpp"
 
@@ -26,8 +27,12 @@ struct Features {
   double cell = kNone;    ///< the largest number of a cell, without its sign: of the obstacle hit, of `from`
   double depth = kNone;   ///< by so many of its radii the line enters the obstacle that is hit
   double speed = kNone;   ///< of v, in the scene's own unit
+  // In radii (of an ellipsoid: its smallest semiaxis).
+  double distance = kNone;         ///< of x from the centre of the obstacle in question
+  double flight_in_radii = kNone;  ///< to the obstacle that is hit, in radii of that
 };
 
-Features features_of(const Question& question);
+/// `in_question`: the obstacle that is in question; nothing: the only one that there is.
+Features features_of(const Question& question, const std::optional<ObstacleId>& in_question = {});
 
 }  // namespace lorentz::judge

@@ -35,6 +35,17 @@ std::string share_text(double share) {
 
 }  // namespace
 
+std::optional<ObstacleId> obstacle_in_question(const Example& example) {
+  if (!example.question.is_query()) return std::nullopt;
+  if (example.judgement.obstacle) return example.judgement.obstacle;
+  const Query& query = example.question.query;
+  for (const Answer* answer : {&example.question.exact, &example.given})
+    if (names_obstacle(*answer) &&
+        !flaw_of(Query{query.x, query.v, answer->obstacle}, example.question.place->scene()))
+      return answer->obstacle;
+  return std::nullopt;
+}
+
 std::string Finding::summary() const {
   const std::string text = sentence_of(cause(), by_radii);
   // A grazing one says that of itself.
@@ -58,7 +69,7 @@ void Findings::add(const Example& example, const std::string& row) {
   if (example.diagnosis.by_radii)
     its.by_radii = std::max(its.by_radii.value_or(0), *example.diagnosis.by_radii);
   if (example.question.is_query() && its.features.size() < kMostFeatures)
-    its.features.push_back(features_of(example.question));
+    its.features.push_back(features_of(example.question, obstacle_in_question(example)));
   if (complexity_of(example.question) >= complexity_of(its.simplest.question)) return;
   its.simplest = example;
   its.where = example.question.where;
@@ -89,7 +100,8 @@ std::vector<Finding> Findings::all(const Asked& asked) const {
     all.back().circumstance = circumstance_of(finding.features, right_);
   }
   const auto rank = [](const Finding& finding) {
-    return std::make_tuple(finding.severity(), -finding.share_of_plain, -finding.share_of_hard);
+    return std::make_tuple(finding.simplest.diagnosis.group(), finding.severity(), -finding.share_of_plain,
+                           -finding.share_of_hard);
   };
   std::stable_sort(all.begin(), all.end(),
                    [&](const Finding& a, const Finding& b) { return rank(a) < rank(b); });

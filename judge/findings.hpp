@@ -17,7 +17,12 @@ struct Example {
   Answer given;
   oracle::Judgement judgement;
   Diagnosis diagnosis;
+  std::string last_words = {};  ///< the last line that a program wrote to its standard error meanwhile
 };
+
+/// The one that the judgement rests on, else the one that is hit or contains x, else the one that is named; nothing if
+/// none of these is an obstacle.
+std::optional<ObstacleId> obstacle_in_question(const Example& example);
 
 /// What a new start of a program made of a finding's simplest case.
 enum class Recheck {
@@ -66,8 +71,8 @@ class Findings {
   /// A right answer, for comparison.
   void add_right(const Features& features) { right_.push_back(features); }
 
-  /// The worst first; of these the most frequent in plain flights, then in hard ones. With their
-  /// circumstances.
+  /// Group by group; in each the worst first, of these the most frequent in plain flights, then in hard ones.
+  /// With their circumstances.
   std::vector<Finding> all(const Asked& asked) const;
 
  private:

@@ -9,13 +9,16 @@
 #include <lorentz/exchange.hpp>
 #include "files/messages.hpp"
 #include "judge/repetition.hpp"
+#include "judge/verdict_text.hpp"
 #include "pictures/finding_drawing.hpp"
 #include "report/claim_words.hpp"
 #include "report/finding_json.hpp"
 #include "report/manifest.hpp"
+#include "report/primitive.hpp"
 #include "report/reason.hpp"
 #include "report/table.hpp"
 #include "src/exchange/exchange_write.hpp"
+#include "src/problem/safe_text.hpp"
 
 namespace lorentz::judge {
 
@@ -41,11 +44,6 @@ Answer exact_of(const Example& example) {
 }
 
 // ---- Findings
-
-// Two digits, or all before the point.
-std::string two_digits(double a) {
-  return a < 9.95 || a >= 1e6 ? fmt::format("{:.2g}", a) : fmt::format("{:.0f}", a);
-}
 
 const char* option_for(Severity severity) {
   if (severity == Severity::wrong_time) return " --times";
@@ -88,13 +86,27 @@ std::vector<std::string> lines_of_dispute(const Example& example) {
   if (example.diagnosis.severity == Severity::ill_posed && departs == 0)
     lines.push_back("inputs moved by however little would make it right");
   else if (example.diagnosis.severity == Severity::ill_posed)
-    lines.push_back(fmt::format("inputs moved by {:.3g} ulps would make it right", departs));
+    lines.push_back(fmt::format("inputs moved by {} would make it right", report::ulps_text(departs)));
+  else if (departs < oracle::kLargestMargin)
+    lines.push_back(fmt::format("rounding does not explain it: inputs would have to move by {} or more",
+                                report::ulps_text(departs)));
   else if (std::isfinite(departs))
-    lines.push_back(fmt::format(
-        "rounding does not explain it: inputs would have to move by {:.3g} ulps or more", departs));
+    lines.push_back("rounding does not explain it: inputs would have to move by " +
+                    report::ulps_text(departs));
   else
     lines.push_back("rounding does not explain it: no inputs near these make it right");
   return lines;
+}
+
+// By how much the time is off: along the ray, and in what rounding of the inputs makes of it.
+std::string words_of_time_error(const Example& example) {
+  const auto radii = json::finite(example.diagnosis.by_radii);
+  const double ulps = example.judgement.departs;
+  std::string text = radii ? fmt::format("the time is off by {:.3g} radii along the ray", *radii)
+                           : std::string("the time is not one of a place on the ray");
+  return text + (ulps < oracle::kLargestMargin
+                     ? fmt::format(", {:.3g} times what an ulp in each input makes of it", ulps)
+                     : std::string(", far more than an ulp in each input makes of it"));
 }
 
 std::vector<std::string> reason_lines(const Finding& finding) {
@@ -105,8 +117,7 @@ std::vector<std::string> reason_lines(const Finding& finding) {
   else if (finding.severity() == Severity::error)
     lines = {"the question is a valid one"};
   else if (example.judgement.wrong_time)
-    lines = {fmt::format("off by {:.3g} times what an ulp in each input makes of the time",
-                         example.judgement.departs)};
+    lines = {words_of_time_error(example)};
   else
     lines = lines_of_dispute(example);
   if (finding.recheck == Recheck::passes)
@@ -138,12 +149,20 @@ std::string often(const Finding& finding, const JudgeReport& report) {
   return text + (shares.size() > kMost ? ", .." : "");
 }
 
+// The ray and the one obstacle that decides; nothing of a question or an answer that is about none.
+std::optional<report::Primitive> primitive_for(const Example& example) {
+  const auto obstacle = obstacle_in_question(example);
+  if (!obstacle) return std::nullopt;
+  const question::Place& place = *example.question.place;
+  return report::primitive_of(place.margins(), place.scene(), example.question.query, *obstacle);
+}
+
 // In full, but for what rounding of the inputs explains.
 std::string text_of(const Finding& finding, const JudgeReport& report, int number) {
   const Example& example = finding.simplest;
   const Components dimension = components_of(example);
-  std::string text =
-      fmt::format("\n{}. {}: {}\n", number, name_of(finding.severity()), finding.explanation());
+  std::string text = fmt::format("\n{}. {}: {}\n   {}\n", number, name_of(finding.severity()),
+                                 title_of(finding.cause()), finding.explanation());
   text += fmt::format("   {} {}: {}\n", finding.count, finding.count == 1 ? "answer" : "answers",
                       often(finding, report));
   if (finding.severity() == Severity::ill_posed) return text;
@@ -152,7 +171,19 @@ std::string text_of(const Finding& finding, const JudgeReport& report, int numbe
                       json::text_of(json_of(example.given, dimension)),
                       json::text_of(json_of(exact_of(example), dimension)));
   for (const std::string& line : reason_lines(finding)) text += "   " + line + '\n';
+  if (!example.last_words.empty())
+    text += fmt::format("   its last line on stderr: {}\n", printable(example.last_words));
+  if (const auto primitive = primitive_for(example))
+    text += fmt::format("   the one question: {}\n", primitive->json);
   for (const std::string& command : commands_of(finding, report)) text += "   $ " + command + '\n';
+  return text;
+}
+
+// Of a group's findings, which count on from `number`.
+std::string text_of(Group group, const JudgeReport& report, int& number) {
+  std::string text;
+  for (const Finding& finding : report.findings)
+    if (finding.simplest.diagnosis.group() == group) text += text_of(finding, report, ++number);
   return text;
 }
 
@@ -179,132 +210,30 @@ void add_finding(json::Members& object, const Finding& finding, const JudgeRepor
              often(finding, report), "where", finding.where, "verdict", name_of(finding.severity()));
   object.add("scene", example.question.place->scene(), "query", json::Raw{'{' + members_of(example) + '}'},
              "given", json_of(example.given, dimension), "exact", json_of(exact_of(example), dimension));
+  const auto primitive = primitive_for(example);
+  object.add("title", title_of(finding.cause()), "group", title_of(finding.simplest.diagnosis.group()),
+             "last_words", example.last_words.empty() ? std::nullopt : std::optional(example.last_words),
+             "primitive", primitive ? std::optional(json::Raw{primitive->json}) : std::nullopt,
+             "primitive_cpp", primitive ? std::optional(primitive->cpp) : std::nullopt);
   object.add("by_radii", json::finite(example.diagnosis.by_radii), "by_ulps", json::finite(ulps_of(example)),
              "reason", reason_lines(finding), "commands", commands_of(finding, report), "drawing",
              drawing_of(example));
-}
-
-// ---- The verdict
-
-std::size_t answers(const question::Tally& t) {
-  return t.agree + t.ill_posed + t.wrong;
-}
-
-std::string percent(std::size_t part, std::size_t whole) {
-  return whole == 0 ? "0 %" : two_digits(100 * static_cast<double>(part) / static_cast<double>(whole)) + " %";
-}
-
-// Of all the rows that are hard, or of the others.
-question::Tally sum_of(const std::vector<ExaminedRow>& rows, bool hard) {
-  question::Tally sum;
-  for (const ExaminedRow& row : rows)
-    if (row.is_hard == hard) sum.add(row.tally);
-  return sum;
-}
-
-// "undecided 0.2 % of drawn flights, 16 % of hard ones"; nothing if there are none.
-std::string shares_text(const char* what, const std::vector<ExaminedRow>& rows,
-                        std::size_t question::Tally::*count) {
-  const question::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
-  if (drawn.*count + hard.*count == 0) return "";
-  return fmt::format("; {} {} of drawn flights, {} of hard ones", what, percent(drawn.*count, drawn.queries),
-                     percent(hard.*count, hard.queries));
-}
-
-std::string times_text(const std::vector<ExaminedRow>& rows) {
-  question::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
-  if (drawn.timed_hits + hard.timed_hits == 0) return "";
-  const std::size_t wrong = drawn.wrong_time + hard.wrong_time;
-  if (wrong == 0)
-    return drawn.timed_hits == 0
-               ? std::string()
-               : fmt::format("; times within {:.2g} ulps on drawn flights, no wrong time", drawn.max_ulp());
-  drawn.add(hard);
-  std::string text = fmt::format("; wrong times {}", percent(wrong, answers(drawn)));
-  if (drawn.other_quantity > 0)
-    text += fmt::format(" ({} are another quantity)", percent(drawn.other_quantity, answers(drawn)));
-  const double largest = question::quantile(drawn.wrong_ulps, 1);
-  return std::isfinite(largest) ? text + fmt::format(", by up to {:.2g} ulps", largest) : text;
-}
-
-std::string paths_text(const std::vector<FlownScene>& flown) {
-  const std::string fault = free_path_fault(flown);
-  return fault.empty() ? "" : "; " + fault;
-}
-
-std::string speed_text(const JudgeReport& report) {
-  if (!report.ns_per_query) return "";
-  std::string text = fmt::format("; {} ns a query", two_digits(*report.ns_per_query));
-  if (report.ns_of_reduction)
-    text += fmt::format(", {} x reduction", two_digits(*report.ns_per_query / *report.ns_of_reduction));
-  return text;
-}
-
-bool condemns(const Finding& finding, const JudgeReport& report) {
-  if (finding.cause() == Cause::no_answer) return false;
-  switch (finding.severity()) {
-    case Severity::wrong_time:
-      return report.times;
-    case Severity::nonsense:
-      return report.strict;
-    default:
-      return finding.severity() != Severity::ill_posed;
-  }
-}
-
-// The kinds of fault that condemn, and the first of them: the worst, of these the most frequent.
-std::string faults_text(const JudgeReport& report) {
-  const Finding* main = nullptr;
-  std::size_t kinds = 0;
-  for (const Finding& finding : report.findings)
-    if (condemns(finding, report) && kinds++ == 0) main = &finding;
-  if (!main) return "";
-  return kinds == 1 ? main->summary()
-                    : fmt::format("{} kinds of fault, above all: {}", kinds, main->summary());
-}
-
-std::string heading(const JudgeReport& report) {
-  const question::Tally total = report.total();
-  const std::string verdict = report.verdict(), faults = faults_text(report);
-  if (verdict == "broken")
-    return fmt::format("broken: {} of {} {} without an answer that could be read", total.missing,
-                       total.queries, total.queries == 1 ? "query" : "queries") +
-           (faults.empty() ? "" : "; wrong: " + faults);
-  if (verdict == "wrong") return "wrong: " + faults;
-  if (verdict == "ill-posed")
-    return fmt::format("ill-posed: no wrong answer in {}; {} that rounding of the inputs explains",
-                       answers(total), total.ill_posed);
-  if (verdict == "undecided")
-    return fmt::format("undecided: it decided {} of {} queries, none of them wrong", answers(total),
-                       total.queries);
-  return fmt::format("right: no wrong answer in {}", answers(total));
-}
-
-// What it was asked and did not answer, and what it was not asked; nothing if there is nothing.
-std::string missing_text(const JudgeReport& report) {
-  const question::Tally total = report.total();
-  std::string text;
-  if (total.missing > 0 && !report.is_broken())
-    text += fmt::format("; {} of {} answers missing", total.missing, total.queries);
-  if (const std::size_t rows = report.rows_given_up(); rows > 0)
-    text += fmt::format("; given up in {} of {} rows", rows, report.rows.size());
-  return text;
-}
-
-std::string nonsense_text(const JudgeReport& report) {
-  const std::size_t number = report.nonsense();
-  return number == 0
-             ? ""
-             : fmt::format("; {} invalid {} answered", number, number == 1 ? "question" : "questions");
 }
 
 constexpr double kSlowStart = 0.05;  // seconds; less is not worth a line
 
 const std::vector<std::string> kColumns{"questions",  "number",    "agree",       "ill-posed", "wrong",
                                         "wrong time", "undecided", "unsupported", "error",     "missing",
-                                        "nonsense",   "max ulp",   "ns/query"};
+                                        "nonsense",   "radii off", "max ulp",     "ns/query"};
 
-std::vector<std::string> cells_of(const question::Tally& t, std::size_t nonsense) {
+// Times near 0 have ulps that tell nothing.
+std::string largest_ulp(const question::Tally& t) {
+  if (!t.timed_hits) return "-";
+  return t.max_ulp() < oracle::kLargestMargin ? fmt::format("{:.3g}", t.max_ulp()) : "> 2^20";
+}
+
+std::vector<std::string> cells_of(const question::Tally& t, std::size_t nonsense,
+                                  const std::optional<double>& radii) {
   const auto number = [](std::size_t n) { return n ? std::to_string(n) : std::string("-"); };
   return {t.name,
           std::to_string(t.queries),
@@ -317,7 +246,8 @@ std::vector<std::string> cells_of(const question::Tally& t, std::size_t nonsense
           number(t.error),
           number(t.missing),
           number(nonsense),
-          t.timed_hits ? fmt::format("{:.3g}", t.max_ulp()) : "-",
+          radii ? fmt::format("{:.2g}", *radii) : "-",
+          largest_ulp(t),
           t.speed.ns_per_query > 0 ? fmt::format("{:.0f}", t.speed.ns_per_query) : "-"};
 }
 
@@ -354,11 +284,11 @@ std::string table_of(const JudgeReport& report) {
     if (state == RowState::unsupported) unsupported.push_back(row.name);
     if (state == RowState::no_time) no_time.push_back(row.name);
     if (state == RowState::other_numbers) other_numbers.push_back(row.name);
-    if (row.tally.unsupported < row.asked()) table.add(cells_of(row.tally, row.nonsense));
+    if (row.tally.unsupported < row.asked()) table.add(cells_of(row.tally, row.nonsense, row.max_radii));
   }
   question::Tally total = report.total();
   total.name = "all";
-  table.add(cells_of(total, report.nonsense()));
+  table.add(cells_of(total, report.nonsense(), report.max_radii()));
   std::string text = table.text();
   if (!unsupported.empty()) text += fmt::format("unsupported: {}\n", fmt::join(unsupported, ", "));
   if (!no_time.empty()) text += fmt::format("not asked, no time: {}\n", fmt::join(no_time, ", "));
@@ -375,54 +305,18 @@ void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& r
   object.add("queries", t.queries, "agree", t.agree, "ill_posed", t.ill_posed, "wrong", t.wrong, "wrong_time",
              t.wrong_time, "other_quantity", t.other_quantity, "undecided", t.undecided, "unsupported",
              t.unsupported, "error", t.error, "missing", t.missing, "nonsense", row.nonsense);
+  object.add("max_radii", json::finite(row.max_radii), "records", row.records);
   object.add("max_ulp", t.timed_hits ? json::finite(t.max_ulp()) : std::nullopt, "ns_per_query",
              t.speed.ns_per_query > 0 ? json::finite(t.speed.ns_per_query) : std::nullopt);
 }
 
 }  // namespace
 
-question::Tally JudgeReport::total() const {
-  question::Tally total = sum_of(rows, false);
-  total.add(sum_of(rows, true));
-  return total;
-}
-
-std::size_t JudgeReport::nonsense() const {
-  std::size_t number = 0;
-  for (const ExaminedRow& row : rows) number += row.nonsense;
-  return number;
-}
-
-std::size_t JudgeReport::rows_given_up() const {
-  return static_cast<std::size_t>(std::count_if(
-      rows.begin(), rows.end(), [](const ExaminedRow& row) { return row.scenes_given_up > 0; }));
-}
-
-bool JudgeReport::is_broken() const {
-  const question::Tally t = total();
-  return 100 * t.missing > t.queries;
-}
-
-std::string JudgeReport::verdict() const {
-  const question::Tally t = total();
-  if (is_broken()) return "broken";
-  if (t.wrong + t.error > 0 || (times && t.wrong_time > 0) || (strict && nonsense() > 0)) return "wrong";
-  if (t.agree + t.ill_posed <= t.undecided) return "undecided";
-  return t.ill_posed > 0 ? "ill-posed" : "right";
-}
-
-std::string JudgeReport::line() const {
-  const std::string words = report::words_of(claim);
-  return heading(*this) + (words.empty() ? "" : "; judged" + words.substr(1)) +
-         (was_stopped ? "; interrupted before all was asked" : "") + missing_text(*this) +
-         shares_text("ill-posed", rows, &question::Tally::ill_posed) +
-         shares_text("undecided", rows, &question::Tally::undecided) + times_text(rows) + paths_text(flown) +
-         speed_text(*this) + nonsense_text(*this);
-}
-
 std::string JudgeReport::text() const {
-  std::string text = fmt::format("{}, seed {}, judged by the oracle{}\n\n{}", engine.name, seed,
-                                 report::words_of(claim), table_of(*this));
+  const Summary its = summary();
+  std::string text =
+      fmt::format("what:    {}\nhow bad: {}\nworst:   {}\n\n", printable(its.what), its.how_bad, its.worst);
+  text += fmt::format("Seed {}.\n\n{}", seed, table_of(*this));
   for (const FlownScene& scene : flown) text += "Free paths: " + scene.text() + ".\n";
   if (ns_per_query) text += fmt::format("Speed: {}.\n", speed_of);
   if (start_up >= kSlowStart)
@@ -430,7 +324,10 @@ std::string JudgeReport::text() const {
   if (misbehaved && total().missing == 0)
     text += "It did what it should not, and lost no answer by it: stderr has it.\n";
   int number = 0;
-  for (const Finding& finding : findings) text += text_of(finding, *this, ++number);
+  for (const Group group : kGroups) {
+    const std::string its = text_of(group, *this, number);
+    if (!its.empty()) text += fmt::format("\n-- {}\n", title_of(group)) + its;
+  }
   return text + '\n' + line() + '\n';
 }
 
@@ -442,11 +339,17 @@ std::string JudgeReport::json() const {
     page.add("format", 1, "kind", "judge", "title", engine.name + ", judged", "manifest",
              report::manifest_of(seed, command), "engine", engine.name, "verdict", verdict(), "line", line());
     report::add_claim(page, claim);
+    page.add("summary", [this](json::Members& object) {
+      const Summary its = summary();
+      object.add("what", its.what, "how_bad", its.how_bad, "worst", its.worst, "finding",
+                 its.finding ? std::optional(its.finding - findings.data()) : std::nullopt);
+    });
     page.add("queries", t.queries, "wrong", t.wrong, "ill_posed", t.ill_posed, "wrong_time", t.wrong_time,
              "other_quantity", t.other_quantity, "undecided", t.undecided, "unsupported", t.unsupported,
              "error", t.error, "missing", t.missing, "nonsense", nonsense(), "ns_per_query",
-             json::finite(ns_per_query), "ns_of_reduction", json::finite(ns_of_reduction), "start_up_seconds",
-             json::finite(start_up));
+             json::finite(ns_per_query), "ns_of_reduction", json::finite(ns_of_reduction),
+             "processor_ns_per_query", json::finite(processor_ns), "processor_ns_of_reduction",
+             json::finite(processor_ns_of_reduction), "start_up_seconds", json::finite(start_up));
     page.add("difficulties", json::objects(rows, [&](json::Members& one, const ExaminedRow& row) {
                add_row(one, row, *this);
              }));

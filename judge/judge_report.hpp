@@ -11,6 +11,14 @@
 
 namespace lorentz::judge {
 
+/// What is to be read first, a line each.
+struct Summary {
+  std::string what;                  ///< the engine, and what it was judged by
+  std::string how_bad;               ///< shares of drawn flights and of hard ones
+  std::string worst;                 ///< what goes wrong above all
+  const Finding* finding = nullptr;  ///< that; null if nothing does
+};
+
 struct JudgeReport {
   question::EngineInfo engine;
   std::uint64_t seed = 0;
@@ -22,19 +30,23 @@ struct JudgeReport {
   double timeout = 0;       ///< seconds of silence that are a failure of another program
   double start_up = 0;      ///< seconds that another program took to start
   double first_answer = 0;  ///< seconds until its first answer
-  std::optional<double> ns_per_query, ns_of_reduction;  ///< on the same drawn flights
-  std::string speed_of;                                 ///< which flights these were
-  bool misbehaved = false;   ///< another program broke, or did what it should not, at least once
-  bool was_stopped = false;  ///< before all was asked
-  bool times = false;        ///< wrong times count
-  Claim claim = {};          ///< that it was judged by
-  bool strict = false;       ///< answers to invalid questions count
+  std::optional<double> ns_per_query, ns_of_reduction;            ///< on the same drawn flights
+  std::optional<double> processor_ns, processor_ns_of_reduction;  ///< of processors, likewise
+  std::string speed_of;                                           ///< which flights these were
+  bool misbehaved = false;             ///< another program broke, or did what it should not, at least once
+  bool was_stopped = false;            ///< before all was asked
+  bool times = false;                  ///< wrong times count
+  Claim claim = {};                    ///< that it was judged by
+  double ulps = oracle::kDefaultUlps;  ///< the tolerance k
+  bool strict = false;                 ///< answers to invalid questions count
 
   question::Tally total() const;
   /// Answers to invalid questions, which are not in the total.
   std::size_t nonsense() const;
   /// Rows in which another program was given up.
   std::size_t rows_given_up() const;
+  /// The largest radii_off of any right obstacle.
+  std::optional<double> max_radii() const;
   /// More than one answer in a hundred is missing.
   bool is_broken() const;
 
@@ -42,6 +54,8 @@ struct JudgeReport {
   std::string verdict() const;
   /// The verdict in one line, with the most frequent fault, shares, times, free paths and speed.
   std::string line() const;
+
+  Summary summary() const;
 
   std::string text() const;
   std::string json() const;

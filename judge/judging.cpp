@@ -11,6 +11,7 @@
 #include <lorentz/exchange.hpp>
 
 #include "files/scene_file.hpp"
+#include "golden/reader.hpp"
 #include "judge/judge_paths.hpp"
 #include "judge/questions.hpp"
 #include "judge/repetition.hpp"
@@ -124,10 +125,12 @@ std::vector<NamedPlace> fly_drawn(Examination& examination, const TimePlan& plan
 void check_golden_sets(Examination& examination, double seconds) {
   const std::vector<std::string> files = golden::committed_sets();
   Shares shares(seconds, files.size());
-  for (const std::string& file : files)
-    examination.run(
-        {"golden " + std::filesystem::path(file).stem().string(), "a committed set of hard cases"},
-        golden_set(file, examination.claim()), shares.next());
+  for (const std::string& file : files) {
+    const golden::Header header = golden::Reader(file).header();
+    ExaminedRow row{"golden " + std::filesystem::path(file).stem().string(), header.description};
+    row.records = header.count;
+    examination.run(std::move(row), golden_set(file, examination.claim()), shares.next());
+  }
 }
 
 // In a thread for each examination, each with scenes of its own.
@@ -249,6 +252,8 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
   if (speeds[0].failed || is_cut) return;
   report.ns_per_query = speeds[0].ns_per_query;
   report.ns_of_reduction = speeds[1].ns_per_query;
+  report.processor_ns = speeds[0].processor_ns;
+  report.processor_ns_of_reduction = speeds[1].processor_ns;
   std::vector<std::string> names;
   for (const NamedPlace* place : chosen) names.push_back(place->name);
   report.speed_of =
@@ -311,6 +316,7 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   report.engine = order.engine;
   report.command = order.command;
   report.claim = order.claim;
+  report.ulps = order.ulps;
   report.times = order.times;
   report.strict = order.strict;
   report.seed = order.seed;

@@ -53,7 +53,8 @@ class SameWay {
 Example simplest(const Finding& finding, Examination& examination, double seconds) {
   using Clock = std::chrono::steady_clock;
   const Example& example = finding.simplest;
-  if (!example.question.is_query() || example.diagnosis.cause == Cause::no_answer) return example;
+  const Cause cause = example.diagnosis.cause;
+  if (!example.question.is_query() || cause == Cause::no_answer || cause == Cause::bad_line) return example;
   const auto start = Clock::now();
   SameWay same(finding, examination);
   const Scene& scene = example.question.place->scene();

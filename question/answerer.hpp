@@ -41,7 +41,12 @@ inline constexpr const char* kTimeoutHelp =
 
 /// Whose an answer is. Another program's faults, and the queries that it was not asked, get an `error` from us,
 /// which tells what it did instead.
-enum class Origin { engine, fault, not_asked };
+enum class Origin {
+  engine,
+  bad_line,  ///< a fault: it wrote something in the place of the answer that is no answer
+  fault,     ///< another one: it died, fell silent, or left the query out
+  not_asked
+};
 
 /// An answer, and what else an answerer tells of it.
 struct Reply {
@@ -51,6 +56,7 @@ struct Reply {
   std::optional<Stage> stage = {};  ///< which stage of its ladder decided, if it has one
 
   bool was_asked() const { return origin != Origin::not_asked; }
+  bool is_fault() const { return origin == Origin::bad_line || origin == Origin::fault; }
 };
 
 /// Answers queries in the order in which they are asked. Replies come when they come: an engine's at once,
@@ -110,6 +116,12 @@ class Answerer {
 
   /// True if it was given up and never answered anything: it is not asked about other scenes either.
   virtual bool is_hopeless() const { return false; }
+
+  /// The last line that another program wrote to its standard error since the last call; empty if there is none.
+  virtual std::string take_last_words() { return {}; }
+
+  /// Seconds that the processors spent on another program, all its starts together; nothing of an engine here.
+  virtual std::optional<double> processor_seconds() const { return std::nullopt; }
 
   /// Asks it again although it was given up, as if nothing had happened, unless it is hopeless.
   virtual void try_again() {}

@@ -42,6 +42,7 @@ struct CommandEngine::Run {
   bool greeting = false;  // it has one query only, to see whether it answers that with more to come
   bool ending = false;    // gets no more, and its input is closed as soon as all is written
   bool told_for_silence = false, stopped_reading = false, at_end = false;
+  bool has_ended = false;          // and what it spent is counted
   std::string instead;             // what it wrote where the first outstanding answer should have been
   std::optional<Answer> nameless;  // an error with id null, of the scene or of its first query
   Clock::time_point started = Clock::now();
@@ -132,7 +133,7 @@ void CommandEngine::abandon() {
     complain(fmt::format("gave no answer in {:.3g} s, which was all the time there is",
                          Seconds(Clock::now() - run_->started).count()),
              &open_.front());
-  if (run_) run_->process.end(owes ? kGrace * 0 : kGrace);
+  if (run_) end_of(*run_, owes ? kGrace * 0 : kGrace);
   run_.reset();
   first_number_ += open_.size();
   open_.clear();
@@ -161,12 +162,13 @@ void CommandEngine::encode() {
 void CommandEngine::wait_for_pipes(Wait wait, int other_descriptor) {
   Run& run = *run_;
   if (run.ending && run.to_write.empty()) run.process.close_input();
-  pollfd pipes[3] = {{run.process.output(), POLLIN, 0},
+  pollfd pipes[4] = {{run.process.output(), POLLIN, 0},
                      {run.to_write.empty() ? -1 : run.process.input(), POLLOUT, 0},
+                     {run.process.errors(), POLLIN, 0},
                      {other_descriptor, POLLIN, 0}};
   double seconds = wait == Wait::no ? 0 : until_next_look(wait).count();
   if (options_.enough) seconds = std::min(seconds, kBetweenLooks);
-  ::poll(pipes, 3, static_cast<int>(std::clamp(std::ceil(1000 * seconds), 0.0, 1e6)));
+  ::poll(pipes, 4, static_cast<int>(std::clamp(std::ceil(1000 * seconds), 0.0, 1e6)));
 }
 
 void CommandEngine::write() {
@@ -185,6 +187,7 @@ void CommandEngine::write() {
 void CommandEngine::read() {
   const std::shared_ptr<Run> run = run_;
   const LineBuffer::Read result = run->lines.read_from(run->process.output());
+  run->process.pass_on_errors();
   run->at_end = result == LineBuffer::Read::end;
   if (result == LineBuffer::Read::nothing) return;
   for (LineReader::Line line; run->lines.next(line);) take_line(line);
@@ -348,13 +351,14 @@ void CommandEngine::take_unasked(std::uint64_t number) {
 void CommandEngine::pass_over() {
   Run& run = *run_;
   std::string what = "gave no answer to this query before that to a later one";
+  const Origin origin = run.instead.empty() ? Origin::fault : Origin::bad_line;
   if (!run.instead.empty()) what += "; before that it " + run.instead;
   run.instead.clear();
   complain(what, &open_.front());
   open_.front().passed_over = true;
   --run.outstanding;
   Answer answer = Answer::error("cmd " + what);
-  deliver_first(answer, Origin::fault);
+  deliver_first(answer, origin);
 }
 
 std::string CommandEngine::flaw_of_answer(const Answer& answer, std::size_t components) const {
@@ -392,7 +396,7 @@ void CommandEngine::answer_first(Answer& answer, Origin origin) {
 void CommandEngine::answer_first_with_error(const std::string& what) {
   complain(what, &open_.front());
   Answer answer = Answer::error("cmd " + what);
-  answer_first(answer, Origin::fault);
+  answer_first(answer, Origin::bad_line);
 }
 
 void CommandEngine::deliver_first(Answer& answer, Origin origin) {
@@ -405,11 +409,29 @@ void CommandEngine::deliver_first(Answer& answer, Origin origin) {
 
 // ---- its end
 
+Ending CommandEngine::end_of(Run& run, std::chrono::milliseconds grace) {
+  const Ending ending = run.process.end(grace);
+  if (!std::exchange(run.has_ended, true)) spent_ += run.process.processor_seconds();
+  if (std::string words = run.process.take_last_words(); !words.empty()) last_words_ = std::move(words);
+  return ending;
+}
+
+std::string CommandEngine::take_last_words() {
+  if (run_) run_->process.pass_on_errors();
+  std::string words = run_ ? run_->process.take_last_words() : std::string();
+  std::string former = std::exchange(last_words_, {});
+  return words.empty() ? former : words;
+}
+
+std::optional<double> CommandEngine::processor_seconds() const {
+  return spent_ + (run_ && !run_->has_ended ? run_->process.processor_seconds() : 0);
+}
+
 // Its output has ended, or it was told to end long ago.
 void CommandEngine::run_is_over() {
   const std::shared_ptr<Run> run = run_;
   if (run->nameless) settle_nameless();
-  const Ending ending = run->process.end(run->at_end ? kGrace : kGrace * 0);
+  const Ending ending = end_of(*run, run->at_end ? kGrace : kGrace * 0);
   if (run->outstanding > 0) {
     if (ending.how == Ending::How::still_ran)
       return run_failed("closed its output before this query's answer");
@@ -442,7 +464,7 @@ void CommandEngine::learn_from_run() {
 // It died or fell silent with queries outstanding.
 void CommandEngine::run_failed(const std::string& what) {
   const std::shared_ptr<Run> run = std::move(run_);
-  run->process.end(kGrace * 0);
+  end_of(*run, kGrace * 0);
   const std::size_t unanswered = run->outstanding;
   if (manner_ != Manner::line_by_line && unanswered > 1) {
     limit_ = limit_ == kNoLimit ? 1 : unanswered / 2;
@@ -454,7 +476,7 @@ void CommandEngine::run_failed(const std::string& what) {
   complain(all, &open_.front());
   open_.front().passed_over = true;
   Answer answer = Answer::error("cmd " + all);
-  deliver_first(answer, Origin::fault);
+  deliver_first(answer, run->instead.empty() ? Origin::fault : Origin::bad_line);
   if (limit_ != kNoLimit) limit_ = 1;
   if (++failures_in_row_ < kMaxFailuresInRow) return;
   tell(fmt::format("is given up after {} failures in a row without an answer", kMaxFailuresInRow));

@@ -7,6 +7,7 @@
 #include <deque>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -43,6 +44,8 @@ class CommandEngine final : public Answerer {
   bool is_hopeless() const override { return given_up() && !ever_answered_; }
   void try_again() override;
   std::optional<OwnTime> own_time() const override { return own_time_; }
+  std::string take_last_words() override;
+  std::optional<double> processor_seconds() const override;
   std::uint64_t batch_size() const override { return 256; }
 
  private:
@@ -106,6 +109,7 @@ class CommandEngine final : public Answerer {
   void answer_first_with_error(const std::string& what);
   void deliver_first(Answer& answer, Origin origin);
 
+  Ending end_of(Run& run, std::chrono::milliseconds grace);
   void run_is_over();
   void learn_from_run();
   void run_failed(const std::string& what);
@@ -126,6 +130,8 @@ class CommandEngine final : public Answerer {
   const Seconds patience_;        // of silence, before a program of unknown manner is told the end
   Seconds first_patience_;        // the same before it answers anything: it may be slow to start
   Seconds slowest_start_{0};      // to a first answer
+  double spent_ = 0;              // seconds of processors, of former runs
+  std::string last_words_;        // of former runs
   int silent_runs_ = 0;           // that had to be told the end before the last answers came
   std::size_t limit_ = kNoLimit;  // queries for the next run, while the one at fault is sought
   int failures_in_row_ = 0;

@@ -4,13 +4,20 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include <lorentz/errors.hpp>
@@ -162,14 +169,15 @@ struct Undisturbed {
 };
 
 // The new program has the signal mask `mask`.
-int spawn_shell(const std::string& command, const Pipe& in, const Pipe& out, const sigset_t& mask,
-                pid_t& pid) {
+int spawn_shell(const std::string& command, const Pipe& in, const Pipe& out, const Pipe& errors,
+                const sigset_t& mask, pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_init(&actions);
   posix_spawnattr_init(&attributes);
   posix_spawn_file_actions_adddup2(&actions, in.to_read, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, out.to_write, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, errors.to_write, STDERR_FILENO);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
   posix_spawnattr_setsigmask(&attributes, &mask);
   posix_spawnattr_setpgroup(&attributes, 0);
@@ -186,20 +194,41 @@ int spawn_shell(const std::string& command, const Pipe& in, const Pipe& out, con
 
 Process::Process(const std::string& command) {
   handle_signals_once();
-  Pipe in, out;
+  Pipe in, out, errors;
   const Undisturbed undisturbed;
-  const int error =
-      in.is_open() && out.is_open() ? spawn_shell(command, in, out, undisturbed.before, pid_) : errno;
+  const int error = in.is_open() && out.is_open() && errors.is_open()
+                        ? spawn_shell(command, in, out, errors, undisturbed.before, pid_)
+                        : errno;
   if (error != 0) throw FileError("cmd:" + command + ": cannot be started: " + std::strerror(error));
   replace_group(0, pid_);
   std::swap(input_, in.to_write);
   std::swap(output_, out.to_read);
-  for (const int end : {input_, output_}) fcntl(end, F_SETFL, fcntl(end, F_GETFL) | O_NONBLOCK);
+  std::swap(errors_, errors.to_read);
+  for (const int end : {input_, output_, errors_}) fcntl(end, F_SETFL, fcntl(end, F_GETFL) | O_NONBLOCK);
 }
 
 Process::~Process() {
   end(std::chrono::milliseconds(0));
   close(output_);
+  if (errors_ >= 0) close(errors_);
+}
+
+void Process::pass_on_errors() {
+  std::array<char, 4096> piece;
+  ssize_t count = 0;
+  while (errors_ >= 0 && (count = read(errors_, piece.data(), piece.size())) > 0) {
+    for (ssize_t sent = 0, n = 0; sent < count; sent += n)
+      if ((n = ::write(STDERR_FILENO, piece.data() + sent, static_cast<std::size_t>(count - sent))) <= 0)
+        break;
+    for (const char c : std::string_view(piece.data(), static_cast<std::size_t>(count))) {
+      if (c != '\n' && line_.size() < kMostWords) line_ += c;
+      if (line_.find_first_not_of(" \t\r\n") != std::string::npos) last_words_ = line_;
+      if (c == '\n') line_.clear();
+    }
+  }
+  if (errors_ < 0 || (count < 0 && (errno == EAGAIN || errno == EINTR))) return;
+  close(errors_);
+  errors_ = -1;
 }
 
 void Process::close_input() {
@@ -224,6 +253,46 @@ std::optional<std::size_t> Process::write(std::string_view text) {
   return std::nullopt;
 }
 
+namespace {
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+// What a process spent, by its clock; and what its line in /proc/PID/stat says, in hundredths of a second, of itself
+// and of the children that it waited for. 0 if it is not of this group.
+double seconds_of(pid_t pid, const std::string& stat, pid_t group) {
+  const std::size_t name_end = stat.rfind(')');
+  long of_group = 0, own[2] = {}, children[2] = {};
+  if (name_end == std::string::npos ||
+      std::sscanf(stat.c_str() + name_end + 1, " %*c %*d %ld %*d %*d %*d %*u %*u %*u %*u %*u %ld %ld %ld %ld",
+                  &of_group, &own[0], &own[1], &children[0], &children[1]) != 5 ||
+      of_group != group)
+    return 0;
+  const auto tick = static_cast<double>(sysconf(_SC_CLK_TCK));
+  double seconds = static_cast<double>(own[0] + own[1]) / tick;
+  clockid_t clock{};
+  timespec time{};
+  if (clock_getcpuclockid(pid, &clock) == 0 && clock_gettime(clock, &time) == 0)
+    seconds = static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  return seconds + static_cast<double>(children[0] + children[1]) / tick;
+}
+
+}  // namespace
+
+double Process::processor_seconds() const {
+  if (pid_ < 0) return spent_;
+  double seconds = 0;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", none)) {
+    const int pid = std::atoi(entry.path().filename().c_str());  // 0: no process
+    std::string stat;
+    if (pid > 0 && std::getline(std::ifstream(entry.path() / "stat"), stat))
+      seconds += seconds_of(pid, stat, pid_);
+  }
+  return seconds;
+}
+
 Ending Process::end(std::chrono::milliseconds grace) {
   if (pid_ < 0) return {};
   close_input();
@@ -238,10 +307,14 @@ Ending Process::end(std::chrono::milliseconds grace) {
     if (std::chrono::steady_clock::now() >= until) break;
     std::this_thread::sleep_for(pause);
   }
+  spent_ = processor_seconds();
   kill(-pid_, SIGKILL);
   int status = 0;
-  while (waitpid(pid_, &status, 0) == -1 && errno == EINTR) {
+  rusage used{};
+  while (wait4(pid_, &status, 0, &used) == -1 && errno == EINTR) {
   }
+  spent_ = std::max(spent_, seconds_of(used.ru_utime) + seconds_of(used.ru_stime));
+  pass_on_errors();
   replace_group(pid_, 0);
   pid_ = -1;
   if (info.si_pid == 0) return {Ending::How::still_ran, 0};

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <lorentz/line_reader.hpp>
@@ -46,8 +47,8 @@ struct Ending {
 };
 
 /// A program that `/bin/sh -c` runs in a process group of its own, with pipes to its standard input and from
-/// its standard output; its standard error is ours. The group is killed when this object goes, and when one
-/// of the common signals ends this program.
+/// its standard output and error; what it writes to the latter is passed on to ours. The group is killed when
+/// this object goes, and when one of the common signals ends this program.
 class Process {
  public:
   /// Throws FileError if there can be no process. (That the command exists is for the shell to find out.)
@@ -58,6 +59,17 @@ class Process {
 
   int input() const { return input_; }    ///< the descriptor to write to, never blocking; -1 when closed
   int output() const { return output_; }  ///< the descriptor to read from, never blocking
+  int errors() const { return errors_; }  ///< that of its standard error, likewise; -1 once it has ended
+
+  /// Passes on what it wrote to its standard error, and keeps the last line of it that is not blank.
+  void pass_on_errors();
+  /// That line, without its end, and at most kMostWords bytes of it; empty if there is none since the last call.
+  std::string take_last_words() { return std::exchange(last_words_, {}); }
+  static constexpr std::size_t kMostWords = 300;
+
+  /// Seconds that the processors spent on its group until now, those of its children to a hundredth; once it was ended, on the program and
+  /// the children that it waited for.
+  double processor_seconds() const;
 
   /// Writes as much as the pipe takes and says how much; nothing if the program no longer reads. Raises no
   /// SIGPIPE.
@@ -69,7 +81,9 @@ class Process {
 
  private:
   pid_t pid_ = -1;
-  int input_ = -1, output_ = -1;
+  int input_ = -1, output_ = -1, errors_ = -1;
+  std::string last_words_, line_;  // line_: begun, and not ended
+  double spent_ = 0;               // processor_seconds() in the end
 };
 
 /// Kills the groups of all that run. A signal handler may call it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <deque>
 #include <map>
 
@@ -21,12 +22,20 @@ struct Round {
   std::size_t asked = 0;
   std::vector<double> block_means;
   std::optional<std::uint64_t> instructions = {};
+  std::optional<double> processor_ns = {};
 
   double ns_per_query() const { return asked ? total_ns / static_cast<double>(asked) : 0; }
 };
 
 double ns_since(SteadyClock::time_point start) {
   return std::chrono::duration<double, std::nano>(SteadyClock::now() - start).count();
+}
+
+// That this thread spent until now.
+double thread_ns() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
 }
 
 // An engine that is asked one at a time; `first_hits` has its function for each question.
@@ -36,14 +45,17 @@ Round run_round(Questions questions, const std::vector<const FirstHit*>& first_h
   std::vector<Answer> answers(kBlock);
   const oracle::Request request;
   InstructionCounter instructions;
+  double spent = 0;
   for (std::size_t begin = 0; begin < questions.size() && round.total_ns < 1e9 * kEnoughSeconds;
        begin += kBlock) {
     const std::size_t end = std::min(begin + kBlock, questions.size());
     instructions.resume();
+    spent -= thread_ns();
     const auto start = SteadyClock::now();
     for (std::size_t i = begin; i < end; ++i)
       (*first_hits[i])(questions[i].query, request, answers[i - begin]);
     const double ns = ns_since(start);
+    spent += thread_ns();
     instructions.pause();
     round.total_ns += ns;
     round.asked = end;
@@ -51,6 +63,7 @@ Round run_round(Questions questions, const std::vector<const FirstHit*>& first_h
     report(listener, name, end, questions.size());
   }
   round.instructions = instructions.count();
+  round.processor_ns = spent;
   return round;
 }
 
@@ -103,6 +116,7 @@ Round run_round(const std::deque<ColumnsThere>& all, const std::string& name, co
 Round run_round(Questions questions, Answerer& program, const std::string& name, const Listener& listener) {
   std::size_t answered = 0;
   program.on_reply([&](Reply&) { report(listener, name, ++answered, questions.size()); });
+  const std::optional<double> spent = program.processor_seconds();
   const auto start = SteadyClock::now();
   const Place* place = nullptr;
   for (const Question& question : questions) {
@@ -111,7 +125,9 @@ Round run_round(Questions questions, Answerer& program, const std::string& name,
   }
   program.drain();
   const double ns = ns_since(start);
-  return {ns, questions.size(), {ns / static_cast<double>(std::max<std::size_t>(answered, 1))}};
+  Round round{ns, questions.size(), {ns / static_cast<double>(std::max<std::size_t>(answered, 1))}};
+  if (spent) round.processor_ns = 1e9 * (*program.processor_seconds() - *spent);
+  return round;
 }
 
 // An engine, ready for every place, and what it did in each round.
@@ -156,6 +172,7 @@ class Entrant {
     speed.failed = failed();
     if (own_ && own_->own_time()) speed.own_ns = own_->own_time()->ns_per_query();
     if (questions_.empty() || rounds_.empty()) return speed;
+    speed.processor_ns = processor_ns();
     std::sort(rounds_.begin(), rounds_.end(),
               [](const Round& a, const Round& b) { return a.ns_per_query() < b.ns_per_query(); });
     const Round& middle = rounds_[rounds_.size() / 2];
@@ -169,6 +186,18 @@ class Entrant {
   }
 
  private:
+  // Of all rounds but the first, in which a program starts.
+  std::optional<double> processor_ns() const {
+    double ns = 0;
+    std::size_t asked = 0;
+    for (std::size_t i = 1; i < rounds_.size(); ++i) {
+      if (!rounds_[i].processor_ns) return std::nullopt;
+      ns += *rounds_[i].processor_ns;
+      asked += rounds_[i].asked;
+    }
+    return asked ? std::optional(ns / static_cast<double>(asked)) : std::nullopt;
+  }
+
   const Questions questions_;
   const std::string name_;
   const Listener& listener_;

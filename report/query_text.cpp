@@ -5,15 +5,12 @@
 #include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::report {
-namespace {
 
 std::vector<std::string> hexadecimal(const Vec& a, int dimension) {
   std::vector<std::string> texts;
   for (const double x : components(a, dimension)) texts.push_back(fmt::format("{:a}", x));
   return texts;
 }
-
-}  // namespace
 
 std::string hexadecimal_query(const Query& query, const Components& count) {
   return json::text_of([&](json::Members& object) {

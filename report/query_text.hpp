@@ -2,10 +2,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <lorentz/query.hpp>
 
 namespace lorentz::report {
+
+/// The first components, as "0x1.8p-1".
+std::vector<std::string> hexadecimal(const Vec& a, int dimension);
 
 /// {"x":["0x1.8p-1","0x0p+0"],"v":[..]} with `from` where there is one, as the exchange format reads it. A 2D
 /// query has two components.

@@ -9,10 +9,6 @@
 namespace lorentz::report {
 namespace {
 
-std::string margin_text(double margin) {
-  return margin >= oracle::kLargestMargin ? "2^20 ulps or more" : fmt::format("{:.6g} ulps", margin);
-}
-
 bool names_obstacle(const Answer& answer) {
   return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
 }
@@ -32,6 +28,10 @@ Dispute about_line(const oracle::Approach& approach, const ObstacleId& obstacle,
 
 }  // namespace
 
+std::string ulps_text(double ulps) {
+  return ulps < oracle::kLargestMargin ? fmt::format("{:.6g} ulps", ulps) : "2^20 ulps or more";
+}
+
 std::string name_of(const ObstacleId& obstacle, const Components& count) {
   std::string cell;
   for (int i = 0; i < count.of_cells(obstacle.lattice); ++i)
@@ -44,7 +44,7 @@ std::string decision_text(const oracle::HardestDecision& decision, const Compone
   if (decision.margin >= oracle::kLargestMargin)
     return "No decision is hard: inputs moved by 2^20 ulps give the same answer (to first order).";
   const std::string answer =
-      fmt::format("{}, by {}.", decision.yes ? "Yes" : "No", margin_text(decision.margin));
+      fmt::format("{}, by {}.", decision.yes ? "Yes" : "No", ulps_text(decision.margin));
   switch (decision.kind) {
     case oracle::DecisionKind::containing:
       return fmt::format("The hard decision: does {} contain x? {}", name, answer);
@@ -52,7 +52,7 @@ std::string decision_text(const oracle::HardestDecision& decision, const Compone
       return fmt::format("The hard decision: does the line meet {}? {}", name, answer);
     case oracle::DecisionKind::order:
       return fmt::format("The hard decision: is {} entered before the obstacle that is hit? No, by {}.", name,
-                         margin_text(decision.margin));
+                         ulps_text(decision.margin));
   }
   return "";
 }

@@ -9,6 +9,9 @@
 
 namespace lorentz::report {
 
+/// "3.5 ulps". What is 2^20 ulps or more is said to be that: beyond it they tell nothing, as of times near 0.
+std::string ulps_text(double ulps);
+
 /// "lattice 0, atom 1, cell (2, -1)".
 std::string name_of(const ObstacleId& obstacle, const Components& count);
 

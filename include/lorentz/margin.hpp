@@ -1,6 +1,7 @@
 // How hard a question was: the margin of its answer and the condition of its time (docs/verdicts.md).
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,6 +54,14 @@ struct Approach {
   bool ahead = true;     ///< the line is nearest to its centre at t > 0
 };
 
+/// A line and one obstacle, exactly: what an engine has to decide of the two, whatever else is in the way.
+struct Crossing {
+  int discriminant = 0;  ///< its sign: 1 the line meets the open obstacle, 0 it touches it, -1 it misses it
+  std::string time_decimal;  ///< of 1: the first boundary point of the chord, to 17 digits; below 0 behind x
+  std::array<std::string, 3> centre;  ///< hexadecimal, as "-0x3p-1", all bits that there are
+  bool is_centre_binary64 = true;     ///< each component of it is a binary64
+};
+
 /// How hard the questions of one scene were.
 ///
 ///  1. Inputs that move by less than the margin (each by so many units in its last place) leave the
@@ -87,6 +96,7 @@ class Margins {
 
   /// Of an obstacle that must exist.
   Approach approach(const Query& query, const ObstacleId& obstacle) const;
+  Crossing crossing(const Query& query, const ObstacleId& obstacle) const;
 
   /// The sum over the inputs of |dt/dq| ulp(q), over ulp(t): how many ulps of t one ulp in each input can
   /// make. Requires an exact `hit`.

@@ -200,6 +200,21 @@ std::vector<PassedObstacle> passed_obstacles(const PerturbedQuery<D>& perturbed,
   return all;
 }
 
+// a 2^exponent, the mantissa odd.
+std::string hexadecimal(const Z& a, long exponent) {
+  if (a == 0) return "0x0p+0";
+  const long zeros = trailing_zeros(a), power = exponent + zeros;
+  return std::string(a < 0 ? "-" : "") + "0x" + floor_div(abs(a), shifted_left(Z(1), zeros)).get_str(16) +
+         'p' + (power < 0 ? "" : "+") + std::to_string(power);
+}
+
+bool is_binary64(const Z& a, long exponent) {
+  constexpr long kLeast = -1074, kBeyond = 1024, kBits = 53;
+  if (a == 0) return true;
+  const long lowest = exponent + trailing_zeros(a), highest = exponent + bit_length(a);
+  return lowest >= kLeast && highest <= kBeyond && highest - lowest <= kBits;
+}
+
 }  // namespace
 
 struct Margins::Impl {
@@ -238,6 +253,27 @@ Approach Margins::approach(const Query& query, const ObstacleId& obstacle) const
       return to_double(sqrt(real(distance2)) / sqrt(real(radius2)) - 1, kHuge);
     };
     return Approach{gap(centre.h2, atom.rho2()), gap(centre.c2, atom.view().radius2), centre.s > 0};
+  });
+}
+
+Crossing Margins::crossing(const Query& query, const ObstacleId& obstacle) const {
+  return impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
+    const Uncertain<D>& atom = perturbed.atom_of(obstacle);
+    const Centre<D> centre = perturbed.centre_of(obstacle);
+    const Z discriminant = atom.rho2() - centre.h2;
+    const ExactQuery<D>& exact = perturbed.query();
+    Crossing its{sgn(discriminant), "", {}};
+    if (its.discriminant > 0)
+      its.time_decimal = round_to_decimal({centre.s, -1, discriminant, atom.view().velocity.v2,
+                                           exact.length_exponent - exact.velocity_exponent},
+                                          17);
+    const ZVec<D> place = centre_of<D>(perturbed.scene(), obstacle.lattice, obstacle.atom,
+                                       to_zvec<D>(obstacle.cell), ZVec<D>{}, exact.length_exponent);
+    for (std::size_t i = 0; i < D; ++i) {
+      its.centre[i] = hexadecimal(place[i], exact.length_exponent);
+      its.is_centre_binary64 &= is_binary64(place[i], exact.length_exponent);
+    }
+    return its;
   });
 }
 

@@ -64,6 +64,40 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
+TEST_CASE("What a program writes to its standard error is passed on, and its last line is kept",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const lorentz::test::Run run =
+      folder.lorentz("first-hit --engine 'cmd:echo first >&2; echo \"last one\" >&2; exit 3' " +
+                     folder.write("q", stream(1)));
+  CHECK(contains(run.err, "first\nlast one\n"));
+  lorentz::question::Process process(
+      "echo first >&2; printf 'last one\\n  \\n' >&2; head -c 400 /dev/zero | tr '\\0' x >&2");
+  process.end(std::chrono::seconds(60));
+  CHECK(process.take_last_words() == std::string(lorentz::question::Process::kMostWords, 'x'));
+  CHECK(process.take_last_words().empty());
+  lorentz::question::Process two("echo first >&2; printf 'last one\\n  \\n' >&2");
+  two.end(std::chrono::seconds(60));
+  CHECK(two.take_last_words() == "last one");
+}
+
+TEST_CASE(
+    "The time of processors is that of all processes of the program, and goes on counting after its end",
+    "[compare][command_engine]") {
+  // 0.2 s by the processor's own clock, in a child of the shell's, which then waits for its input.
+  const std::string busy = LORENTZ_PYTHON
+      " -I -S -c 'import time\nwhile time.process_time() < 0.2: pass\nprint(flush=True); input()'";
+  lorentz::question::Process process("sleep 0; " + busy + "; true");
+  for (lorentz::question::LineBuffer lines;
+       lines.read_from(process.output()) == lorentz::question::LineBuffer::Read::nothing;) {
+  }
+  const double running = process.processor_seconds();
+  CHECK(running >= 0.18);
+  CHECK(running < 5);
+  process.end(std::chrono::seconds(60));
+  CHECK(process.processor_seconds() >= running);
+}
+
 TEST_CASE("A program may answer line by line, in blocks, or when its input ends",
           "[compare][command_engine]") {
   const Folder folder;

@@ -97,9 +97,9 @@ const std::vector<Room> kHouse{
      {"src/problem", "src/exchange", "cases", "question/precisions"},
      {"fmt/", "fcntl.h process.cpp", "linux/perf_event.h instruction_counter.cpp",
       "poll.h command_engine.cpp", "signal.h process.cpp", "spawn.h process.cpp",
-      "sys/ioctl.h instruction_counter.cpp", "sys/syscall.h instruction_counter.cpp",
-      "sys/types.h process.hpp", "sys/wait.h process.cpp", "unistd.h instruction_counter.cpp",
-      "unistd.h process.cpp"}},
+      "sys/ioctl.h instruction_counter.cpp", "sys/resource.h process.cpp",
+      "sys/syscall.h instruction_counter.cpp", "sys/types.h process.hpp", "sys/wait.h process.cpp",
+      "unistd.h instruction_counter.cpp", "unistd.h process.cpp"}},
     {"files",
      {"src/problem", "src/exchange", "oracle/contacts", "oracle/itinerary"},
      {"src/problem", "src/exchange"},
@@ -148,8 +148,8 @@ const std::vector<Room> kHouse{
      {"boost/serialization/ ranks_mpi.cpp"}},
     {"judge",
      {"src/problem", "src/exchange", "oracle", "oracle/margin"},
-     {"src/exchange", "cases", "cases/families", "starts", "question", "golden", "fuzz/examine",
-      "fuzz/campaign", "statistics/theory", "files", "pictures", "report"},
+     {"src/problem", "src/exchange", "cases", "cases/families", "starts", "question", "golden",
+      "fuzz/examine", "fuzz/campaign", "statistics/theory", "files", "pictures", "report"},
      {"fmt/"}},
     // Theory knows problems and what the oracle says of scenes, and nothing of who flies.
     // No families: what a harness tries comes from its bytes alone.

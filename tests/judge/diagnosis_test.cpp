@@ -100,6 +100,33 @@ TEST_CASE("What is only just met or missed is told apart, with the power of ten 
         "passes over obstacles that the line enters by less than 1e-09 of their radii");
 }
 
+TEST_CASE("A time is off by so many radii along the ray, of an ellipsoid by its smallest semiaxes",
+          "[judge][diagnosis]") {
+  const auto off = [](const Scene& scene, const Vec& v, double later) {
+    const auto place = std::make_shared<Place>(scene);
+    const Query query{{0.5, 0, 0}, v, {}};
+    const Question question{place, query, place->oracle().first_hit(query), "here", ""};
+    REQUIRE(question.exact.outcome == Outcome::hit);
+    const Answer given = Answer::hit(question.exact.obstacle, *question.exact.time + later);
+    return std::pair(radii_off(question, given), diagnosed(question, given));
+  };
+  const auto [ball, diagnosis] = off(unit_scene(2, 0.25), {4, 0, 0}, 0.0625);
+  CHECK(ball == Approx(1));
+  REQUIRE(diagnosis);
+  CHECK(diagnosis->by_radii == ball);
+  CHECK(
+      sentence_of(Cause::wrong_time, 0.003) ==
+      "gives times of the right obstacle that are off by more than rounding of the inputs explains, by up to "
+      "0.003 radii along the ray");
+  Scene slender = unit_scene(2, 0.25);
+  // Sheared: the smallest semiaxis is no column's length.
+  slender.lattices[0].atoms[0] = Atom{{}, 0, {{0.25, 0, 0}, {0.25, 0.0625, 0}}};
+  const double expected = 0.0625 / smallest_semiaxis(slender.lattices[0].atoms[0], 2);
+  CHECK(smallest_semiaxis(slender.lattices[0].atoms[0], 2) == Approx(0.0438).epsilon(0.01));
+  CHECK(off(slender, {1, 0, 0}, 0.0625).first == Approx(expected));
+  CHECK_FALSE(off(unit_scene(2, 0.25), {4, 0, 0}, INFINITY).first);
+}
+
 TEST_CASE("The obstacle that is told of is the one that condemns", "[judge][diagnosis]") {
   // The disc (0, 0) is entered by a rounding, (1, 0) by more than any, and (2, 0) is named. The line rises.
   const Question two = asked(0.25, {-0.5, -0.25 - 0x1p-31 + 0x1p-54, 0}, {1, 0x1p-30, 0});
@@ -202,6 +229,29 @@ TEST_CASE("Features are those of the whole scene, in lengths of its shortest vec
   const Features plain = of(unit_scene(3, 0.25), {{0.5, 0, 0}, {1, 0, 0.5}, ObstacleId{}}).first;
   CHECK((plain.in_space && plain.zero_component && plain.leaving));
   CHECK_FALSE((plain.several_lattices || plain.several_atoms || plain.other_cell));
+}
+
+TEST_CASE("False hits from afar are told by the distance in radii", "[judge][circumstance]") {
+  const auto place = std::make_shared<Place>(Scene{2, {Lattice{{}, {Atom{{0, 0, 0}, 4, {}}}, 2}}});
+  const auto from = [&](double x) {
+    const Query query{{x, 12, 0}, {-1, 0, 0}, {}};
+    return features_of({place, query, place->oracle().first_hit(query), "here", ""});
+  };
+  CHECK(from(-3).distance == Approx(std::hypot(3, 12) / 4));
+  std::vector<Features> failing(8, from(0x1p28));
+  failing[3] = from(0x1.8p40);
+  std::vector<Features> right(100, from(0x1p20));
+  // Their starts lie as far from the origin in lattice vectors, of which there are none.
+  REQUIRE(circumstance_of(failing, right));
+  CHECK(circumstance_of(failing, right)->text ==
+        "from starts 2^26 radii or more from the obstacle in question");
+  right.assign(100, from(0x1p29));
+  CHECK_FALSE(circumstance_of(failing, right));
+  // Of the obstacle that is named, wherever others stand.
+  const Question square = asked(0.25, {0.5, 0, 0}, {1, 0, 0});
+  CHECK(features_of(square, disc(-7, 0)).distance == Approx(30));
+  CHECK(features_of(square, disc(1, 0)).distance == Approx(2));
+  CHECK(features_of(square).flight_in_radii == Approx(1));
 }
 
 TEST_CASE("Questions about far cells are told from others", "[judge][circumstance]") {

@@ -89,6 +89,27 @@ TEST_CASE("A program is given up for a scene, not for the run, and the row says 
   CHECK(findings[0].count == 15);
 }
 
+TEST_CASE("What is no answer is told apart from none, with what the program said on its standard error",
+          "[judge][examination]") {
+  const std::atomic<bool> stop = false;
+  const auto finding_of = [&](const std::string& command) {
+    Examination examination(question::engine_named("cmd:" + command), {}, 4, stop);
+    examination.run({"plane", ""}, questions({2}, 1), kForEver);
+    examination.finish();
+    const std::vector<Finding> findings = examination.findings();
+    REQUIRE(findings.size() == 1);
+    return findings[0];
+  };
+  const Finding bad = finding_of(R"(while read -r line; do echo "{\"id\":1,\"outcome\":\"perhaps\"}"; done)");
+  CHECK(bad.cause() == Cause::bad_line);
+  CHECK(bad.simplest.diagnosis.group() == Group::protocol);
+  CHECK(bad.simplest.last_words.empty());
+  const Finding died = finding_of("read -r line; echo 'out of luck' >&2; exit 3");
+  CHECK(died.cause() == Cause::no_answer);
+  CHECK(died.simplest.diagnosis.group() == Group::ended);
+  CHECK(died.simplest.last_words == "out of luck");
+}
+
 TEST_CASE("A program that never answered is not asked on and on", "[judge][examination]") {
   const std::atomic<bool> stop = false;
   Examination examination(question::engine_named("cmd:exit 3"), {}, 4, stop);

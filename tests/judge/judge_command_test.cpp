@@ -37,7 +37,12 @@ TEST_CASE("judge names the one fault of an engine, and each command that it prin
   CHECK(contains(run.out,
                  "\nwrong: passes over obstacles that the line enters by less than 1e-09 of their "
                  "radii; ill-posed "));
-  CHECK(contains(run.out, "\n1. wrong: passes over obstacles that the line enters by less than 1e-09"));
+  CHECK(run.out.starts_with("what:    cmd:" LORENTZ_TOLERANT_ENGINE "; judged in binary64"));
+  CHECK(contains(run.out, "\nworst:   passes over obstacles that the line enters by less than 1e-09"));
+  CHECK(contains(run.out,
+                 "\n1. wrong: names a later obstacle than one it grazes\n   passes over obstacles that the "
+                 "line enters by less than 1e-09"));
+  CHECK(contains(run.out, "\n   the one question: {\"origin\":[\""));
   CHECK_FALSE(contains(run.out, "2. wrong"));
   CHECK(contains(run.out, "and none of the right answers)"));
   CHECK(contains(run.out, "\ngolden grazing "));
@@ -168,7 +173,7 @@ TEST_CASE("judge ends in its time, and at once when it is told to, whatever the 
   INFO(often.out << often.err);
   CHECK(often.status == 3);
   CHECK(contains(often.out, "no-answer") == false);  // causes are for programs
-  CHECK(contains(often.out, "gives no answer: it dies, falls silent, or writes something that is no answer"));
+  CHECK(contains(often.out, "gives no answer: it dies, falls silent, or leaves the question out"));
   // A silence that would be waited for for 11 days is over with the time. (The 5 minutes are for a test that
   // fails.)
   const Run once =

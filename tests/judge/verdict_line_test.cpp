@@ -47,9 +47,15 @@ TEST_CASE("The verdict line: two digits of shares and speed, all before the poin
   CHECK(
       report.line() ==
       "right: no wrong answer in 1252; undecided 0.1 % of drawn flights, 16 % of hard ones; 1812 ns a query, "
-      "6 x reduction");
+      "6 times lorentz's own engine");
   report.ns_per_query = 2.5e7;
-  CHECK(contains(report.line(), "; 2.5e+07 ns a query, 83333 x reduction"));
+  CHECK(contains(report.line(), "; 2.5e+07 ns a query, 83333 times lorentz's own engine"));
+  // Where processors were timed on both sides it is they that are compared: the wall's time is others', too.
+  report.processor_ns = 9000;
+  CHECK(contains(report.line(), ", 83333 times lorentz's own engine"));
+  report.processor_ns_of_reduction = 281;
+  CHECK(contains(report.line(), "; 2.5e+07 ns a query (9000 of processors), 32 times lorentz's own engine"));
+  CHECK(contains(report.json(), R"("processor_ns_per_query":9000,"processor_ns_of_reduction":281,)"));
   turn(report.rows[1], &question::Tally::ill_posed, 1);
   CHECK(
       report.line().starts_with("ill-posed: no wrong answer in 1252; 1 that rounding of the inputs explains; "
@@ -65,11 +71,18 @@ TEST_CASE("The verdict line: wrong times are told with the share of answers, and
   JudgeReport report = report_of({row(false, 1000), row(true, 0)});
   report.rows[0].tally.timed_hits = 900;
   report.rows[0].tally.ulps = {1, 3.14159, 0.5};
+  report.rows[0].max_radii = 2.5e-16;
   CHECK(report.line() ==
-        "right: no wrong answer in 1000; times within 3.1 ulps on drawn flights, no wrong time");
+        "right: no wrong answer in 1000; times within 2.5e-16 radii along the ray (3.14159 ulps) on drawn "
+        "flights, no wrong time");
   report.rows[0].tally.wrong_time = 2;
   report.rows[0].tally.wrong_ulps = {12, 1234567};
-  CHECK(report.line() == "right: no wrong answer in 1000; wrong times 0.2 %, by up to 1.2e+06 ulps");
+  report.rows[0].max_radii = 0.003;
+  CHECK(report.line() ==
+        "right: no wrong answer in 1000; wrong times 0.2 %, by up to 0.003 radii along the ray");
+  report.rows[0].tally.ulps = {1e132};  // of a time near 0
+  CHECK(contains(report.text(), "0.003   > 2^20"));
+  CHECK_FALSE(contains(report.text(), "e+132"));
   CHECK(report.verdict() == "right");
   report.times = true;
   CHECK(report.verdict() == "wrong");
@@ -104,6 +117,69 @@ TEST_CASE("The verdict line names the first fault that condemns, and counts the 
         "broken: 14 of 1300 queries without an answer that could be read; wrong: 2 kinds of fault, "
         "above all: " +
             main);
+}
+
+TEST_CASE("Three lines come first: what, how bad, and the worst of it", "[judge][verdict_line]") {
+  JudgeReport report = report_of({row(false, 46000), row(true, 3210)});
+  const auto begins = [&](const std::string& how_bad, const std::string& worst) {
+    const std::string text = report.text();
+    INFO(text);
+    return text.starts_with("what:    cmd:it; judged in binary64, times to 4 ulps of the inputs\nhow bad: " +
+                            how_bad + "\nworst:   " + worst + "\n\n");
+  };
+  CHECK(begins("none wrong of 46 000 drawn; hard cases: none wrong (of 3 210)",
+               "nothing wrong was found: of all drawn flights fewer than 0.0065 % are wrong (with 95 %)"));
+  turn(report.rows[1], &question::Tally::wrong, 151);
+  turn(report.rows[1], &question::Tally::undecided, 492);
+  turn(report.rows[0], &question::Tally::unsupported, 6000);
+  const auto place = std::make_shared<question::Place>(unit_scene(2, 0.25));
+  const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
+  const judge::Question question{
+      .place = place, .query = query, .exact = place->exact(query), .where = "here"};
+  report.findings.push_back(finding(question, judge::Cause::wrong_time, judge::Severity::wrong_time));
+  report.findings.push_back(finding(question, judge::Cause::never_for_hit, judge::Severity::wrong));
+  CHECK(begins("none wrong of 40 000 drawn; hard cases: 4.7 % wrong (of 3 210); 1.1 % undecided",
+               "says never where an obstacle is hit (entered by up to 0.5 of its radii)"));
+  CHECK(contains(
+      report.json(),
+      R"x("worst":"says never where an obstacle is hit (entered by up to 0.5 of its radii)","finding":1})x"));
+  report.findings.pop_back();
+  CHECK(report.summary().finding == report.findings.data());  // nothing condemns, but not all is well
+  report.claim = {NumberFormat::binary32, 1e-4};
+  CHECK(report.summary().what == "cmd:it; judged in binary32, times to 0.0001 of themselves");
+  report.engine = question::engine_named("reduction");
+  CHECK(report.summary().what.starts_with("reduction, of lorentz "));
+}
+
+TEST_CASE("Findings are told in groups, the engine's own faults first", "[judge][verdict_line]") {
+  JudgeReport report = report_of({row(false, 1000)});
+  const auto place = std::make_shared<question::Place>(unit_scene(2, 0.25));
+  const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
+  const judge::Question question{
+      .place = place, .query = query, .exact = place->exact(query), .where = "here"};
+  const auto add = [&](judge::Cause cause, judge::Severity severity) {
+    report.findings.push_back(finding(question, cause, severity));
+  };
+  add(judge::Cause::never_for_hit, judge::Severity::wrong);
+  add(judge::Cause::no_answer, judge::Severity::error);
+  report.findings.back().simplest.last_words = "Segmentation \x1b[31mfault";
+  add(judge::Cause::bad_line, judge::Severity::error);
+  add(judge::Cause::passed_over, judge::Severity::ill_posed);
+  const std::string text = report.text();
+  INFO(text);
+  std::size_t at = 0;
+  for (const char* next : {"-- the engine's own faults", "1. wrong: misses what it hits", "-- died or silent",
+                           "2. error: died or silent", "its last line on stderr: Segmentation \\x1b[31mfault",
+                           "-- protocol: bad lines", "3. error: bad lines", "-- of floating point, no blame",
+                           "4. ill-posed: passes through an obstacle"}) {
+    INFO(next);
+    const std::size_t place_of_next = text.find(next);
+    REQUIRE(place_of_next != std::string::npos);
+    CHECK(place_of_next >= at);
+    at = place_of_next;
+  }
+  CHECK(contains(report.json(), R"("title":"misses what it hits","group":"the engine's own faults",)"));
+  CHECK(contains(report.json(), R"("primitive":{"origin":["0x1p-1","0x0p+0"],)"));
 }
 
 TEST_CASE("Answers to invalid questions are counted apart, told last, and count if they are to",

@@ -64,6 +64,8 @@ async function open(name, { width = 1600, scheme = "light" }, body) {
   await context.close();
 }
 
+const verdictSigns = { wrong: "✗", right: "✓" };
+
 // How many marks each chart has: of the first choice of its lists.
 const cellsOf = (report) => report.cells.filter((c) => !c.skipped);
 const faults = (report) =>
@@ -158,10 +160,89 @@ for (const name of Object.keys(SAMPLES))
         });
   });
 
-test("The verdict is at the top, and the first finding tells what is wrong", async () => {
+test("Three lines are the first screen, the worst of it drawn beside, and the long verdict is below, once", async () => {
+  for (const [name, width] of [
+    ["judge", 1280],
+    ["judge", 400],
+    ["timed", 400],
+  ])
+    await open(name, { width }, async (page) => {
+      const { verdict, engine, summary, line } = reports[name];
+      assert.equal(
+        (await page.locator("h1").innerText()).replace(/\s+/g, " "),
+        `${verdictSigns[verdict]} ${verdict} ${engine}`,
+      );
+      assert.deepEqual(await page.locator(".three-lines dd").allInnerTexts(), [
+        summary.what,
+        summary.how_bad,
+        summary.worst,
+      ]);
+      const box = await page.locator(".first .paper svg").boundingBox();
+      assert.ok(box.x >= 0 && box.x + box.width <= width && box.y + box.height <= 900, JSON.stringify(box));
+      assert.equal(await page.locator(".verdict-line").count(), 1);
+      assert.ok(await page.locator(".verdict-line").isHidden());
+      await page.getByText("The verdict in full").click();
+      assert.equal(await page.locator(".verdict-line").innerText(), line);
+    });
+});
+
+test("On a narrow screen nothing is cut off, nor scrolls sideways, but the numbers behind a chart", async () => {
+  for (const name of ["judge", "timed"])
+    await open(name, { width: 400 }, async (page) => {
+      const cut = await page.evaluate(() =>
+        [...document.querySelectorAll("main *:not(svg *)")]
+          .filter((e) => e.checkVisibility() && !e.closest(".unseen, .numbers"))
+          .filter(
+            (e) =>
+              e.getBoundingClientRect().right > innerWidth + 0.5 ||
+              (e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).overflowX !== "visible"),
+          )
+          .map((e) => e.outerHTML.slice(0, 100)),
+      );
+      assert.deepEqual(cut, []);
+    });
+});
+
+test("Findings are told in groups, by names that people use; no ulps beyond 2^20", async () => {
   await open("judge", {}, async (page) => {
-    assert.match(await page.locator("h1").innerText(), /wrong.*tolerant_engine/);
-    assert.equal(await page.locator(".verdict-line").innerText(), reports.judge.line);
+    assert.deepEqual(await page.locator(".groups h3").allInnerTexts(), [
+      "the engine's own faults",
+      "of floating point, no blame (ill-posed)",
+    ]);
+    assert.equal(await page.locator(".groups ol").nth(0).locator("li").count(), 3);
+    assert.match(await page.locator(".groups ol").nth(1).innerText(), /last-bits/);
+    assert.match(await page.locator(".finding h3").first().innerText(), /hits what it misses by a hair/);
+    const late = page.locator(".finding").filter({ hasText: "time-of-grazing-hit" });
+    assert.match(
+      await late.locator(".facts").innerText(),
+      /off by 3 × 10⁻⁷ radii along the ray · off by 2²⁰ ulps or more/,
+    );
+    assert.doesNotMatch(await page.locator("main").innerText(), /10¹³²|e\+?132/);
+    assert.match(await page.locator(".finding").first().innerText(), /stderr: warning: 3 rays were clamped/);
+  });
+});
+
+test("The one question can be copied as C++ and as JSON", async () => {
+  await open("judge", {}, async (page) => {
+    await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+    const { primitive, primitive_cpp } = reports.judge.findings[0];
+    for (const [what, wanted] of [
+      ["C++", primitive_cpp.trimEnd()],
+      ["JSON", JSON.stringify(primitive)],
+    ]) {
+      const button = page
+        .locator(".finding")
+        .first()
+        .getByRole("button", { name: `Copy the ${what}` });
+      await button.click();
+      await button.filter({ hasText: "copied" }).waitFor({ timeout: 3000 });
+      assert.equal(await page.evaluate(() => navigator.clipboard.readText()), wanted);
+    }
+  });
+});
+
+test("The first finding tells what is wrong", async () => {
+  await open("judge", {}, async (page) => {
     const first = page.locator(".finding").first();
     assert.match(await first.innerText(), /counts a flight as a hit that passes/);
     assert.equal(await first.locator(".paper svg circle").count(), 3);
@@ -205,12 +286,10 @@ test("What was unsupported, what there was no time for, and what was given up ar
   });
 });
 
-test("Right obstacles at wrong times are no praise, rows that were not asked do not count, free paths are compared", async () => {
+test("Rows that were not asked do not count, free paths are compared, and come before the rows", async () => {
   await open("timed", {}, async (page) => {
-    assert.match(
-      await page.locator("h1").innerText(),
-      /right\s+cmd:\.\/late_engine names the right obstacles, some of them at wrong times/,
-    );
+    const order = await page.locator("main > section").evaluateAll((all) => all.map((s) => s.id));
+    assert.deepEqual(order, ["findings", "flights", "difficulties", "cases", "failures", "manifest"]);
     const summary = (chart) => page.locator(`[data-chart=${chart}] .summary`).innerText();
     assert.match(await summary("difficulties"), /^Of 2 kinds of query that it was asked 1 were answered/);
     assert.match(await summary("calls"), /^3\u202f140 answers; wrong ones only .* less than 10⁻⁹ radii/);
@@ -374,7 +453,7 @@ test("Every chart can be downloaded as SVG and CSV", async () => {
 test("A command can be copied", async () => {
   await open("judge", {}, async (page) => {
     await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
-    await page.locator(".finding .copy").nth(1).click();
+    await page.locator(".finding .copy").nth(3).click();
     await page
       .getByRole("button", { name: "Copy the command" })
       .filter({ hasText: "copied" })
@@ -392,7 +471,7 @@ test("The keyboard reaches everything, and goes through the points of a chart", 
       const reachable = await page.evaluate(() => {
         const all = [
           ...document.querySelectorAll(
-            "main a[href], button, select, input, summary, .plot, .scroll, .paper, pre, .skip",
+            "main a[href], button, select, input, summary, .plot, .scroll, pre, .skip",
           ),
         ];
         const seen = all.filter(
@@ -585,7 +664,7 @@ test("Ten thousand findings open within two seconds, and are filtered", async ()
     assert.ok(spent > 50 && spent < BIG_OPENS_WITHIN, `${spent} ms`);
     const settled = (text) =>
       page.waitForFunction(
-        (text) => document.querySelector("#findings .status").textContent.replaceAll("\u202f", "") === text,
+        (text) => document.querySelector("#cases .status").textContent.replaceAll("\u202f", "") === text,
         text,
         { timeout: 2000 },
       );
@@ -606,7 +685,7 @@ test("Ten thousand findings open within two seconds, and are filtered", async ()
       .getByRole("navigation", { name: "Pages of findings" })
       .getByRole("button", { name: "next page" })
       .click();
-    assert.match(await page.locator("#findings .place").last().innerText(), /^6–10 of 3333$/);
+    assert.match(await page.locator("#cases .place").last().innerText(), /^6–10 of 3333$/);
     assert.equal(await page.locator(".finding").count(), 5);
     await page.locator(".kinds button.row").first().click();
     await settled("3334 of 10000 findings");

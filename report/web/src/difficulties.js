@@ -21,9 +21,12 @@ const COUNTS = [
 function leftOut(rows) {
   const told = (row) => (row.scenes_given_up ? `${row.name} (${row.scenes_given_up})` : row.name);
   const named = (state, say) =>
-    [...Map.groupBy(rows.filter((r) => r.state === state), (r) => r.why ?? "")].map(([why, its]) =>
-      h("li", {}, h("b", {}, `${say}: `), its.map(told).join(", "), why && `; ${why}`),
-    );
+    [
+      ...Map.groupBy(
+        rows.filter((r) => r.state === state),
+        (r) => r.why ?? "",
+      ),
+    ].map(([why, its]) => h("li", {}, h("b", {}, `${say}: `), its.map(told).join(", "), why && `; ${why}`));
   const items = [
     ...named("unsupported", "Unsupported"),
     ...named("no time", "Not asked, no time"),
@@ -32,6 +35,10 @@ function leftOut(rows) {
   ];
   return items.length ? h("ul", { class: "left-out" }, items) : null;
 }
+
+// Of a golden set: how much of it.
+const askedOf = (row) =>
+  row.records > row.queries ? ` ${count(row.queries)} of its ${count(row.records)} records were asked.` : "";
 
 export function difficultiesSection(report) {
   const all = report.difficulties ?? [];
@@ -43,7 +50,7 @@ export function difficultiesSection(report) {
       name: "kind of query",
       value: (r) => r.name,
       cell: (r) => r.name,
-      below: (r) => r.explanation && h("small", {}, r.explanation),
+      below: (r) => r.explanation && h("small", {}, r.explanation, askedOf(r)),
     },
     ...COUNTS.filter(([key]) => always.has(key) || rows.some((r) => r[key] > 0)).map(([key, name]) => ({
       name,
@@ -52,11 +59,18 @@ export function difficultiesSection(report) {
       cell: (r) => h("span", { class: key === "wrong" && r[key] > 0 ? "alarm" : null }, count(r[key])),
     })),
     {
-      name: "max ulps",
+      name: "off, radii",
       figure: true,
-      hint: "largest error of the time of a right hit",
+      hint: "largest error of the time of a right obstacle: how far along the ray, in its radii",
+      value: (r) => r.max_radii,
+      cell: (r) => number(r.max_radii),
+    },
+    {
+      name: "off, ulps",
+      figure: true,
+      hint: "the same in ulps of the time; beyond 2^20 they tell nothing, as of times near 0",
       value: (r) => r.max_ulp,
-      cell: (r) => number(r.max_ulp),
+      cell: (r) => (r.max_ulp < 2 ** 20 ? number(r.max_ulp) : isNumber(r.max_ulp) ? "> 2²⁰" : "–"),
     },
     {
       name: "time a query",

@@ -17,7 +17,7 @@ function matrix(caption, corner, columns, rows) {
     { class: "scroll", role: "region", tabindex: 0, "aria-label": caption },
     h(
       "table",
-      { class: "matrix" },
+      { class: "matrix stacked" },
       h("caption", { class: "unseen" }, caption),
       h(
         "thead",
@@ -37,13 +37,14 @@ function matrix(caption, corner, columns, rows) {
             "tr",
             {},
             h("th", { scope: "row" }, name),
-            cells.map((c) =>
+            cells.map((c, i) =>
               h(
                 "td",
                 {
                   class: `figure ${c ? (c.bad ? "bad" : "good") : ""}`,
                   style: c ? shade(c.share) : null,
                   title: c?.hint ?? null,
+                  "data-name": columns[i],
                 },
                 c ? c.text : "–",
               ),

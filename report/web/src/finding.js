@@ -1,15 +1,21 @@
 // One finding: what is wrong, drawn; given and exact side by side; the query in hexadecimal; how to see it again.
 import { h } from "./dom.js";
 import { drawing } from "./drawing.js";
-import { count, fromHexadecimal, isNumber, number } from "./numbers.js";
+import { count, fromHexadecimal, isNumber, number, ulps } from "./numbers.js";
 import { select, selected } from "./selection.js";
 import { verdictOf } from "./verdicts.js";
+
+/** What a finding is called by people. */
+export const titleOf = (finding) => finding.title ?? finding.cause ?? "–";
 
 export function findingCard(finding, i, total) {
   const verdict = verdictOf(finding.verdict);
   const title = `finding-${i}`;
   const picture = finding.drawing
-    ? drawing(finding.drawing, `Drawing of finding ${i + 1}: ${finding.cause}. ${finding.explanation ?? ""}`)
+    ? drawing(
+        finding.drawing,
+        `Drawing of finding ${i + 1}: ${titleOf(finding)}. ${finding.explanation ?? ""}`,
+      )
     : null;
   return h(
     "article",
@@ -28,7 +34,7 @@ export function findingCard(finding, i, total) {
         { id: title },
         h("span", { class: "tag" }, h("span", { "aria-hidden": "true" }, `${verdict.sign} `), verdict.word),
         " ",
-        finding.cause ?? "finding",
+        titleOf(finding),
       ),
       total > 1 &&
         h(
@@ -50,9 +56,10 @@ export function findingCard(finding, i, total) {
       h(
         "div",
         {},
-        picture &&
-          h("div", { class: "paper", tabindex: 0, role: "region", "aria-label": "Drawing" }, picture),
+        picture && h("div", { class: "paper" }, picture),
         reason(finding.reason),
+        finding.last_words &&
+          h("p", { class: "last-words" }, "Its last line on stderr: ", h("code", {}, finding.last_words)),
       ),
       h("div", {}, answers(finding.given, finding.exact), query(finding.query)),
     ),
@@ -63,6 +70,7 @@ export function findingCard(finding, i, total) {
         h("summary", {}, "Scene"),
         h("pre", { tabindex: 0, "aria-label": "Scene as JSON" }, JSON.stringify(finding.scene)),
       ),
+    primitive(finding),
     commands(finding.commands),
   );
 }
@@ -72,12 +80,15 @@ function facts(finding, i, total) {
     `${i + 1} of ${total}`,
     finding.where,
     finding.count > 1 ? `${count(finding.count)} like this` : null,
-    isNumber(finding.by_radii) ? `off by ${number(Math.abs(finding.by_radii))} radii` : null,
-    isNumber(finding.by_ulps) ? `off by ${number(Math.abs(finding.by_ulps))} ulps` : null,
+    isNumber(finding.by_radii) ? `off by ${number(Math.abs(finding.by_radii))} ${radiiOf(finding)}` : null,
+    isNumber(finding.by_ulps) ? `off by ${ulps(Math.abs(finding.by_ulps))}` : null,
   ]
     .filter(Boolean)
     .join(" · ");
 }
+
+/** Of which radii it is off by so many. */
+export const radiiOf = (finding) => (finding.verdict === "wrong-time" ? "radii along the ray" : "radii");
 
 const textOf = (value) =>
   value === undefined || value === null
@@ -176,6 +187,18 @@ function query(query) {
   );
 }
 
+// The ray and the one obstacle that decides.
+function primitive({ primitive: question, primitive_cpp: code }) {
+  if (!question || !code) return null;
+  return h(
+    "div",
+    { class: "commands" },
+    h("h4", {}, "The one question: a ray and an obstacle"),
+    copied(code.trimEnd(), "C++"),
+    copied(JSON.stringify(question), "JSON"),
+  );
+}
+
 function commands(lines) {
   if (!lines?.length) return null;
   return h(
@@ -186,15 +209,16 @@ function commands(lines) {
   );
 }
 
-export function command(line) {
-  return h(
+export const command = (line) => copied(line, "command");
+
+const copied = (text, what) =>
+  h(
     "div",
     { class: "command" },
-    h("pre", { tabindex: 0, "aria-label": "Command" }, h("code", {}, line)),
+    h("pre", { tabindex: 0, "aria-label": what }, h("code", {}, text)),
     h(
       "button",
-      { type: "button", class: "copy", "data-copy": line, "aria-label": "Copy the command" },
+      { type: "button", class: "copy", "data-copy": text, "aria-label": `Copy the ${what}` },
       "copy",
     ),
   );
-}

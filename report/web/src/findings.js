@@ -3,7 +3,7 @@ import { h, section } from "./dom.js";
 import { choice, pager, searchField } from "./controls.js";
 import { calls } from "./charts/calls.js";
 import { closeness } from "./charts/closeness.js";
-import { findingCard } from "./finding.js";
+import { findingCard, titleOf } from "./finding.js";
 import { count } from "./numbers.js";
 import { indexOf, onSelect, selected } from "./selection.js";
 import { verdictOf } from "./verdicts.js";
@@ -52,41 +52,53 @@ function valuesOf(findings, key) {
 
 const MOST_KINDS = 12;
 
-/** Each cause in a line: what is wrong, told before any case of it. */
+/** Each cause in a line: what is wrong, told before any case of it; in groups, where findings have them. */
 function kindsOfFault(findings, only) {
   const kinds = [...Map.groupBy(findings, (f) => JSON.stringify([f.cause, f.verdict])).values()];
+  const groups = [...Map.groupBy(kinds.slice(0, MOST_KINDS), ([first]) => first.group ?? "")];
   return h(
-    "ol",
-    { class: "kinds", "aria-label": "Kinds of fault" },
-    kinds.slice(0, MOST_KINDS).map((its) => {
-      const { cause, verdict: name, explanation, often } = its[0],
-        verdict = verdictOf(name);
-      const times = its.reduce((sum, f) => sum + (f.count ?? 1), 0);
-      return h(
-        "li",
-        { style: `--tone: ${verdict.colour}` },
-        h("span", { class: "tag" }, h("span", { "aria-hidden": "true" }, `${verdict.sign} `), verdict.word),
+    "div",
+    { class: "groups" },
+    groups
+      .map(([group, its]) => [
+        group && h("h3", {}, group),
         h(
-          "button",
-          {
-            type: "button",
-            class: "row",
-            title: "show these findings only",
-            onclick: () => only({ cause, verdict: name }),
-          },
-          cause ?? "–",
+          "ol",
+          { class: "kinds", "aria-label": group || "Kinds of fault" },
+          its.map((kind) => kindOfFault(kind, only)),
         ),
-        h("span", { class: "times" }, `${count(times)} ×`),
-        explanation &&
-          h(
-            "span",
-            { class: "says" },
-            explanation,
-            its.length === 1 && often && h("span", { class: "often" }, ` – ${often}`),
-          ),
-      );
-    }),
-    kinds.length > MOST_KINDS && h("li", {}, `and ${count(kinds.length - MOST_KINDS)} more`),
+      ])
+      .flat(),
+    kinds.length > MOST_KINDS && h("p", { class: "note" }, `and ${count(kinds.length - MOST_KINDS)} more`),
+  );
+}
+
+function kindOfFault(its, only) {
+  const { cause, verdict: name, explanation, often } = its[0],
+    verdict = verdictOf(name);
+  const times = its.reduce((sum, f) => sum + (f.count ?? 1), 0);
+  return h(
+    "li",
+    { style: `--tone: ${verdict.colour}` },
+    h("span", { class: "tag" }, h("span", { "aria-hidden": "true" }, `${verdict.sign} `), verdict.word),
+    h(
+      "button",
+      {
+        type: "button",
+        class: "row",
+        title: "show these findings only",
+        onclick: () => only({ cause, verdict: name }),
+      },
+      titleOf(its[0]),
+    ),
+    h("span", { class: "times" }, `${count(times)} ×`),
+    explanation &&
+      h(
+        "span",
+        { class: "says" },
+        explanation,
+        its.length === 1 && often && h("span", { class: "often" }, ` – ${often}`),
+      ),
   );
 }
 
@@ -190,29 +202,38 @@ export function findingsSection(report) {
 
   arrange(0);
   const few = findings.length < 2;
+  const cases = [
+    few
+      ? null
+      : h(
+          "div",
+          { class: "controls", role: "search", "aria-label": "Filter findings" },
+          Object.values(choices).map((c) => c.element),
+          sort.element,
+          findings.length > 5 ? size.element : null,
+          search.element,
+        ),
+    few ? null : status,
+    list,
+    pages.element,
+  ];
   return {
     element: section(
       "findings",
       few ? "What was found" : "What is wrong",
-      few
-        ? null
-        : "The kinds of fault first; below, cases of each: the flight, the obstacle that is in question, and what decides it.",
+      null,
       few ? null : kindsOfFault(findings, only),
       calls(report) ?? closeness(report),
-      few
-        ? null
-        : h(
-            "div",
-            { class: "controls", role: "search", "aria-label": "Filter findings" },
-            Object.values(choices).map((c) => c.element),
-            sort.element,
-            findings.length > 5 ? size.element : null,
-            search.element,
-          ),
-      few ? null : status,
-      list,
-      pages.element,
+      few ? cases : null,
     ),
+    cases: few
+      ? null
+      : section(
+          "cases",
+          "Case by case",
+          "The flight, the obstacle that is in question, and what decides it.",
+          ...cases,
+        ),
     /** Shows only the findings with these values: {cause: ..}. */
     only,
   };

@@ -1,22 +1,10 @@
-// The verdict first, in one line, then the figures it rests on.
+// The verdict first, in three lines or in one, then the figures it rests on.
 import { h } from "./dom.js";
+import { drawing } from "./drawing.js";
 import { count, duration, isNumber, percent } from "./numbers.js";
 import { FAULTS, MEANINGS, verdictOf } from "./verdicts.js";
 
-const WORDS = {
-  right: "gives right answers",
-  wrong: "gives wrong answers",
-  "ill-posed": "is right but where the question itself is ill-posed",
-  undecided: "is right where it answers, and does not always answer",
-  broken: "is broken",
-};
-
 export function head(report) {
-  const engine = report.engine;
-  const says =
-    report.verdict === "right" && report.wrong_time > 0
-      ? "names the right obstacles, some of them at wrong times"
-      : (WORDS[report.verdict] ?? "");
   const state = report.verdict ? verdictOf(report.verdict) : null;
   return h(
     "header",
@@ -37,10 +25,36 @@ export function head(report) {
           state.word,
         ),
       " ",
-      engine ? [h("code", {}, engine), ` ${says}`] : (report.title ?? "Report"),
+      report.engine ? h("code", {}, report.engine) : (report.title ?? "Report"),
     ),
-    h("p", { class: "verdict-line" }, report.line || benchLine(report)),
+    report.summary ? threeLines(report) : verdictLine(report.line || benchLine(report)),
     figures(report),
+    report.summary &&
+      report.line &&
+      h("details", { class: "in-full" }, h("summary", {}, "The verdict in full"), verdictLine(report.line)),
+  );
+}
+
+const verdictLine = (line) => h("p", { class: "verdict-line" }, line);
+
+// What was judged, how bad it is, and the worst of it, with its simplest case drawn beside.
+function threeLines({ summary, findings }) {
+  const worst = findings?.[summary.finding];
+  const picture = worst?.drawing && drawing(worst.drawing, `The simplest case: ${summary.worst}`);
+  const lines = [
+    ["What", summary.what],
+    ["How bad", summary.how_bad],
+    ["Worst", summary.worst],
+  ];
+  return h(
+    "div",
+    { class: picture ? "first with-picture" : "first" },
+    h(
+      "dl",
+      { class: "three-lines" },
+      lines.map(([name, text]) => h("div", {}, h("dt", {}, name), h("dd", {}, text))),
+    ),
+    picture && h("div", { class: "paper" }, picture),
   );
 }
 
@@ -80,11 +94,12 @@ function figures(report) {
       h("dt", {}, name),
       h("dd", {}, value),
     );
-  const tiles = [];
+  const tiles = [],
+    judged = report.queries - (report.unsupported ?? 0);
   if (isNumber(report.queries)) tiles.push(tile(count(report.queries), "queries"));
   for (const [key, verdict] of FAULTS)
     if (isNumber(report[key])) {
-      const share = report.queries && report[key] ? ` (${percent(report[key] / report.queries)})` : "";
+      const share = judged && report[key] ? ` (${percent(report[key] / judged)})` : "";
       tiles.push(
         tile(
           h("span", {}, count(report[key]), h("small", {}, share)),
@@ -98,6 +113,14 @@ function figures(report) {
     if (report[key] > 0)
       tiles.push(tile(count(report[key]), verdictOf(key).word, MEANINGS[key], verdictOf(key).colour));
   if (isNumber(report.ns_per_query)) tiles.push(tile(duration(report.ns_per_query), "time a query"));
+  if (isNumber(report.processor_ns_per_query))
+    tiles.push(
+      tile(
+        duration(report.processor_ns_per_query),
+        "processor time",
+        "a query, of processors; the other time is that of the wall",
+      ),
+    );
   if (!tiles.length && report.cells?.length) {
     tiles.push(
       tile(String(new Set(report.cells.map((c) => c.engine)).size), "engines"),

@@ -52,10 +52,10 @@ function sections(report) {
   );
   const failures = failuresSection(report, looks, findings);
   const difficulties = difficultiesSection(report);
-  const rest = [cellsSection(report, looks), flights, manifestSection(report)];
+  const rest = [cellsSection(report, looks), manifestSection(report)];
   return report.kind === "bench"
-    ? [speed, failures, findings?.element, difficulties, ...rest]
-    : [findings?.element, difficulties, failures, speed, ...rest];
+    ? [speed, failures, findings?.element, findings?.cases, difficulties, flights, ...rest]
+    : [findings?.element, flights, difficulties, findings?.cases, failures, speed, ...rest];
 }
 
 function contents(all) {

@@ -31,6 +31,10 @@ export function number(value, digits = 3) {
   return (factor === "1" ? power : factor === "-1" ? `−${power}` : `${factor} × ${power}`).replace("-", "−");
 }
 
+/** Beyond 2^20 they tell nothing, as of times near 0. */
+export const ulps = (value) =>
+  !isNumber(value) ? "–" : value < 2 ** 20 ? `${number(value)} ulps` : "2²⁰ ulps or more";
+
 /** 1234567 as 1 234 567, with narrow spaces that do not break. */
 export function count(value) {
   return isNumber(value)

@@ -74,7 +74,7 @@ export function choosableTable({ label, columns, rows, size = 25 }) {
   const caption = newId("caption");
   const table = h(
     "table",
-    { class: "choosable", "aria-labelledby": caption },
+    { class: "choosable stacked", "aria-labelledby": caption },
     h(
       "caption",
       { id: caption, class: "unseen" },
@@ -131,7 +131,9 @@ export function choosableTable({ label, columns, rows, size = 25 }) {
         },
       },
       columns.map((column, i) =>
-        i ? h("td", { class: column.figure ? "figure" : null }, column.cell(row)) : name(column),
+        i
+          ? h("td", { class: column.figure ? "figure" : null, "data-name": column.name }, column.cell(row))
+          : name(column),
       ),
     );
   }

@@ -3,17 +3,14 @@ import * as Plot from "@observablehq/plot";
 import { shortened } from "../dom.js";
 import { chart, logAxis, plot } from "../chart.js";
 import { choice } from "../controls.js";
-import { isNumber, number } from "../numbers.js";
+import { radiiOf } from "../finding.js";
+import { isNumber, number, ulps } from "../numbers.js";
 import { verdictOf } from "../verdicts.js";
 
 const MOST = 1500; // points; more are thinned evenly
 const MEASURES = [
-  [
-    "by_radii",
-    "radii of the obstacle in question",
-    (f) => `${number(Math.abs(f.by_radii))} radii ${f.by_radii < 0 ? "inside" : "outside"}`,
-  ],
-  ["by_ulps", "last bits of the input (ulps)", (f) => `${number(Math.abs(f.by_ulps))} ulps`],
+  ["by_radii", "radii of the obstacle in question", (f) => `${number(Math.abs(f.by_radii))} ${radiiOf(f)}`],
+  ["by_ulps", "last bits of the input (ulps)", (f) => ulps(Math.abs(f.by_ulps))],
 ];
 
 // A place in the band of its cause that is the same each time.

@@ -1,0 +1,276 @@
+// The verdict on an engine, in three lines and in one.
+#include "judge/verdict_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "judge/judge_report.hpp"
+#include "report/claim_words.hpp"
+#include "report/manifest.hpp"
+#include "report/reason.hpp"
+#include "report/share.hpp"
+#include "src/exchange/json_writer.hpp"
+
+namespace lorentz::judge {
+
+std::string two_digits(double a) {
+  return a < 9.95 || a >= 1e6 ? fmt::format("{:.2g}", a) : fmt::format("{:.0f}", a);
+}
+
+namespace {
+
+std::size_t answers(const question::Tally& t) {
+  return t.agree + t.ill_posed + t.wrong;
+}
+
+std::string percent(std::size_t part, std::size_t whole) {
+  return whole == 0 ? "0 %" : two_digits(100 * static_cast<double>(part) / static_cast<double>(whole)) + " %";
+}
+
+// The largest radii_off of the rows that are hard, or of the others.
+std::optional<double> largest_radii(const std::vector<ExaminedRow>& rows, bool hard) {
+  std::optional<double> largest;
+  for (const ExaminedRow& row : rows)
+    if (row.is_hard == hard && row.max_radii) largest = std::max(largest.value_or(0), *row.max_radii);
+  return largest;
+}
+
+// Of all the rows that are hard, or of the others.
+question::Tally sum_of(const std::vector<ExaminedRow>& rows, bool hard) {
+  question::Tally sum;
+  for (const ExaminedRow& row : rows)
+    if (row.is_hard == hard) sum.add(row.tally);
+  return sum;
+}
+
+// "undecided 0.2 % of drawn flights, 16 % of hard ones"; nothing if there are none.
+std::string shares_text(const char* what, const std::vector<ExaminedRow>& rows,
+                        std::size_t question::Tally::*count) {
+  const question::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
+  if (drawn.*count + hard.*count == 0) return "";
+  return fmt::format("; {} {} of drawn flights, {} of hard ones", what, percent(drawn.*count, drawn.queries),
+                     percent(hard.*count, hard.queries));
+}
+
+// "; wrong times 0.2 % (0.1 % are another quantity), by up to 0.003 radii along the ray"
+std::string times_text(const JudgeReport& report) {
+  question::Tally drawn = sum_of(report.rows, false), hard = sum_of(report.rows, true);
+  if (drawn.timed_hits + hard.timed_hits == 0) return "";
+  const bool is_right = drawn.wrong_time + hard.wrong_time == 0;
+  if (is_right && drawn.timed_hits == 0) return "";
+  const auto radii = json::finite(is_right ? largest_radii(report.rows, false) : report.max_radii());
+  if (is_right && radii == 0) return "; times exact on drawn flights";
+  const std::string along = radii ? fmt::format("{:.2g} radii along the ray", *radii) : "";
+  if (is_right)
+    return fmt::format("; times within {} ({}) on drawn flights, no wrong time", along,
+                       report::ulps_text(drawn.max_ulp()));
+  drawn.add(hard);
+  std::string text = fmt::format("; wrong times {}", percent(drawn.wrong_time, answers(drawn)));
+  if (drawn.other_quantity > 0)
+    text += fmt::format(" ({} are another quantity)", percent(drawn.other_quantity, answers(drawn)));
+  return along.empty() ? text : text + ", by up to " + along;
+}
+
+std::string paths_text(const std::vector<FlownScene>& flown) {
+  const std::string fault = free_path_fault(flown);
+  return fault.empty() ? "" : "; " + fault;
+}
+
+// "; 314016 ns a query (298000 of processors), 1104 times lorentz's own engine". Where both have been spent by
+// processors the two are compared in that: the wall's time is also that of other programs.
+std::string speed_text(const JudgeReport& report) {
+  if (!report.ns_per_query) return "";
+  std::string text = fmt::format("; {} ns a query", two_digits(*report.ns_per_query));
+  const double spent = report.processor_ns.value_or(0), own = report.processor_ns_of_reduction.value_or(0);
+  const bool by_processors = spent > 0 && own > 0;
+  if (by_processors && report.engine.is_command())
+    text += fmt::format(" ({} of processors)", two_digits(spent));
+  if (report.ns_of_reduction)
+    text +=
+        fmt::format(", {} times lorentz's own engine",
+                    two_digits(by_processors ? spent / own : *report.ns_per_query / *report.ns_of_reduction));
+  return text;
+}
+
+bool condemns(const Finding& finding, const JudgeReport& report) {
+  if (finding.cause() == Cause::no_answer || finding.cause() == Cause::bad_line) return false;
+  switch (finding.severity()) {
+    case Severity::wrong_time:
+      return report.times;
+    case Severity::nonsense:
+      return report.strict;
+    default:
+      return finding.severity() != Severity::ill_posed;
+  }
+}
+
+template <class Holds>
+const Finding* first_that(const JudgeReport& report, const Holds& holds) {
+  const auto place = std::find_if(report.findings.begin(), report.findings.end(), holds);
+  return place == report.findings.end() ? nullptr : &*place;
+}
+
+// The kinds of fault that condemn, and the first of them: the worst, of these the most frequent.
+std::string faults_text(const JudgeReport& report) {
+  const auto kinds = std::count_if(report.findings.begin(), report.findings.end(),
+                                   [&](const Finding& finding) { return condemns(finding, report); });
+  if (kinds == 0) return "";
+  const std::string main =
+      first_that(report, [&](const Finding& f) { return condemns(f, report); })->summary();
+  return kinds == 1 ? main : fmt::format("{} kinds of fault, above all: {}", kinds, main);
+}
+
+std::string heading(const JudgeReport& report) {
+  const question::Tally total = report.total();
+  const std::string verdict = report.verdict(), faults = faults_text(report);
+  if (verdict == "broken")
+    return fmt::format("broken: {} of {} {} without an answer that could be read", total.missing,
+                       total.queries, total.queries == 1 ? "query" : "queries") +
+           (faults.empty() ? "" : "; wrong: " + faults);
+  if (verdict == "wrong") return "wrong: " + faults;
+  if (verdict == "ill-posed")
+    return fmt::format("ill-posed: no wrong answer in {}; {} that rounding of the inputs explains",
+                       answers(total), total.ill_posed);
+  if (verdict == "undecided")
+    return fmt::format("undecided: it decided {} of {} queries, none of them wrong", answers(total),
+                       total.queries);
+  return fmt::format("right: no wrong answer in {}", answers(total));
+}
+
+// What it was asked and did not answer, and what it was not asked; nothing if there is nothing.
+std::string missing_text(const JudgeReport& report) {
+  const question::Tally total = report.total();
+  std::string text;
+  if (total.missing > 0 && !report.is_broken())
+    text += fmt::format("; {} of {} answers missing", total.missing, total.queries);
+  if (const std::size_t rows = report.rows_given_up(); rows > 0)
+    text += fmt::format("; given up in {} of {} rows", rows, report.rows.size());
+  return text;
+}
+
+std::string nonsense_text(const JudgeReport& report) {
+  const std::size_t number = report.nonsense();
+  return number == 0
+             ? ""
+             : fmt::format("; {} invalid {} answered", number, number == 1 ? "question" : "questions");
+}
+
+// ---- Three lines
+
+// "published, of lorentz 0.1.0; judged in binary64, times to 4 ulps of the inputs"
+std::string what_text(const JudgeReport& report) {
+  const auto& tolerance = report.claim.time_tolerance;
+  const std::string times = !tolerance ? fmt::format("times to {} ulps of the inputs", report.ulps)
+                            : std::isinf(*tolerance) ? "times not judged"
+                                                     : fmt::format("times to {} of themselves", *tolerance);
+  return fmt::format("{}{}; judged in {}, {}", report.engine.name,
+                     report.engine.is_own() ? ", of lorentz " + report::manifest_of(0, "").version : "",
+                     name_of(report.claim.precision), times);
+}
+
+// 46000 as "46 000".
+std::string grouped(std::size_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t at = text.size(); at > 3; text.insert(at -= 3, " ")) {
+  }
+  return text;
+}
+
+std::size_t judged_of(const question::Tally& t) {
+  return t.queries - t.unsupported;
+}
+
+std::string wrong_text(const question::Tally& t) {
+  const std::size_t wrong = t.wrong + t.error;
+  return wrong == 0 ? "none wrong" : percent(wrong, judged_of(t)) + " wrong";
+}
+
+// "none wrong of 46 000 drawn; hard cases: 4.7 % wrong (of 3 210); 10 % undecided"
+std::string how_bad_text(const JudgeReport& report) {
+  const question::Tally drawn = sum_of(report.rows, false), hard = sum_of(report.rows, true),
+                        all = report.total();
+  if (judged_of(all) == 0)
+    return all.queries > 0 ? "nothing was judged: all is unsupported" : "nothing was asked";
+  std::vector<std::string> parts;
+  if (judged_of(drawn) > 0)
+    parts.push_back(fmt::format("{} of {} drawn", wrong_text(drawn), grouped(judged_of(drawn))));
+  if (judged_of(hard) > 0)
+    parts.push_back(fmt::format("hard cases: {} (of {})", wrong_text(hard), grouped(judged_of(hard))));
+  const auto add = [&](std::size_t number, const char* what) {
+    if (number > 0) parts.push_back(percent(number, judged_of(all)) + ' ' + what);
+  };
+  add(all.missing, "without an answer");
+  add(all.wrong_time, "with a wrong time");
+  add(all.undecided, "undecided");
+  if (report.was_stopped) parts.push_back("interrupted");
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+// The first that condemns, else what rounding does not excuse; null if there is nothing of that.
+const Finding* worst_of(const JudgeReport& report) {
+  const Finding* worst = first_that(report, [&](const Finding& f) { return condemns(f, report); });
+  return worst ? worst
+               : first_that(report, [](const Finding& f) { return f.severity() != Severity::ill_posed; });
+}
+
+std::string nothing_wrong_text(const JudgeReport& report) {
+  const question::Tally drawn = sum_of(report.rows, false);
+  if (answers(drawn) == 0) return "nothing wrong was found";
+  return fmt::format("nothing wrong was found: of all drawn flights fewer than {} % are wrong (with 95 %)",
+                     two_digits(100 * report::bound_of_none(answers(drawn))));
+}
+
+}  // namespace
+
+question::Tally JudgeReport::total() const {
+  question::Tally total = sum_of(rows, false);
+  total.add(sum_of(rows, true));
+  return total;
+}
+
+std::size_t JudgeReport::nonsense() const {
+  std::size_t number = 0;
+  for (const ExaminedRow& row : rows) number += row.nonsense;
+  return number;
+}
+
+std::size_t JudgeReport::rows_given_up() const {
+  return static_cast<std::size_t>(std::count_if(
+      rows.begin(), rows.end(), [](const ExaminedRow& row) { return row.scenes_given_up > 0; }));
+}
+
+std::optional<double> JudgeReport::max_radii() const {
+  const auto drawn = largest_radii(rows, false), hard = largest_radii(rows, true);
+  return std::max(drawn, hard);
+}
+
+bool JudgeReport::is_broken() const {
+  const question::Tally t = total();
+  return 100 * t.missing > t.queries;
+}
+
+std::string JudgeReport::verdict() const {
+  const question::Tally t = total();
+  if (is_broken()) return "broken";
+  if (t.wrong + t.error > 0 || (times && t.wrong_time > 0) || (strict && nonsense() > 0)) return "wrong";
+  if (t.agree + t.ill_posed <= t.undecided) return "undecided";
+  return t.ill_posed > 0 ? "ill-posed" : "right";
+}
+
+std::string JudgeReport::line() const {
+  const std::string words = report::words_of(claim);
+  return heading(*this) + (words.empty() ? "" : "; judged" + words.substr(1)) +
+         (was_stopped ? "; interrupted before all was asked" : "") + missing_text(*this) +
+         shares_text("ill-posed", rows, &question::Tally::ill_posed) +
+         shares_text("undecided", rows, &question::Tally::undecided) + times_text(*this) + paths_text(flown) +
+         speed_text(*this) + nonsense_text(*this);
+}
+
+Summary JudgeReport::summary() const {
+  const Finding* worst = worst_of(*this);
+  return {what_text(*this), how_bad_text(*this), worst ? worst->summary() : nothing_wrong_text(*this), worst};
+}
+
+}  // namespace lorentz::judge
