@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -27,22 +28,42 @@ inline Vec cross(const Vec& a, const Vec& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// A scene that no adapter does: it is no fault of the scene.
+// A scene, or a query, that an adapter does not do: it is no fault of theirs.
 struct Unsupported : std::runtime_error {
   using runtime_error::runtime_error;
 };
 
 inline double number(const json& j) {
-  if (j.is_string()) return std::stod(j.get<std::string>());  // a cell beyond 2^53, a hexadecimal float
-  if (!j.is_number()) throw std::runtime_error("expected a number, found " + j.dump());
-  return j.get<double>();
+  if (!j.is_string()) {
+    if (!j.is_number()) throw std::runtime_error("expected a number, found " + j.dump());
+    return j.get<double>();
+  }
+  const std::string text = j.get<std::string>();  // a hexadecimal float
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if ((text.rfind("0x", 0) != 0 && text.rfind("-0x", 0) != 0) || *end)
+    throw std::runtime_error("expected a number, found " + j.dump());
+  return value;
 }
 
-inline Vec vec(const json& j, std::size_t size) {
+inline double integer(const json& j) {
+  if (!j.is_string()) {
+    const double value = number(j);
+    if (value != std::floor(value)) throw std::runtime_error("expected an integer, found " + j.dump());
+    return value;
+  }
+  const std::string text = j.get<std::string>();  // beyond 2^53
+  const std::size_t digits = text.rfind("-", 0) == 0 ? 1 : 0;
+  if (text.size() == digits || text.find_first_not_of("0123456789", digits) != std::string::npos)
+    throw std::runtime_error("expected an integer, found " + j.dump());
+  return std::stod(text);
+}
+
+inline Vec vec(const json& j, std::size_t size, double component(const json&) = number) {
   if (!j.is_array() || j.size() != size) throw std::runtime_error("wrong number of components: " + j.dump());
   Vec v{};
   for (std::size_t k = 0; k < size; ++k)
-    if (!std::isfinite(v[k] = number(j[k]))) throw std::runtime_error("not finite: " + j.dump());
+    if (!std::isfinite(v[k] = component(j[k]))) throw std::runtime_error("not finite: " + j.dump());
   return v;
 }
 
@@ -131,12 +152,14 @@ inline Query query_of(const json& item, const Scene& scene) {
   if (query.v == Vec{}) throw std::runtime_error("v is zero");
   if (!item.contains("from")) return query;
   const json& from = item["from"];
-  const std::size_t lattice = from.at("lattice"), atom = from.at("atom");
-  if (lattice >= scene.lattices.size() || atom >= scene.lattices[lattice].position.size())
-    throw std::runtime_error("from: the scene has no such obstacle");
-  const Vec cell = vec(from.at("cell"), scene.lattices[lattice].rank);
-  for (const double n : cell)
-    if (n != std::floor(n)) throw std::runtime_error("from: a cell has integers");
+  const auto index = [&](const char* key, std::size_t size) {
+    const double value = integer(from.at(key));
+    if (!(value >= 0 && value < double(size))) throw std::runtime_error("from: no such obstacle");
+    return static_cast<std::size_t>(value);
+  };
+  const std::size_t lattice = index("lattice", scene.lattices.size());
+  const std::size_t atom = index("atom", scene.lattices[lattice].position.size());
+  const Vec cell = vec(from.at("cell"), scene.lattices[lattice].rank, integer);
   query.from = Name{static_cast<int>(lattice), static_cast<int>(atom), cell};
   return query;
 }
@@ -212,6 +235,8 @@ class Server {
       if (item.contains("scene")) return take_scene(item["scene"]), false;
       if (item.contains("id")) id = item["id"];
       answer = scene_ ? answer_of(engine_.first(*scene_, query_of(item, *scene_)), *scene_) : trouble_;
+    } catch (const Unsupported& error) {
+      answer = error_of(error, true);
     } catch (const std::exception& error) {  // whatever is wrong with a line, the next one may be right
       answer = error_of(error, false);
     }

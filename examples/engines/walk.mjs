@@ -25,12 +25,21 @@ const isBefore = (a, b) => {
   return k >= 0 && a[k] < b[k];
 };
 
-const number = (c) => (typeof c === "string" && c !== "" ? Number(c) : c); // a cell beyond 2^53 is a string
-function vector(a, size) {
+const HEXADECIMAL = /^(-?)0x([\da-f]+)(?:\.([\da-f]*))?(?:p([-+]?\d+))?$/i;
+function number(c) {
+  const [all, minus, whole, fraction = "", exponent = "0"] =
+    (typeof c === "string" && c.match(HEXADECIMAL)) || [];
+  if (all === undefined) return c;
+  const value = parseInt(whole + fraction, 16) * 2 ** (Number(exponent) - 4 * fraction.length);
+  return minus ? -value : value;
+}
+const integer = (c) => (typeof c === "string" && /^-?\d+$/.test(c) ? Number(c) : c); // a string beyond 2^53
+
+function vector(a, size, component = number, isOne = Number.isFinite) {
   if (!Array.isArray(a) || a.length !== size)
     throw Error(`expected ${size} components: ${JSON.stringify(a)}`);
-  const v = a.map(number);
-  if (!v.every(Number.isFinite)) throw Error(`not a vector of numbers: ${JSON.stringify(a)}`);
+  const v = a.map(component);
+  if (!v.every(isOne)) throw Error(`not a vector of numbers: ${JSON.stringify(a)}`);
   return [...v, ...Array(3 - size).fill(0)];
 }
 
@@ -217,13 +226,12 @@ function latticesOf(scene, library) {
 function queryOf(item, { dimension, lattices }) {
   const query = { x: vector(item.x, dimension), v: vector(item.v, dimension), from: undefined };
   if (query.v.every((c) => c === 0)) throw Error("v is zero");
-  if (!item.from) return query;
+  if (item.from === undefined) return query;
   const { lattice, atom, cell } = item.from;
   const its = lattices[lattice];
   if (!its || !(Number.isInteger(atom) && atom >= 0 && atom < its.atoms))
     throw Error("from: the scene has no such obstacle");
-  const n = vector(cell, its.rank);
-  if (!n.every(Number.isInteger)) throw Error("from: a cell has integers");
+  const n = vector(cell, its.rank, integer, Number.isInteger);
   query.from = [lattice, atom, ...n];
   return query;
 }

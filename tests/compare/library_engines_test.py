@@ -57,6 +57,10 @@ class Adapter:
             self.assertEqual((one["wrong"], one["error"], one["missing"], one["unsupported"]), (0, 0, 0, 0), name)
             self.assertGreaterEqual(one["agree"], 495, name)
 
+    def test_hexadecimal_numbers(self):
+        [answer] = self.answers(scene(BALL), '{"id":1,"x":["0x0p0",0,0],"v":["0x1.0p-2",0,"-0x0p+0"]}')
+        self.assertEqual((answer["outcome"], answer["time"]), ("hit", 14))
+
     def test_single_ball(self):
         source = {"lattice": 0, "atom": 0, "cell": []}
         hit, missed, inside, leaving = self.answers(
@@ -84,12 +88,14 @@ class Adapter:
         bad = ['{"id":"a","x":[0.5,0.5],"v":[0,0]}', '{"id":"b","x":[0.5],"v":[1,0]}', '{"id":"c","v":[1,0]}',
                '{"id":"d","x":[0.5,true],"v":[1,0]}', '{"id":"e","x":[1e999,0.5],"v":[1,0]}', "{",
                '{"id":"f","x":[0.5,0.5],"v":[1,0],"from":{"lattice":0,"atom":1,"cell":[0,0]}}',
-               '{"id":"g","x":[0.5,0.5],"v":[1,0],"from":{"lattice":0,"atom":0,"cell":[0.5,0]}}']
+               '{"id":"g","x":[0.5,0.5],"v":[1,0],"from":{"lattice":0,"atom":0,"cell":[0.5,0]}}',
+               '{"id":"h","x":[0.5,"0.5"],"v":[1,0]}', '{"id":"i","x":[0.5,"0x1p"],"v":[1,0]}',
+               '{"id":"j","x":[0.5,0.5],"v":[1,0],"from":{"lattice":0,"atom":0,"cell":[0,"1e3"]}}']
         answers = self.answers(scene(UNIT), *bad, '{"id":"good","x":[0.5,0],"v":[1,0]}')
         self.assertEqual([one["outcome"] for one in answers], ["error"] * len(bad) + ["hit"])
         self.assertTrue(all("message" in one and "reason" not in one for one in answers[:-1]))
         # An identity that could be read is kept; a number too large ends the reading of a line in some libraries.
-        self.assertEqual([one["id"] for one in answers if one["id"] not in (None, "e")], ["a", "b", "c", "d", "f", "g", "good"])
+        self.assertEqual([one["id"] for one in answers if one["id"] not in (None, "e")], [*"abcdfghij", "good"])
 
     def test_bad_scenes(self):
         before, bad, after, good = self.answers('{"id":0,"x":[0,0],"v":[1,0]}', scene(FLAT), '{"id":1,"x":[0.5,0],"v":[1,0]}',

@@ -40,6 +40,8 @@ class Embree {
   }
 
   Found first(const Scene& scene, const Query& query) {
+    for (const double c : query.v)  // Debian's build ends the program (`ray.valid()`)
+      if (std::abs(c) > kLargest) throw Unsupported("Embree takes no direction beyond 1.844e18");
     Found found;
     for (std::size_t number = 0; number < blocks_.size(); ++number)
       fly(scene.lattices[number], static_cast<int>(number), query, found);
@@ -59,6 +61,7 @@ class Embree {
   }
 
  private:
+  static constexpr double kLargest = 1.844e18;  // FLT_LARGE in Embree's sources
   static constexpr int kMostBlocks = 5000;
   static constexpr std::size_t kCasts = 256;
 
