@@ -1,0 +1,29 @@
+// MuJoCo (in WebAssembly): mju_rayGeom with a sphere, which is what mj_ray does with each geom. Binary64; 2D
+// as the plane z = 0. The version is the one that the library says.
+// Formula: the discriminant b^2 - ac, which cancels far from the sphere; one below mjMINVAL = 1e-15, whatever
+// the units, is a miss; a start inside gets the exit.
+import initialize from "mujoco-js";
+import { walk } from "../walk.mjs";
+
+const mujoco = await initialize();
+const sphere = mujoco.mjtGeom.mjGEOM_SPHERE.value;
+const straight = [1, 0, 0, 0, 1, 0, 0, 0, 1];
+let centre, size;
+
+walk({
+  name: "MuJoCo",
+  version: mujoco.mj_versionString(),
+  precision: "binary64",
+  dimensions: [2, 3],
+  cells: 2000,
+  place(c, r) {
+    centre = c;
+    size = [r, 0, 0];
+  },
+  // MuJoCo has no such test.
+  inside: (p) => Math.hypot(p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]) < size[0],
+  enters(p, d) {
+    const f = mujoco.mju_rayGeom(centre, straight, size, p, d, sphere);
+    return f >= 0 && f <= 1 ? f : undefined;
+  },
+});

@@ -1,0 +1,28 @@
+// Rapier in 2D (its shapes are parry's, in WebAssembly): Ball.castRay, solid, which is what World.castRay
+// does with each ball that the ray may hit. Binary32.
+// Formula: the discriminant b^2 - ac, which cancels far from the ball; a start inside, and one that rounding
+// puts there, is hit at 0.
+import RAPIER from "@dimforge/rapier2d-compat";
+import { walk } from "../walk.mjs";
+
+await RAPIER.init();
+const of = (a) => ({ x: a[0], y: a[1] });
+const ball = new RAPIER.Ball(1);
+let centre;
+
+walk({
+  name: "Rapier 2D",
+  package: "@dimforge/rapier2d-compat",
+  precision: "binary32",
+  dimensions: [2],
+  cells: 2000,
+  place(c, r) {
+    ball.radius = r;
+    centre = of(c);
+  },
+  inside: (p) => ball.containsPoint(centre, 0, of(p)),
+  enters(p, d) {
+    const t = ball.castRay(new RAPIER.Ray(of(p), of(d)), centre, 0, 1, true);
+    return t >= 0 ? t : undefined;
+  },
+});
