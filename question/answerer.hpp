@@ -26,7 +26,7 @@ struct AnswererOptions {
   double timeout = kDefaultTimeout;  ///< seconds without an answer while some are due, of another program
   Listener listener = {};            ///< is told what became of another program
   bool strict = false;               ///< an answer with a key that no answer has is none
-  int jobs = 1;                      ///< threads, of the batch engines
+  int jobs = 1;                      ///< threads, of the batch engines and of a library
   /// Seconds for the first answer of all, if that is more than `timeout`. Later starts of the program then
   /// get, besides `timeout`, twice what the slowest of them took.
   double start_timeout = 0;
@@ -36,7 +36,7 @@ struct AnswererOptions {
 };
 
 inline constexpr const char* kTimeoutHelp =
-    "how long a cmd: engine may be silent while it owes answers (default: 60)";
+    "how long a cmd: or lib: engine may be silent while it owes answers (default: 60)";
 
 /// Whose an answer is. Another program's faults, and the queries that it was not asked, get an `error` from us,
 /// which tells what it did instead.
@@ -82,6 +82,9 @@ class Answerer {
 
   /// How many queries it likes to be asked at least before the replies are waited for.
   virtual std::uint64_t batch_size() const { return 1; }
+
+  /// Seconds that its own calls took so far, without the ways there and back; nothing if it cannot tell.
+  virtual std::optional<double> own_seconds() const { return {}; }
 
   /// An invalid query, as a line without its braces and id: another program gets it as it is; for an
   /// engine of ours the reader answers, `error`.
