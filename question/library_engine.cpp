@@ -94,6 +94,11 @@ HostPatience LibraryEngine::patience() const {
   return {seconds, options_.enough};
 }
 
+// A machine that is busy is no fault of the library.
+HostPatience LibraryEngine::loading_patience() const {
+  return {std::max(patience().seconds, AnswererOptions::kDefaultTimeout), options_.enough};
+}
+
 // ---- one block
 
 void LibraryEngine::answer_some() {
@@ -126,7 +131,8 @@ bool LibraryEngine::get_ready() {
     process_.emplace(file_);
     is_prepared_ = false;
     is_fresh_ = true;
-    if (!is_ready(process_->load(patience()), HostReport::Kind::loaded, "while it was loaded")) return false;
+    if (!is_ready(process_->load(loading_patience()), HostReport::Kind::loaded, "while it was loaded"))
+      return false;
   }
   if (is_prepared_) return true;
   const HostReply reply = process_->prepare(scene(), options_.jobs, patience());

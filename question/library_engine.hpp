@@ -45,6 +45,7 @@ class LibraryEngine final : public Answerer {
   void enter(const Scene& scene) override;
   bool is_enough() const { return options_.enough && options_.enough(); }
   HostPatience patience() const;
+  HostPatience loading_patience() const;
 
   void answer_some();
   bool get_ready();
