@@ -265,6 +265,16 @@ TEST_CASE("A library that fails after its last row, or now and then, loses no an
   CHECK(often.status == 3);
   CHECK(often.out == all_but(-1, "", 100));
   CHECK(contains(often.err, "died (exit 6) where it was asked more than this query, and answers it alone"));
+  // Even where it was asked one at a time.
+  const Odd odd("dies-after-calls 1");
+  const auto engine = lorentz::question::engine_named(kOdd).answerer({});
+  engine->set_scene(lorentz::unit_scene(2, 0.25));
+  for (int i = 0; i < 3; ++i) {
+    const std::vector<Reply> replies = replies_of(*engine, {3});
+    REQUIRE(replies.size() == 1);
+    CHECK(replies[0].answer.outcome == Outcome::hit);
+  }
+  CHECK(engine->failed());
 }
 
 TEST_CASE("A library that fails again and again is given up, until the next scene",
