@@ -114,7 +114,7 @@ void LibraryEngine::answer_some() {
   const auto start = std::chrono::steady_clock::now();
   const HostReply reply = process_->answer(rows, patience());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  if (reply.how == HostReply::How::enough) return abandon();
+  if (reply.fate == HostReply::Fate::enough) return abandon();
   const bool is_answered = reply.is(HostReport::Kind::answered);
   seconds_ += is_answered ? reply.report.seconds : took.count();
   if (!is_answered) return failed_on(rows, reply.text);
@@ -147,9 +147,9 @@ bool LibraryEngine::get_ready() {
 
 bool LibraryEngine::is_ready(const HostReply& reply, HostReport::Kind kind, const char* meanwhile) {
   if (reply.is(kind)) return true;
-  if (reply.how == HostReply::How::enough)
+  if (reply.fate == HostReply::Fate::enough)
     abandon();
-  else if (reply.how == HostReply::How::failed)
+  else if (reply.fate == HostReply::Fate::failed)
     blame_first(fmt::format("{} {}", reply.text, meanwhile));
   else
     blame_first(printable(reply.text));

@@ -180,12 +180,12 @@ HostReply LibraryProcess::exchange(const std::string& order, std::size_t rows, c
       if (count && *count > 0) last_move = Clock::now();
     }
     if (take_report(reply)) return reply;
-    if (patience.enough && patience.enough()) return {HostReply::How::enough};
+    if (patience.enough && patience.enough()) return {HostReply::Fate::enough};
     const std::size_t by_now = answered_in_order(rows);
     if (by_now > answered) last_move = Clock::now();
     answered = by_now;
     if (std::chrono::duration<double>(Clock::now() - last_move).count() < patience.seconds) continue;
-    return {HostReply::How::failed, {}, fmt::format("gave no answer within {:.4g} s", patience.seconds)};
+    return {HostReply::Fate::failed, {}, fmt::format("gave no answer within {:.4g} s", patience.seconds)};
   }
 }
 
@@ -197,7 +197,7 @@ bool LibraryProcess::take_report(HostReply& reply) {
     received_.append(piece, static_cast<std::size_t>(count));
   const bool at_end = count == 0;
   if (take_whole_report(reply)) return true;
-  if (at_end) reply = {HostReply::How::failed, {}, died(process_.end(kTimeToEnd))};
+  if (at_end) reply = {HostReply::Fate::failed, {}, died(process_.end(kTimeToEnd))};
   return at_end;
 }
 
@@ -207,7 +207,7 @@ bool LibraryProcess::take_whole_report(HostReply& reply) {
   std::memcpy(&report, received_.data(), sizeof report);
   const auto size = static_cast<std::size_t>(report.text_size);
   if (received_.size() - sizeof report < size) return false;
-  reply = {HostReply::How::reported, report, received_.substr(sizeof report, size)};
+  reply = {HostReply::Fate::reported, report, received_.substr(sizeof report, size)};
   received_.clear();
   return true;
 }
@@ -223,7 +223,7 @@ std::string claim_line_of_library(const std::string& file) {
     throw FileError(name + ": there is no such file; lib: is followed by the path of a shared library");
   LibraryProcess process(file);
   HostReply reply = process.load({AnswererOptions::kDefaultTimeout, {}});
-  if (reply.how == HostReply::How::failed)
+  if (reply.fate == HostReply::Fate::failed)
     throw FileError(
         fmt::format("{}: {} while it was loaded; mend what it does before its first call", name, reply.text));
   if (!reply.is(HostReport::Kind::loaded))

@@ -14,16 +14,16 @@ namespace lorentz::question {
 
 /// What came of an order to the process.
 struct HostReply {
-  enum class How {
+  enum class Fate {
     reported,  ///< as `report` and `text` say
     failed,    ///< it died, or was silent too long; `text` says how: "died (exit 3)"
     enough     ///< it was not waited for to the end
   };
-  How how = How::reported;
+  Fate fate = Fate::reported;
   HostReport report{};
   std::string text = {};
 
-  bool is(HostReport::Kind kind) const { return how == How::reported && report.kind == kind; }
+  bool is(HostReport::Kind kind) const { return fate == Fate::reported && report.kind == kind; }
 };
 
 /// How long one waits for a reply.

@@ -14,7 +14,7 @@ namespace {
 using Questions = std::span<const Question>;
 using SteadyClock = std::chrono::steady_clock;
 constexpr std::size_t kBlock = 16;
-constexpr double kEnoughSeconds = 10;    // no further rounds after that, nor blocks of a round
+constexpr double kEnoughSeconds = 10;  // no further rounds after that, nor blocks of a round
 
 struct Round {
   double total_ns = 0;

@@ -21,9 +21,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // The two pipes, out of the library's way.
-class Line {
+class ParentPipes {
  public:
-  Line() : in_(fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 10)), out_(fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 10)) {
+  ParentPipes()
+      : in_(fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 10)), out_(fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 10)) {
     const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
     dup2(nothing, STDIN_FILENO);
     dup2(STDERR_FILENO, STDOUT_FILENO);
@@ -93,9 +94,9 @@ std::string load(const std::string& file, Library& library) {
 // A scene's arrays, which the library sees until it released what it prepared.
 class HostScene {
  public:
-  bool read(const Line& line, std::int64_t size) {
+  bool read(const ParentPipes& parent, std::int64_t size) {
     bytes_.resize(static_cast<std::size_t>(size));
-    if (!line.read(bytes_.data(), bytes_.size())) return false;
+    if (!parent.read(bytes_.data(), bytes_.size())) return false;
     next_ = 0;
     std::int32_t head[4];
     take(head, 4);
@@ -137,19 +138,21 @@ class HostScene {
 
 class Host {
  public:
-  Host(const Line& line, const Library& library, const SharedQueries& queries, SharedAnswers& answers)
-      : line_(line), library_(library), asked_(queries), told_(answers) {}
+  Host(const ParentPipes& parent, const Library& library, const SharedQueries& queries,
+       SharedAnswers& answers)
+      : parent_(parent), library_(library), asked_(queries), told_(answers) {}
   ~Host() { release(); }
   Host(const Host&) = delete;
   Host& operator=(const Host&) = delete;
 
   bool prepare(std::int64_t size) {
     release();
-    if (!scene_.read(line_, size)) return false;
+    if (!scene_.read(parent_, size)) return false;
     const char* why = nullptr;
     engine_ = library_.prepare(&scene_.scene, scene_.threads, &why);
     const bool done = engine_ != nullptr;
-    line_.report(done ? HostReport::Kind::prepared : HostReport::Kind::unsupported, !done && why ? why : "");
+    parent_.report(done ? HostReport::Kind::prepared : HostReport::Kind::unsupported,
+                   !done && why ? why : "");
     return true;
   }
 
@@ -166,7 +169,8 @@ class Host {
     }
     const auto start = Clock::now();
     library_.answer(engine_, &queries, &answers);
-    line_.report(HostReport::Kind::answered, {}, std::chrono::duration<double>(Clock::now() - start).count());
+    parent_.report(HostReport::Kind::answered, {},
+                   std::chrono::duration<double>(Clock::now() - start).count());
   }
 
  private:
@@ -175,7 +179,7 @@ class Host {
     engine_ = nullptr;
   }
 
-  const Line& line_;
+  const ParentPipes& parent_;
   const Library& library_;
   const SharedQueries& asked_;
   SharedAnswers& told_;
@@ -184,26 +188,26 @@ class Host {
 };
 
 int run(const std::string& file) {
-  const Line line;
+  const ParentPipes parent;
   void* const queries = mmap(nullptr, sizeof(SharedQueries), PROT_READ, MAP_SHARED, kSharedMemory, 0);
   void* const answers = mmap(nullptr, sizeof(SharedAnswers), PROT_READ | PROT_WRITE, MAP_SHARED,
                              kSharedMemory, sizeof(SharedQueries));
   close(kSharedMemory);
   if (queries == MAP_FAILED || answers == MAP_FAILED) {
-    line.report(HostReport::Kind::not_loaded, "found no memory for its answers");
+    parent.report(HostReport::Kind::not_loaded, "found no memory for its answers");
     return EXIT_FAILURE;
   }
   Library library;
   const std::string obstacle = load(file, library);
   if (!obstacle.empty()) {
-    line.report(HostReport::Kind::not_loaded, obstacle);
+    parent.report(HostReport::Kind::not_loaded, obstacle);
     return EXIT_FAILURE;
   }
   const char* const claim = library.claim ? library.claim() : nullptr;
-  line.report(HostReport::Kind::loaded, claim ? claim : "");
-  Host host(line, library, *static_cast<const SharedQueries*>(queries),
+  parent.report(HostReport::Kind::loaded, claim ? claim : "");
+  Host host(parent, library, *static_cast<const SharedQueries*>(queries),
             *static_cast<SharedAnswers*>(answers));
-  for (HostOrder order{}; line.read(&order, sizeof order);)
+  for (HostOrder order{}; parent.read(&order, sizeof order);)
     if (order.kind == HostOrder::Kind::queries)
       host.answer(order.size);
     else if (!host.prepare(order.size))
