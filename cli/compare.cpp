@@ -373,7 +373,9 @@ Command compare_command() {
       "right obstacle,\n"
       "but the time is off by more than k times what such errors make of it (docs/verdicts.md).\n"
       "Errors of t are in ulps from the correctly rounded time. Times are of the engine alone, on one "
-      "thread, over the\nfirst 10 000 queries; of a cmd: engine by the wall, pipes included;"
+      "thread, over the\nfirst 10 000 queries; of a cmd: engine by the wall, pipes included; of a lib: "
+      "engine in "
+      "its own calls."
       "\nExample:\n  lorentz compare --scene cubic --radius 0.2 --count 20000 --engine published,classical",
       [options] { return act(*options); }};
 }

@@ -97,16 +97,17 @@ oracle::Request request_of(const FirstHitOptions& options, const EngineInfo& eng
 int jobs_of(const FirstHitOptions& options, const EngineInfo& engine) {
   if (!options.jobs) return 1;
   const auto jobs = static_cast<int>(*options.jobs);
-  if (!engine.traits.in_bulk)
-    throw InputError("--jobs: only the engines batch and certified-batch use more than one thread");
+  if (!engine.traits.in_bulk && engine.kind != EngineInfo::Kind::library)
+    throw InputError(
+        "--jobs: only the engines batch and certified-batch, and libraries, use more than one thread");
   return jobs;
 }
 
 int act_on_columns(const FirstHitOptions& options, ColumnOrder::Format format) {
   const EngineInfo engine = engine_named(options.engine);
   const std::string option = "--format " + options.format;
-  if (engine.is_command())
-    throw InputError(option + ": not with cmd: engines, which read and write streams in JSON");
+  if (!engine.is_own())
+    throw InputError(option + ": not with cmd: engines and libraries; leave --format out");
   if (!options.scene) throw InputError(option + ": needs --scene, for columns hold no scene");
   if (options.digits || options.detail || options.prove)
     throw InputError((options.digits   ? "--digits"
@@ -218,7 +219,7 @@ Command first_hit_command() {
                "of queries and answers: ndjson (a stream), or columns of numbers: csv, npy (NumPy; "
                "docs/formats.md), which need --scene"},
               {"--jobs", Whole{&options->jobs, 1, 1024}, "N",
-               "threads, of batch and certified-batch: the same answers"},
+               "threads, of batch, certified-batch and a library: the same answers"},
               {"--strict", &options->strict, "", kStrictKeysHelp},
               {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
           },

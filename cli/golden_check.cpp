@@ -404,7 +404,7 @@ Command golden_check_command() {
               {"--markdown", &options->markdown, "", "a page of documentation: who fails what"},
           },
 
-          "Exit status 1: an answer is wrong or an error; 3: a cmd: engine broke.\n"
+          "Exit status 1: an answer is wrong or an error; 3: a cmd: or lib: engine broke.\n"
           "Example:\n  lorentz golden check --engine 'cmd:python3 examples/naive_engine.py' --first 64 "
           "generic-3d",
           [options] { return act(*options); }};

@@ -167,7 +167,7 @@ Command judge_command() {
           options->claim.precision_row(),
           options->claim.time_tolerance_row(),
           {"--timeout", Positive{&options->timeout}, "SECONDS",
-           "how long a cmd: engine may be silent while it owes answers (default: a tenth of the time "
+           "how long a cmd: or lib: engine may be silent while it owes answers (default: a tenth of the time "
            "in all, from 2 to 60; for its first answer 60)"},
           {"--html", &options->html, "FILE", "write the report there as a page, whole or not at all",
            kOutput},
@@ -183,7 +183,7 @@ Command judge_command() {
 
       "docs/judge.md says what is asked, and what the verdict means. Exit status 1: an answer is wrong, or "
       "an "
-      "error;\n3: a cmd: engine broke, or was given up somewhere.\n"
+      "error;\n3: a cmd: or lib: engine broke, or was given up somewhere.\n"
       "Example:\n  lorentz judge --quick --engine 'cmd:python3 examples/naive_engine.py'",
       [options] { return act(*options); }};
 }

@@ -57,7 +57,7 @@ Rival::Rival(const question::EngineInfo& engine, Precision precision, const Rati
              const Start& start)
     : scene_(oracle::nearest(scene)) {
   AskFirstHit ask;
-  if (engine.is_command()) {
+  if (engine.runs_apart()) {
     question::AnswererOptions options;
     options.listener = terminal();
     command_ = engine.answerer(options);

@@ -74,6 +74,9 @@ if(TARGET lorentz_certified_batch)
   lorentz_install_component(certified_batch)
   lorentz_install_pkg_config(certified_batch "lorentz-batch lorentz-oracle")
 endif()
+# For authors of `lib:` engines: plain C, by itself.
+install(FILES ${PROJECT_SOURCE_DIR}/include/lorentz/engine.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lorentz
+  COMPONENT development)
 if(TARGET lorentz)
   install(TARGETS lorentz RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/scenes ${PROJECT_SOURCE_DIR}/data/golden

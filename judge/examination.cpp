@@ -37,7 +37,7 @@ constexpr std::size_t kCompared = 500;
 
 Examination::Examination(const question::EngineInfo& engine, question::AnswererOptions options, double ulps,
                          const std::atomic<bool>& stop, const Claim& claim)
-    : ulps_(ulps), claim_(claim), stop_(stop), is_command_(engine.is_command()) {
+    : ulps_(ulps), claim_(claim), stop_(stop), runs_apart_(engine.runs_apart()) {
   options.enough = [this] { return is_enough(); };
   answerer_ = engine.answerer(options);
 }
@@ -49,7 +49,7 @@ void Examination::limit(double seconds) {
 Examination::Start Examination::warm_up() {
   constexpr int kTries = 3;
   constexpr double kFast = 0.05;  // seconds
-  if (!is_command_) return {};
+  if (!runs_apart_) return {};
   const auto place = std::make_shared<Place>(unit_scene(2, 0.25), question::Truth::oracle, claim_);
   const Query along{{0.5, 0, 0}, {1, 0, 0}, {}};
   const Question question{
@@ -60,7 +60,7 @@ Examination::Start Examination::warm_up() {
     if (!answerer_->failed()) continue;
     ExaminedRow row{"first question", "an empty place in the square lattice, before anything else"};
     if (replies_.empty())
-      replies_.push_back({Answer::error("cmd gave no answer while there was time"), Origin::fault});
+      replies_.push_back({Answer::error("the engine gave no answer while there was time"), Origin::fault});
     take(question, replies_[0], row);
     rows_.push_back(std::move(row));
     break;

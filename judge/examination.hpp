@@ -117,7 +117,7 @@ class Examination {
   std::optional<Clock::time_point> end_;
   std::function<void(const std::string&)> tell_;
   bool failed_ = false;  // of those that were taken over
-  const bool is_command_;
+  const bool runs_apart_;
   std::unique_ptr<question::Answerer> answerer_;
   std::vector<Reply> replies_;
   std::string last_fault_, last_words_;  // last_words_: while the last questions were asked

@@ -195,7 +195,7 @@ void recheck_all(std::vector<Finding>& findings, const Terms& terms, double seco
 // The simplest case of each.
 void simplify(std::vector<Finding>& findings, Examination& examination, const Terms& terms, double seconds,
               double first_answer) {
-  if (!terms.engine.is_command()) return find_simplest(findings, examination, seconds);
+  if (!terms.engine.runs_apart()) return find_simplest(findings, examination, seconds);
   find_simplest(findings, examination, seconds / 2);
   recheck_all(findings, terms, seconds / 2, first_answer);
 }
@@ -248,7 +248,7 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
   const std::vector<question::Speed> speeds =
       question::race(questions_to_race_in(chosen, report.seed, count),
                      {report.engine, question::engine_named("reduction")}, options);
-  const bool is_cut = report.engine.is_command() && options.enough();
+  const bool is_cut = report.engine.runs_apart() && options.enough();
   if (speeds[0].failed || is_cut) return;
   report.ns_per_query = speeds[0].ns_per_query;
   report.ns_of_reduction = speeds[1].ns_per_query;

@@ -27,7 +27,7 @@ struct AnswererOptions {
   double timeout = kDefaultTimeout;  ///< seconds without an answer while some are due, of another program
   Listener listener = {};            ///< is told what became of another program
   bool strict = false;               ///< an answer with a key that no answer has is none
-  int jobs = 1;                      ///< threads, of the batch engines
+  int jobs = 1;                      ///< threads, of the batch engines and of a library
   /// Seconds for the first answer of all, if that is more than `timeout`. Later starts of the program then
   /// get, besides `timeout`, twice what the slowest of them took.
   double start_timeout = 0;
@@ -37,7 +37,7 @@ struct AnswererOptions {
 };
 
 inline constexpr const char* kTimeoutHelp =
-    "how long a cmd: engine may be silent while it owes answers (default: 60)";
+    "how long a cmd: or lib: engine may be silent while it owes answers (default: 60)";
 
 /// Whose an answer is. Another program's faults, and the queries that it was not asked, get an `error` from us,
 /// which tells what it did instead.
@@ -111,7 +111,8 @@ class Answerer {
   /// True if it broke so often that it is no longer asked about this scene.
   virtual bool given_up() const { return false; }
 
-  /// The time of its own calls so far, if it tells: another program does at its end.
+  /// The time of its own calls so far, without the ways there and back, if it tells: a library at any time, another
+  /// program at its end.
   virtual std::optional<OwnTime> own_time() const { return {}; }
 
   /// True if it was given up and never answered anything: it is not asked about other scenes either.

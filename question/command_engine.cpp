@@ -22,8 +22,7 @@ constexpr std::size_t kAskedBetweenSteps = 256;    // a step costs some microsec
 constexpr double kPatience = 0.5;                  // seconds
 constexpr double kBetweenLooks = 0.1;              // seconds: whether it is enough
 constexpr std::chrono::milliseconds kGrace{1000};  // to end in, once it is told to or has closed its output
-constexpr std::size_t kMaxComplaints = 20, kRecent = 64;
-constexpr std::size_t kMaxShown = 2000;  // bytes of a scene line in a message
+constexpr std::size_t kRecent = 64;
 
 }  // namespace
 
@@ -54,6 +53,7 @@ struct CommandEngine::Run {
 CommandEngine::CommandEngine(std::string command, const AnswererOptions& options)
     : command_(std::move(command)),
       options_(options),
+      complaints_("cmd:" + command_, options.listener),
       patience_(std::min(kPatience, options.timeout / 4)),
       first_patience_(patience_) {
   reader_.on_unknown_key([this](const std::string& key) { see_unknown_key(key); });
@@ -93,7 +93,7 @@ void CommandEngine::drain() {
 
 void CommandEngine::finish() {
   while (run_ || !open_.empty()) step(Wait::for_good);
-  if (complaints_ > kMaxComplaints) tell(fmt::format("{} more failures", complaints_ - kMaxComplaints));
+  complaints_.finish();
 }
 
 bool CommandEngine::idle(int descriptor) {
@@ -506,22 +506,16 @@ void CommandEngine::try_again() {
 }
 
 void CommandEngine::tell(const std::string& what) const {
-  if (options_.listener.message) options_.listener.message("cmd:" + command_ + ": " + what);
+  complaints_.tell(what);
 }
 
 // Says what went wrong, with a stream that shows it again.
 void CommandEngine::complain(const std::string& what, const OpenQuery* asked) {
   failed_ = true;
-  if (++complaints_ > kMaxComplaints) return;
-  std::string stream;
-  if (asked) {
-    if (complained_scene_ != asked->scene) append_scene_line(stream, *asked->scene);
-    if (stream.size() > kMaxShown) stream = shortened(stream, kMaxShown) + '\n';
-    complained_scene_ = asked->scene;
-    append_line(stream, asked->id, *asked);
-    stream.pop_back();
-  }
-  tell(fmt::format("{}{}{}", what, asked ? ":\n" : "", stream));
+  if (!asked) return complaints_.add(what);
+  std::string line;
+  append_line(line, asked->id, *asked);
+  complaints_.add(what, *asked->scene, line);
 }
 
 }  // namespace lorentz::question

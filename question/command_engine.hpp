@@ -13,6 +13,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "question/answerer.hpp"
+#include "question/engine_complaints.hpp"
 #include "question/process.hpp"
 
 namespace lorentz::question {
@@ -119,6 +120,7 @@ class CommandEngine final : public Answerer {
 
   std::string command_;
   AnswererOptions options_;
+  EngineComplaints complaints_;
   ExchangeReader reader_;
   std::shared_ptr<const Scene> scene_;
   std::deque<OpenQuery> open_;      // without an answer, in order
@@ -140,8 +142,6 @@ class CommandEngine final : public Answerer {
   std::shared_ptr<const Scene> given_up_in_;  // or null: it is not given up
 
   std::set<std::string> unknown_keys_;  // that were told of
-  std::size_t complaints_ = 0;
-  std::shared_ptr<const Scene> complained_scene_;  // printed with an earlier complaint
 };
 
 }  // namespace lorentz::question

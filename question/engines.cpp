@@ -14,6 +14,7 @@
 #include <lorentz/walk.hpp>
 #include "question/batch_answerer.hpp"
 #include "question/command_engine.hpp"
+#include "question/library_engine.hpp"
 #include "question/precisions/precisions.hpp"
 #include "src/exchange/nearest_name.hpp"
 
@@ -30,7 +31,11 @@ void add_detail(const Query& query, const Scene& scene, Answer& answer) {
 
 namespace {
 
-constexpr std::string_view kCommand = "cmd:";
+constexpr std::string_view kCommand = "cmd:", kLibrary = "lib:";
+
+bool is_somebody_elses(std::string_view name) {
+  return name.starts_with(kCommand) || name.starts_with(kLibrary);
+}
 
 double limit_of(const oracle::Request& request) {
   return request.max_time.value_or(std::numeric_limits<double>::infinity());
@@ -137,8 +142,9 @@ std::vector<std::string> own_names() {
 }
 
 std::string names_for_help() {
-  return fmt::format("{}, cmd:COMMAND (another program, docs/command_engines.md)",
-                     fmt::join(own_names(), ", "));
+  return fmt::format(
+      "{}, cmd:COMMAND (another program), lib:FILE.so (a shared library); docs/command_engines.md",
+      fmt::join(own_names(), ", "));
 }
 
 const EngineInfo* own_engine(std::string_view name) {
@@ -147,14 +153,19 @@ const EngineInfo* own_engine(std::string_view name) {
   return nullptr;
 }
 
-EngineInfo engine_named(const std::string& name) {
-  if (const EngineInfo* own = own_engine(name)) return *own;
-  if (!name.starts_with(kCommand)) {
-    const std::vector<std::string> names = own_names();
-    throw InputError(
-        fmt::format("no engine is called {}{}; there are {}, and cmd:COMMAND for another program",
-                    json_quoted(name), did_you_mean(name, names), fmt::join(names, ", ")));
+namespace {
+
+// Whose introduction is bad is said in front.
+template <class Read>
+std::optional<Introduction> read_of(const std::string& name, const Read& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    throw InputError(name + " says of itself: " + error.what());
   }
+}
+
+EngineInfo command_named(const std::string& name) {
   const std::string command = name.substr(kCommand.size());
   if (command.find_first_not_of(" \t\n") == std::string::npos)
     throw InputError("cmd: is no engine yet; it is followed by the command that runs one");
@@ -163,20 +174,41 @@ EngineInfo engine_named(const std::string& name) {
     return std::make_unique<CommandEngine>(command, options);
   };
   engine.introduce = [name, command] {
-    try {
-      return introduction_of_command(command);
-    } catch (const InputError& error) {
-      throw InputError(name + " says of itself: " + error.what());
-    }
+    return read_of(name, [&] { return introduction_of_command(command); });
   };
   return engine;
+}
+
+EngineInfo library_named(const std::string& name) {
+  const std::string file = name.substr(kLibrary.size());
+  if (file.empty()) throw InputError("lib: is no engine yet; it is followed by the path of a shared library");
+  const std::string claim = claim_line_of_library(file);  // and it can be loaded
+  EngineInfo engine{name, {}, EngineInfo::Kind::library};
+  engine.answerer = [file](const AnswererOptions& options) {
+    return std::make_unique<LibraryEngine>(file, options);
+  };
+  engine.introduce = [name, claim] { return read_of(name, [&] { return introduction_in(claim); }); };
+  return engine;
+}
+
+}  // namespace
+
+EngineInfo engine_named(const std::string& name) {
+  if (const EngineInfo* own = own_engine(name)) return *own;
+  if (name.starts_with(kCommand)) return command_named(name);
+  if (name.starts_with(kLibrary)) return library_named(name);
+  const std::vector<std::string> names = own_names();
+  throw InputError(
+      fmt::format("no engine is called {}{}; there are {}, cmd:COMMAND for another program, and lib:FILE.so "
+                  "for a library",
+                  json_quoted(name), did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 std::vector<std::string> names_in(const std::vector<std::string>& arguments) {
   std::vector<std::string> names;
   for (const std::string& argument : arguments)
     for (std::size_t begin = 0; begin <= argument.size();) {
-      const bool whole = argument.compare(begin, kCommand.size(), kCommand) == 0;
+      const bool whole = is_somebody_elses(std::string_view(argument).substr(begin));
       const std::size_t end = whole ? argument.size() : std::min(argument.find(',', begin), argument.size());
       names.push_back(argument.substr(begin, end - begin));
       begin = end + 1;
@@ -198,7 +230,7 @@ std::vector<std::string> names_of(const std::vector<EngineInfo>& engines) {
 
 EngineInfo guest_engine(std::string name,
                         std::function<std::unique_ptr<Answerer>(const AnswererOptions&)> make) {
-  if (own_engine(name) || name.starts_with(kCommand))
+  if (own_engine(name) || is_somebody_elses(name))
     throw InputError("an engine called " + json_quoted(name) + " is there already");
   return {std::move(name), {.in_bulk = true}, EngineInfo::Kind::guest, {}, std::move(make)};
 }

@@ -35,10 +35,11 @@ struct EngineInfo {
   enum class Kind {
     own,      ///< of this program
     command,  ///< `cmd:COMMAND`: another program, which reads a query stream and writes an answer stream
+    library,  ///< `lib:FILE.so`: a shared library with the interface of <lorentz/engine.h>
     guest     ///< a function of the caller's
   };
   std::string name;
-  Traits traits = {};  ///< all false of a command; of a guest only in_bulk is true
+  Traits traits = {};  ///< all false of a command and a library; of a guest only in_bulk is true
   Kind kind = Kind::own;
   /// One at a time, for a scene without flaws; a batch engine is the engine of single flights that it agrees
   /// with. Empty but for `own`: others would be slow that way.
@@ -51,23 +52,26 @@ struct EngineInfo {
 
   bool is_own() const { return kind == Kind::own; }
   bool is_command() const { return kind == Kind::command; }
+  /// In a process of its own, which takes time to start, and may die or hang.
+  bool runs_apart() const { return kind == Kind::command || kind == Kind::library; }
 };
 
 /// The table of this program's engines.
 const std::vector<EngineInfo>& own_engines();
 
-/// Their names; and the same for help texts, with `cmd:COMMAND`.
+/// Their names; and the same for help texts, with `cmd:COMMAND` and `lib:FILE.so`.
 std::vector<std::string> own_names();
 std::string names_for_help();
 
 /// The one with this name, or null.
 const EngineInfo* own_engine(std::string_view name);
 
-/// An engine of this program, or a command. Throws InputError for an unknown name, or a command that is empty.
+/// An engine of this program, a command, or a library. Throws InputError for an unknown name, or a command that is
+/// empty; FileError for a library that cannot be loaded.
 EngineInfo engine_named(const std::string& name);
 
-/// The engines in arguments like `reduction,published`. A command may contain commas: from `cmd:` on an argument is
-/// taken whole. Throws InputError.
+/// The engines in arguments like `reduction,published`. A command and a file may contain commas: from `cmd:` or `lib:`
+/// on an argument is taken whole. Throws as engine_named.
 std::vector<EngineInfo> engines_named(const std::vector<std::string>& arguments);
 
 /// Their names.

@@ -168,9 +168,11 @@ struct Undisturbed {
   ~Undisturbed() { pthread_sigmask(SIG_SETMASK, &before, nullptr); }
 };
 
+constexpr int kInherited = 3;
+
 // The new program has the signal mask `mask`.
-int spawn_shell(const std::string& command, const Pipe& in, const Pipe& out, const Pipe& errors,
-                const sigset_t& mask, pid_t& pid) {
+int spawn(const Executable& program, const Pipe& in, const Pipe& out, const Pipe& errors,
+          const sigset_t& mask, pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_init(&actions);
@@ -178,13 +180,15 @@ int spawn_shell(const std::string& command, const Pipe& in, const Pipe& out, con
   posix_spawn_file_actions_adddup2(&actions, in.to_read, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, out.to_write, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, errors.to_write, STDERR_FILENO);
+  if (program.inherited >= 0) posix_spawn_file_actions_adddup2(&actions, program.inherited, kInherited);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
   posix_spawnattr_setsigmask(&attributes, &mask);
   posix_spawnattr_setpgroup(&attributes, 0);
-  std::string text = command;
-  char shell[] = "sh", option[] = "-c";
-  char* arguments[] = {shell, option, text.data(), nullptr};
-  const int error = posix_spawn(&pid, "/bin/sh", &actions, &attributes, arguments, environ);
+  std::vector<std::string> words = program.arguments;
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const int error = posix_spawn(&pid, program.file.c_str(), &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   return error;
@@ -192,14 +196,17 @@ int spawn_shell(const std::string& command, const Pipe& in, const Pipe& out, con
 
 }  // namespace
 
-Process::Process(const std::string& command) {
+Process::Process(const std::string& command)
+    : Process(Executable{"cmd:" + command, "/bin/sh", {"sh", "-c", command}}) {}
+
+Process::Process(const Executable& program) {
   handle_signals_once();
   Pipe in, out, errors;
   const Undisturbed undisturbed;
   const int error = in.is_open() && out.is_open() && errors.is_open()
-                        ? spawn_shell(command, in, out, errors, undisturbed.before, pid_)
+                        ? spawn(program, in, out, errors, undisturbed.before, pid_)
                         : errno;
-  if (error != 0) throw FileError("cmd:" + command + ": cannot be started: " + std::strerror(error));
+  if (error != 0) throw FileError(program.name + ": cannot be started: " + std::strerror(error));
   replace_group(0, pid_);
   std::swap(input_, in.to_write);
   std::swap(output_, out.to_read);

@@ -1,4 +1,4 @@
-// Another program, run by the shell at the end of two pipes.
+// Another program at the end of two pipes.
 #pragma once
 
 #include <sys/types.h>
@@ -46,13 +46,24 @@ struct Ending {
   std::string text() const;  ///< "exit 3", "exit 139, signal 11, Segmentation fault", "still running"
 };
 
-/// A program that `/bin/sh -c` runs in a process group of its own, with pipes to its standard input and from
-/// its standard output and error; what it writes to the latter is passed on to ours. The group is killed when
-/// this object goes, and when one of the common signals ends this program.
+/// A program to be run.
+struct Executable {
+  std::string name;  ///< in messages
+  std::string file;
+  std::vector<std::string> arguments;  ///< the first is the name that it sees
+  int inherited = -1;                  ///< a descriptor that is its number 3; -1: it has none
+};
+
+/// A program that runs in a process group of its own, with pipes to its standard input and from its standard
+/// output and error; what it writes to the latter is passed on to ours. The group is killed when this object goes,
+/// and when one of the common signals ends this program.
 class Process {
  public:
-  /// Throws FileError if there can be no process. (That the command exists is for the shell to find out.)
+  /// By `/bin/sh -c`. Throws FileError if there can be no process. (That the command exists is for the shell to
+  /// find out.)
   explicit Process(const std::string& command);
+  /// Throws FileError if it cannot be started.
+  explicit Process(const Executable& program);
   ~Process();
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;

@@ -19,8 +19,9 @@ struct RaceOptions {
   std::vector<Answerer*> running = {};
 };
 
-/// The engines' speeds, on one thread. A round of an engine ends after ten seconds. Another program is timed by the wall, pipes and all, from the first query
-/// to the last answer; where it broke it is not run again.
+/// The engines' speeds, on one thread. A round of an engine ends after ten seconds. Another program is timed by the wall,
+/// pipes and all, from the first query to the last answer; a library by its own calls. Where it broke it is not run
+/// again.
 std::vector<Speed> race(std::span<const Question> questions, const std::vector<EngineInfo>& engines,
                         const RaceOptions& options = {});
 

@@ -26,8 +26,8 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
     """All that can be said of one engine: what it gets wrong, why, and how fast it is (docs/judge.md).
 
     Args:
-        engine: the name of an engine, ``"cmd:COMMAND"`` for another program, or a function
-            ``f(scene, x, v, start_from)`` of a `Scene`, a place and a velocity of shape (d,), and the obstacle
+        engine: the name of an engine, ``"cmd:COMMAND"`` for another program, ``"lib:FILE.so"`` for a shared
+            library (docs/command_engines.md), or a function ``f(scene, x, v, start_from)`` of a `Scene`, a place and a velocity of shape (d,), and the obstacle
             (lattice, atom, cell) that the particle leaves, or None. It returns an `Answer`: `hit`, `never`,
             `inside`, `undecided`, `unsupported`; or arrays of one row, as below. An exception is an error of
             the engine, and so counted.

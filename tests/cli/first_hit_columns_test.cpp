@@ -328,7 +328,7 @@ TEST_CASE("Columns: what the options ask for, and files that are none", "[cli][c
   says("--format csv " + csv, 2, "--format csv: needs --scene");
   says("--format csv --scene square --digits 20 " + csv, 2, "--digits: only streams in JSON");
   says("--format npy --scene square --detail " + npy, 2, "--detail: only streams in JSON");
-  says("--format npy --scene square -e cmd:true " + npy, 2, "not with cmd: engines");
+  says("--format npy --scene square -e cmd:true " + npy, 2, "not with cmd: engines and libraries");
   says("--format npy --scene square -e nobody " + npy, 2, "no engine is called");
   says("--format csv --scene square --jobs 2 " + csv, 2, "--jobs: only the engines batch and");
   says("--format csv --scene square -e batch --jobs 0 " + csv, 2, "--jobs: \"0\" is no whole number");

@@ -31,6 +31,11 @@ prints("cell \\(27, 1\\) at 26.95085432627853")
 run(${SCRATCH}/consumer/all_headers)
 run(${prefix}/bin/lorentz scene list)
 prints("cubic")
+# A library of an author's, by the installed header alone.
+run(${COMPILER} -x c -std=c99 -Wall -Wextra -Wpedantic -Werror -O1 -shared -fPIC -I ${prefix}/include
+  ${SOURCE}/examples/library_engine.c -o ${SCRATCH}/mine.so -lm)
+run(${prefix}/bin/lorentz compare --scene cubic --count 20 --engine lib:${SCRATCH}/mine.so)
+prints("no wrong answer in 20")
 foreach(page man/man1/lorentz.1 man/man1/lorentz-scene-draw.1 bash-completion/completions/lorentz
     zsh/vendor-completions/_lorentz)
   if(NOT EXISTS ${prefix}/share/${page})

@@ -1,0 +1,86 @@
+// `lib:FILE.so`: a shared library as an engine, asked by columns in a process of its own; docs/command_engines.md.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "question/answerer.hpp"
+#include "question/engine_complaints.hpp"
+#include "question/library_process.hpp"
+
+namespace lorentz::question {
+
+/// Queries are gathered and asked in blocks, small ones first. Every query gets one answer, in order: where the library
+/// gave none, an `error` that says what it did instead.
+///
+/// A library that dies or falls silent is loaded anew. The query at fault is the one that it fails on alone, as the
+/// first after it was loaded. The first row that it had not answered is tried so, after those before it.
+class LibraryEngine final : public Answerer {
+ public:
+  /// Failures without an answer in between after which it is given up.
+  static constexpr int kMostFailuresInRow = 5;
+
+  LibraryEngine(std::string file, const AnswererOptions& options);
+
+  void ask(const Id& id, const Query& query) override;
+  void ask_text(const Id& id, const std::string& question) override;
+  void drain() override;
+  void finish() override;
+  bool idle(int descriptor) override;
+  bool failed() const override { return failed_; }
+  bool given_up() const override { return given_up_; }
+  bool is_hopeless() const override { return given_up_ && !ever_answered_; }
+  void try_again() override;
+  std::uint64_t batch_size() const override { return 256; }
+  std::optional<OwnTime> own_time() const override { return own_time_; }
+
+ private:
+  struct Waiting {
+    Id id;
+    Query query;
+  };
+
+  void enter(const Scene& scene) override;
+  bool is_enough() const { return options_.enough && options_.enough(); }
+  HostPatience patience() const;
+  HostPatience loading_patience() const;
+
+  void answer_some();
+  bool get_ready();
+  bool is_ready(const HostReply& reply, HostReport::Kind kind, const char* meanwhile);
+  std::size_t next_block();
+  void write_row(std::size_t row, const Query& query);
+  void take_answers(std::size_t rows);
+  std::string read_row(std::size_t row, Answer& answer) const;
+  std::string read_obstacle(std::size_t row, ObstacleId& obstacle) const;
+
+  void failed_on(std::size_t rows, const std::string& what);
+  void ask_again_in_halves(std::size_t rows);
+  void blame_first(const std::string& what);
+  void give_up_all();
+  void abandon();
+  void complain(const std::string& what);
+  void deliver_first(Answer answer, Origin origin);
+
+  const std::string file_;
+  const AnswererOptions options_;
+  EngineComplaints complaints_;
+  std::deque<Waiting> waiting_;  // without an answer, in order
+  std::uint64_t delivered_ = 0;
+
+  std::optional<LibraryProcess> process_;
+  bool is_prepared_ = false;            // the process, for the scene
+  bool is_fresh_ = false;               // it was asked nothing yet
+  std::optional<std::string> why_not_;  // the scene is not supported
+
+  std::size_t block_;                     // rows of the next
+  std::optional<std::uint64_t> suspect_;  // the query with this number is asked alone
+  std::string suspicion_;                 // what happened where it was not alone
+  int failures_in_row_ = 0;
+  bool failed_ = false, ever_answered_ = false, given_up_ = false;
+  OwnTime own_time_;
+};
+
+}  // namespace lorentz::question
