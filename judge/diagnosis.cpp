@@ -141,12 +141,12 @@ std::optional<double> radii_off(const Question& question, const Answer& given) {
          std::hypot(v[0], v[1], v[2]);
 }
 
-Group Diagnosis::group() const {
-  if (severity == Severity::ill_posed) return Group::rounding;
-  if (cause == Cause::no_answer) return Group::ended;
+Blame Diagnosis::blame() const {
+  if (severity == Severity::ill_posed) return Blame::rounding;
+  if (cause == Cause::no_answer) return Blame::ended;
   const bool is_protocol =
       cause == Cause::bad_line || cause == Cause::answered_nonsense || cause == Cause::refused;
-  return is_protocol ? Group::protocol : Group::engine;
+  return is_protocol ? Blame::protocol : Blame::engine;
 }
 
 std::string_view name_of(Cause cause) {
@@ -157,7 +157,7 @@ std::string_view title_of(Cause cause) {
   return words_for(cause).title;
 }
 
-std::string_view title_of(Group group) {
+std::string_view title_of(Blame group) {
   constexpr std::string_view kTitles[] = {
       "the engine's own faults", "died or silent",
       "protocol: bad lines, invalid questions answered, valid ones refused",

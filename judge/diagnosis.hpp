@@ -39,8 +39,8 @@ enum class Cause {
 inline constexpr int kCauses = 19;
 
 /// Whose findings are, in the order in which reports tell of them.
-enum class Group { engine, ended, protocol, rounding };
-inline constexpr std::array kGroups{Group::engine, Group::ended, Group::protocol, Group::rounding};
+enum class Blame { engine, ended, protocol, rounding };
+inline constexpr std::array kBlames{Blame::engine, Blame::ended, Blame::protocol, Blame::rounding};
 
 /// Below this part of an obstacle's radius it is only just met or missed.
 inline constexpr double kGrazing = 1e-6;
@@ -55,7 +55,7 @@ struct Diagnosis {
   /// it. Of a wrong time: radii_off.
   std::optional<double> by_radii = {};
 
-  Group group() const;
+  Blame blame() const;
 };
 
 /// A ball's radius, or the smallest of an ellipsoid's principal semiaxes.
@@ -77,7 +77,7 @@ std::string_view name_of(Cause cause);
 /// "misses what it grazes", for people.
 std::string_view title_of(Cause cause);
 /// "the engine's own faults"
-std::string_view title_of(Group group);
+std::string_view title_of(Blame group);
 std::string_view name_of(Severity severity);
 
 /// "passes over obstacles that the line enters by less than 1e-09 of their radii": of all answers that went

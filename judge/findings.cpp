@@ -100,7 +100,7 @@ std::vector<Finding> Findings::all(const Asked& asked) const {
     all.back().circumstance = circumstance_of(finding.features, right_);
   }
   const auto rank = [](const Finding& finding) {
-    return std::make_tuple(finding.simplest.diagnosis.group(), finding.severity(), -finding.share_of_plain,
+    return std::make_tuple(finding.simplest.diagnosis.blame(), finding.severity(), -finding.share_of_plain,
                            -finding.share_of_hard);
   };
   std::stable_sort(all.begin(), all.end(),

@@ -180,10 +180,10 @@ std::string text_of(const Finding& finding, const JudgeReport& report, int numbe
 }
 
 // Of a group's findings, which count on from `number`.
-std::string text_of(Group group, const JudgeReport& report, int& number) {
+std::string text_of(Blame group, const JudgeReport& report, int& number) {
   std::string text;
   for (const Finding& finding : report.findings)
-    if (finding.simplest.diagnosis.group() == group) text += text_of(finding, report, ++number);
+    if (finding.simplest.diagnosis.blame() == group) text += text_of(finding, report, ++number);
   return text;
 }
 
@@ -211,7 +211,7 @@ void add_finding(json::Members& object, const Finding& finding, const JudgeRepor
   object.add("scene", example.question.place->scene(), "query", json::Raw{'{' + members_of(example) + '}'},
              "given", json_of(example.given, dimension), "exact", json_of(exact_of(example), dimension));
   const auto primitive = primitive_for(example);
-  object.add("title", title_of(finding.cause()), "group", title_of(finding.simplest.diagnosis.group()),
+  object.add("title", title_of(finding.cause()), "group", title_of(finding.simplest.diagnosis.blame()),
              "last_words", example.last_words.empty() ? std::nullopt : std::optional(example.last_words),
              "primitive", primitive ? std::optional(json::Raw{primitive->json}) : std::nullopt,
              "primitive_cpp", primitive ? std::optional(primitive->cpp) : std::nullopt);
@@ -313,7 +313,7 @@ void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& r
 }  // namespace
 
 std::string JudgeReport::text() const {
-  const Summary its = summary();
+  const ThreeLines its = summary();
   std::string text =
       fmt::format("what:    {}\nhow bad: {}\nworst:   {}\n\n", printable(its.what), its.how_bad, its.worst);
   text += fmt::format("Seed {}.\n\n{}", seed, table_of(*this));
@@ -324,7 +324,7 @@ std::string JudgeReport::text() const {
   if (misbehaved && total().missing == 0)
     text += "It did what it should not, and lost no answer by it: stderr has it.\n";
   int number = 0;
-  for (const Group group : kGroups) {
+  for (const Blame group : kBlames) {
     const std::string its = text_of(group, *this, number);
     if (!its.empty()) text += fmt::format("\n-- {}\n", title_of(group)) + its;
   }
@@ -340,7 +340,7 @@ std::string JudgeReport::json() const {
              report::manifest_of(seed, command), "engine", engine.name, "verdict", verdict(), "line", line());
     report::add_claim(page, claim);
     page.add("summary", [this](json::Members& object) {
-      const Summary its = summary();
+      const ThreeLines its = summary();
       object.add("what", its.what, "how_bad", its.how_bad, "worst", its.worst, "finding",
                  its.finding ? std::optional(its.finding - findings.data()) : std::nullopt);
     });

@@ -12,7 +12,7 @@
 namespace lorentz::judge {
 
 /// What is to be read first, a line each.
-struct Summary {
+struct ThreeLines {
   std::string what;                  ///< the engine, and what it was judged by
   std::string how_bad;               ///< shares of drawn flights and of hard ones
   std::string worst;                 ///< what goes wrong above all
@@ -55,7 +55,7 @@ struct JudgeReport {
   /// The verdict in one line, with the most frequent fault, shares, times, free paths and speed.
   std::string line() const;
 
-  Summary summary() const;
+  ThreeLines summary() const;
 
   std::string text() const;
   std::string json() const;

@@ -268,7 +268,7 @@ std::string JudgeReport::line() const {
          speed_text(*this) + nonsense_text(*this);
 }
 
-Summary JudgeReport::summary() const {
+ThreeLines JudgeReport::summary() const {
   const Finding* worst = worst_of(*this);
   return {what_text(*this), how_bad_text(*this), worst ? worst->summary() : nothing_wrong_text(*this), worst};
 }

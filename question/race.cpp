@@ -198,11 +198,12 @@ class Entrant {
     speed.failed = failed();
     if (own_ && own_->own_time()) speed.own_ns = own_->own_time()->ns_per_query();
     if (questions_.empty() || rounds_.empty()) return speed;
-    speed.processor_ns = processor_ns();
     std::sort(rounds_.begin(), rounds_.end(),
               [](const Round& a, const Round& b) { return a.ns_per_query() < b.ns_per_query(); });
     const Round& middle = rounds_[rounds_.size() / 2];
     speed.ns_per_query = middle.ns_per_query();
+    if (middle.processor_ns && middle.asked)
+      speed.processor_ns = *middle.processor_ns / static_cast<double>(middle.asked);
     if (middle.instructions)
       speed.instructions = static_cast<double>(*middle.instructions) / static_cast<double>(middle.asked);
     speed.ns_median = quantile(middle.block_means, 0.5);
@@ -212,18 +213,6 @@ class Entrant {
   }
 
  private:
-  // Of all rounds but the first, in which a program starts.
-  std::optional<double> processor_ns() const {
-    double ns = 0;
-    std::size_t asked = 0;
-    for (std::size_t i = 1; i < rounds_.size(); ++i) {
-      if (!rounds_[i].processor_ns) return std::nullopt;
-      ns += *rounds_[i].processor_ns;
-      asked += rounds_[i].asked;
-    }
-    return asked ? std::optional(ns / static_cast<double>(asked)) : std::nullopt;
-  }
-
   const Questions questions_;
   const std::string name_;
   const Listener& listener_;

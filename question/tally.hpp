@@ -19,9 +19,7 @@ struct Speed {
                                    ///< block's mean; of another program, whose answers come when they come,
                                    ///< the mean
   double ns_low = 0, ns_high = 0;  ///< the quartiles of the same
-  /// Mean nanoseconds of processors a query, over all rounds but the first; of another program all that it spent
-  /// meanwhile.
-  std::optional<double> processor_ns = {};
+  std::optional<double> processor_ns = {};  ///< the same mean in the time of processors, where it is known
   std::optional<double> instructions =
       {};                             ///< a query, where InstructionCounter counts; not of another program
   std::optional<double> own_ns = {};  ///< a query, of the engine's own calls, as it says itself (OwnTime)

@@ -3,9 +3,7 @@
 usage: tutorial_test.py PROGRAM SOURCE [--write]     --write: puts what they print into the tutorial
 
 They run in one shell, in a folder that has the project's build/, data/ and examples/. What is printed must be
-what the tutorial shows, but for
-- the speed at the end of the verdict of `judge`;
-- `..`, which stands for any number of lines.
+what the tutorial shows, but for `..`, which stands for any number of lines.
 """
 
 import os
@@ -58,12 +56,6 @@ def run(commands):
     return [(text.splitlines(), int(status)) for text, status in zip(parts[0::2], parts[1::2])]
 
 
-def comparable(lines):
-    """In one line and without the speed, if it ends with what `judge` says of that."""
-    verdict, speed, _ = " ".join(line.strip() for line in lines).partition(" ns a query")
-    return [re.sub(r"; \S+$", "", verdict)] if speed else lines
-
-
 def agree(shown, printed):
     """Whether the tutorial's lines are those printed; `..` is any lines."""
     if not shown:
@@ -89,7 +81,7 @@ def main():
         return write(lines, steps, printed)
     failures = 0
     for (command, shown, first), (text, status) in zip(steps, printed):
-        good = status in (0, 1) and agree(comparable(shown), comparable(text))
+        good = status in (0, 1) and agree(shown, text)
         if not good:
             failures += 1
             print(f"docs/tutorial.md:{first}: {command}\nis shown to print\n" + "\n".join(shown))

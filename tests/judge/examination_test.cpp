@@ -102,11 +102,11 @@ TEST_CASE("What is no answer is told apart from none, with what the program said
   };
   const Finding bad = finding_of(R"(while read -r line; do echo "{\"id\":1,\"outcome\":\"perhaps\"}"; done)");
   CHECK(bad.cause() == Cause::bad_line);
-  CHECK(bad.simplest.diagnosis.group() == Group::protocol);
+  CHECK(bad.simplest.diagnosis.blame() == Blame::protocol);
   CHECK(bad.simplest.last_words.empty());
   const Finding died = finding_of("read -r line; echo 'out of luck' >&2; exit 3");
   CHECK(died.cause() == Cause::no_answer);
-  CHECK(died.simplest.diagnosis.group() == Group::ended);
+  CHECK(died.simplest.diagnosis.blame() == Blame::ended);
   CHECK(died.simplest.last_words == "out of luck");
 }
 
