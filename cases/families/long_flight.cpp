@@ -43,18 +43,19 @@ Case make_long(Source& source) {
   Case made;
   Random &drawn = source.scene, &random = source.random;
   const std::uint64_t kind = drawn.below(4);
+  const int least = source.precision == NumberFormat::binary64 ? -30 : -16;
   Vec &x = made.query.x, &v = made.query.v;
   x[0] = random.between(-2, 2);
   if (kind < 2) {
     made.tags.push_back("corridor-drift");
     const auto vectors = drawn_rows(drawn, made.tags);
-    const double r = drawn.one_in(3) ? 0.5 * (1 - drawn.octave(-30, -4)) : drawn.between(0.01, 0.39);
+    const double r = drawn.one_in(3) ? 0.5 * (1 - drawn.octave(least, -4)) : drawn.between(0.01, 0.39);
     made.scene = lattice_scene(2, vectors, r);
     x[1] = static_cast<double>(random.integer(-2, 2)) + 0.5 + (0.5 - r) * 0.9 * random.between(-1, 1);
     v = {random.sign(), drift(random)};
   } else if (kind == 2) {
     made.tags.push_back("plane-drift");
-    const double r = drawn.one_in(3) ? 0.5 * (1 - drawn.octave(-30, -4)) : drawn.between(0.01, 0.49);
+    const double r = drawn.one_in(3) ? 0.5 * (1 - drawn.octave(least, -4)) : drawn.between(0.01, 0.49);
     made.scene = unit_scene(3, r);
     x[1] = random.uniform();
     x[2] = 0.5 + (0.5 - r) * 0.9 * random.between(-1, 1);
