@@ -7,10 +7,11 @@
 
 namespace lorentz::cli {
 
-Claim ClaimOptions::claim() const {
+Claim ClaimOptions::claim(NumberFormat otherwise) const {
+  constexpr NumberFormat kFormats[] = {NumberFormat::binary64, NumberFormat::binary32};
   Claim claim;
-  if (index_of_name(precision, {"binary64", "binary32"}, "--precision") == 1)
-    claim.precision = NumberFormat::binary32;
+  claim.precision =
+      precision ? kFormats[index_of_name(*precision, {"binary64", "binary32"}, "--precision")] : otherwise;
   if (!time_tolerance) return claim;
   constexpr double kNotJudged = std::numeric_limits<double>::infinity();
   claim.time_tolerance = *time_tolerance == "inf" || *time_tolerance == "Inf"

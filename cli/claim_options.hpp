@@ -10,11 +10,11 @@
 namespace lorentz::cli {
 
 struct ClaimOptions {
-  std::string precision = "binary64";
+  std::optional<std::string> precision;  ///< binary64, unless `otherwise` says so
   std::optional<std::string> time_tolerance;
 
   /// Throws InputError.
-  Claim claim() const;
+  Claim claim(NumberFormat otherwise = NumberFormat::binary64) const;
 
   Option precision_row();
   Option time_tolerance_row();

@@ -11,7 +11,7 @@ namespace lorentz::cases {
 namespace {
 
 constexpr std::uint64_t kMostAttempts = 1000;  // more than any family needs: a bug, if they are not enough
-constexpr std::uint64_t kMostIntoObstacles = 16;
+constexpr std::uint64_t kMostIntoObstacles = 100;
 
 bool is_sound(const Scene& scene) {
   return !flaw_of(scene) && !oracle::dependence_in(scene);
