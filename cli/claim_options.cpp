@@ -20,9 +20,11 @@ Claim ClaimOptions::claim(NumberFormat otherwise) const {
   return claim;
 }
 
-Option ClaimOptions::precision_row() {
+Option ClaimOptions::precision_row(const std::string& otherwise) {
   return {"--precision", &precision, "binary64|binary32",
-          "of the engine's numbers: it is asked what consists of such numbers, and an ulp is one of them"};
+          "of the engine's numbers: it is asked what consists of such numbers, and an ulp is one of them "
+          "(default: " +
+              otherwise + ")"};
 }
 
 Option ClaimOptions::time_tolerance_row() {

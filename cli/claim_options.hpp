@@ -16,7 +16,7 @@ struct ClaimOptions {
   /// Throws InputError.
   Claim claim(NumberFormat otherwise = NumberFormat::binary64) const;
 
-  Option precision_row();
+  Option precision_row(const std::string& otherwise = "binary64");
   Option time_tolerance_row();
 };
 

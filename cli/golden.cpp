@@ -34,8 +34,8 @@ int list(bool as_json) {
     table.add({set.name, name_of(set.precision), endless ? "any" : std::to_string(set.most), committed,
                std::to_string(set.tags.size()), set.description});
     json.push_back(json::text_of([&](json::Members& one) {
-      one.add("name", set.name, "family", set.family, "precision", name_of(set.precision), "committed", count,
-              "description", set.description, "tags", [&](json::Members& tags) {
+      one.add("name", set.name, "committed", count, "description", set.description, "family", set.family,
+              "precision", name_of(set.precision), "tags", [&](json::Members& tags) {
                 for (const cases::Tag& tag : set.tags) tags.add_named(tag.name, tag.note);
               });
     }));

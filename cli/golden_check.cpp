@@ -150,11 +150,18 @@ class EngineCheck {
     if (!failed || failures_.size() >= most_failures_) return;
     Place& place = *question.place;
     failures_.push_back({set, question.where, fmt::format("{}", fmt::join(question.tags, ", ")), engine_,
-                         judgement, question.margin, question.exact, reply.answer, place.scene(), "",
+                         judgement, margin_of(question), question.exact, reply.answer, place.scene(), "",
                          tally.claim_arguments});
     if (question.is_query() && judgement.verdict == oracle::Verdict::wrong)
       failures_.back().reason = report::reason_of(place.margins(), place.scene(), question.query,
                                                   question.exact, reply.answer, judgement.obstacle, "    ");
+  }
+
+  // The record's, or computed where that counts in another precision's ulps.
+  static std::optional<double> margin_of(const Question& question) {
+    if (question.margin || !question.is_query()) return question.margin;
+    const auto decision = question.place->margins().hardest_decision(question.query, question.exact);
+    return decision ? std::optional(decision->margin) : std::nullopt;
   }
 
   const std::string engine_;
@@ -222,12 +229,13 @@ void add_counts(json::Members& object, const Tally& t) {
 }
 
 void add_set(json::Members& object, const SetTally& set) {
-  object.add("set", set.all.name, "precision", name_of(set.claim.precision));
+  object.add("set", set.all.name);
   add_counts(object, set.all);
-  object.add("not_asked", set.not_asked(), "tags", [&](json::Members& tags) {
-    for (const auto& [tag, tally] : set.by_tag)
-      tags.add_named(tag, [&](json::Members& counts) { add_counts(counts, tally); });
-  });
+  object.add("not_asked", set.not_asked(), "precision", name_of(set.claim.precision), "tags",
+             [&](json::Members& tags) {
+               for (const auto& [tag, tally] : set.by_tag)
+                 tags.add_named(tag, [&](json::Members& counts) { add_counts(counts, tally); });
+             });
 }
 
 // By which claim all sets were judged; of several precisions none.
@@ -407,7 +415,7 @@ Command golden_check_command() {
                "files, folders, or names of committed sets (default: all of these)"},
               {"--ulps", Tolerance{&options->ulps}, "K",
                "the tolerance k of the verdicts; 0 forgives nothing (default: 4)"},
-              options->claim.precision_row(),
+              options->claim.precision_row("each set's own"),
               options->claim.time_tolerance_row(),
               {"--first", Whole{&options->first, 1, 1'000'000'000'000}, "N",
                "only the first N records of each set"},
