@@ -81,6 +81,7 @@ CaseReport case_report(const golden::Reader& reader, const golden::ReadRecord& r
         report.explanation += (report.explanation.empty() ? "" : "; ") + note;
       }
   if (report.cause.empty()) report.cause = reader.header().name;
+  report.claim.precision = reader.header().precision;
   report.scene = reader.scene();
   report.query = *read.query;
   report.exact = record.expect;
