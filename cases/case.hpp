@@ -1,11 +1,12 @@
-// A case: a scene, a query, and what is hard about them. A case follows from (seed, family, index) and
-// nothing else: it is the same whoever asks, in whatever order, on whatever thread.
+// A case: a scene, a query, and what is hard about them. A case follows from (seed, family, index, precision)
+// and nothing else: it is the same whoever asks, in whatever order, on whatever thread.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <lorentz/claim.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 #include "cases/random.hpp"
@@ -21,6 +22,7 @@ struct Case {
 /// What a case may be marked with, and what it is out to break.
 struct Tag {
   std::string_view name, note;
+  std::string_view note_in_binary32 = note;  ///< empty: no case in binary32 has the tag
 };
 
 /// So many cases in a row share a scene, bit for bit, because a stream has a line for each new scene. (The
@@ -32,6 +34,8 @@ struct Source {
   std::uint64_t index;
   Random scene;   ///< the same for all cases that share a scene: the scene follows from this alone
   Random random;  ///< the case's own
+  NumberFormat precision =
+      NumberFormat::binary64;  ///< of the case's numbers: Family::make rounds what is finer
 };
 
 }  // namespace lorentz::cases

@@ -18,10 +18,8 @@ Vec point_in_cell(Random& random, const Scene& scene) {
   return Box::cell_of(scene).point(random);
 }
 
-namespace {
-
-// Exact, by certified: for most points a few comparisons in binary64.
-bool is_free(const Scene& scene, const Vec& x) {
+// By certified: for most points a few comparisons in binary64.
+bool starts_inside(const Scene& scene, const Query& query) {
   struct Latest {
     explicit Latest(const Scene& scene) : scene(scene), engine(scene) {}
     Scene scene;
@@ -32,16 +30,14 @@ bool is_free(const Scene& scene, const Vec& x) {
   const Vec any = scene.dimension == 2 ? Vec{1, 0.625, 0} : Vec{1, 0.625, 0.4375};
   oracle::Request at_once;
   at_once.max_time = 0;
-  return last->engine.first_hit({x, any, {}}, at_once).outcome != Outcome::inside;
+  return last->engine.first_hit({query.x, any, query.from}, at_once).outcome == Outcome::inside;
 }
-
-}  // namespace
 
 Vec free_point(Random& random, const Scene& scene) {
   constexpr int kTries = 20;
   for (int tries = 1;; ++tries) {
     const Vec x = point_in_cell(random, scene);
-    if (tries == kTries || is_free(scene, x)) return x;
+    if (tries == kTries || !starts_inside(scene, {x, {}, {}})) return x;
   }
 }
 

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <lorentz/oracle.hpp>
+#include <lorentz/query.hpp>
 #include "cases/random.hpp"
 
 namespace lorentz::cases {
 
 /// The oracle for a scene; each thread keeps the last one.
 const oracle::Oracle& oracle_of(const Scene& scene);
+
+/// Does the query start in an obstacle, other than its `from`? Exact.
+bool starts_inside(const Scene& scene, const Query& query);
 
 /// Uniform in the cell of the first lattice.
 Vec point_in_cell(Random& random, const Scene& scene);

@@ -1,19 +1,19 @@
 #include "cases/hard_moves.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <lorentz/geometry.hpp>
+#include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 
-Vec near_integer_direction(Random& random, int dimension) {
+Vec near_integer_direction(Random& random, int dimension, NumberFormat precision) {
   Vec v{};
   while (v == Vec{})
     for (int i = 0; i < dimension; ++i) v[i] = std::floor(9 * random.uniform()) - 4;
   for (int i = 0; i < dimension; ++i)
-    for (auto ulps = random.bits() % 4; v[i] != 0 && ulps > 0; --ulps)
-      v[i] = std::nextafter(v[i], std::numeric_limits<double>::infinity());
+    if (const auto ulps = random.bits() % 4; v[i] != 0)
+      v[i] = moved(v[i], static_cast<std::int64_t>(ulps), precision);
   return v;
 }
 
@@ -22,7 +22,10 @@ namespace {
 // In coordinates y in which the obstacle is the unit ball: the normal n of the collision stands at y ~ A^T n,
 // the line passes the centre at the part of y across it, and is moved along that.
 template <class OffEdge>
-bool move_by(const OffEdge& off_edge, const Scene& scene, const oracle::Oracle& oracle, Query& query) {
+bool move_by(const OffEdge& off_edge, const Scene& scene, const oracle::Oracle& oracle, Query& query,
+             NumberFormat precision) {
+  query = rounded(query, precision);
+  if (query.v == Vec{}) return false;
   oracle::Request request;
   request.detail = true;
   const Answer answer = oracle.first_hit(query, request);
@@ -36,20 +39,22 @@ bool move_by(const OffEdge& off_edge, const Scene& scene, const oracle::Oracle& 
   const double distance = std::sqrt(dot(y, y)), place = 1 + off_edge();
   for (int i = 0; i < scene.dimension; ++i)
     for (int k = 0; k < 3; ++k) query.x[k] += axes[i][k] * y[i] / distance * (place - distance);
+  query = rounded(query, precision);
   return std::isfinite(query.x[0] + query.x[1] + query.x[2]) && oracle.is_free(query.x);
 }
 
 }  // namespace
 
-bool move_to_edge(Random& random, const Scene& scene, const oracle::Oracle& oracle, Query& query) {
-  const auto off_edge = [&random] {
-    return std::exp2(-10 - 40 * random.uniform()) * (random.bits() & 1 ? 1 : -1);
+bool move_to_edge(Random& random, const Scene& scene, const oracle::Oracle& oracle, Query& query,
+                  NumberFormat precision) {
+  const auto off_edge = [&random, octaves = 40 - missing_bits(precision)] {
+    return std::exp2(-10 - octaves * random.uniform()) * (random.bits() & 1 ? 1 : -1);
   };
-  return move_by(off_edge, scene, oracle, query);
+  return move_by(off_edge, scene, oracle, query, precision);
 }
 
 bool move_to_edge(double off_edge, const Scene& scene, const oracle::Oracle& oracle, Query& query) {
-  return move_by([off_edge] { return off_edge; }, scene, oracle, query);
+  return move_by([off_edge] { return off_edge; }, scene, oracle, query, NumberFormat::binary64);
 }
 
 }  // namespace lorentz::cases

@@ -105,7 +105,7 @@ Squared drawn_quadruple(Random& random, std::int64_t range) {
 // (w - p)(w + p) = q^2 - 1 or q^2 + 1, so a factorisation of the right side into factors of one parity gives
 // a near square. q = 2ab + 1: q^2 - 1 = 2a 2b(ab + 1), p^2 + q^2 = w^2 + 1. And where ad + bc = 1
 // (Brahmagupta), q = ac - bd: q^2 + 1 = (a^2 + b^2)(c^2 + d^2), p^2 + q^2 = w^2 - 1.
-NearSquare drawn_near_square(Random& random) {
+NearSquare drawn_near_square(Random& random, std::int64_t below) {
   for (int tries = 0; tries < 16; ++tries) {
     const auto size = std::int64_t{1} << random.integer(1, 12);
     const std::int64_t a = random.integer(1, size), b = random.integer(1, size);
@@ -120,12 +120,12 @@ NearSquare drawn_near_square(Random& random) {
       if ((small + large) % 2 != 0) continue;
       found = {{(large - small) / 2, a * c - b * d, 0}, (large + small) / 2};
     }
-    if (found.w > 20 && found.w < (std::int64_t{1} << 27) && content_of(found.v) == 1) return found;
+    if (found.w > 20 && found.w < below && content_of(found.v) == 1) return found;
   }
   return {{8, 9, 0}, 12};  // 145 = 144 + 1
 }
 
-std::vector<IntegerRatio> convergents_of_root(std::int64_t n, std::int64_t h) {
+std::vector<IntegerRatio> convergents_of_root(std::int64_t n, std::int64_t h, int bits) {
   // (p + sqrt(d)) / q, q dividing d - p^2.
   const std::int64_t d = n * h, root = floor_root(d);
   std::int64_t p = 0, q = h;
@@ -134,7 +134,7 @@ std::vector<IntegerRatio> convergents_of_root(std::int64_t n, std::int64_t h) {
   while (q != 0) {
     const std::int64_t a = (p + root) / q;
     const Wide k = a * k1 + k0, r = a * r1 + r0;
-    if (r > (Wide{1} << 50) || k > (Wide{1} << 62)) break;
+    if (r > (Wide{1} << bits) || k > (Wide{1} << 62)) break;
     all.push_back({static_cast<std::int64_t>(k), static_cast<std::int64_t>(r)});
     k0 = k1, k1 = k, r0 = r1, r1 = r;
     p = a * q - p;
@@ -146,7 +146,7 @@ std::vector<IntegerRatio> convergents_of_root(std::int64_t n, std::int64_t h) {
 // With u.v = 1, e = across x u satisfies v x e = across (v.u) - u (v.across) = across. So all solutions d of
 // v x d = turns across are turns e + s v; s is free, and is chosen to bring d near the place wanted.
 std::optional<Vec> start_beside(const IntVec& v, const IntVec& across, std::int64_t turns, int exponent,
-                                double along) {
+                                double along, int bits) {
   const IntVec u = bezout(v);
   std::array<Wide, 3> e{};
   for (int i = 0; i < 3; ++i)
@@ -160,7 +160,7 @@ std::optional<Vec> start_beside(const IntVec& v, const IntVec& across, std::int6
   Vec x{};
   for (int i = 0; i < 3; ++i) {
     const Wide d = turns * e[i] + s * v[i];
-    if (d > (Wide{1} << 53) || d < -(Wide{1} << 53)) return std::nullopt;
+    if (d > (Wide{1} << bits) || d < -(Wide{1} << bits)) return std::nullopt;
     x[i] = d == 0 ? 0.0 : std::ldexp(-static_cast<double>(d), -exponent);
   }
   return x;

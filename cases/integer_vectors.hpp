@@ -58,25 +58,25 @@ Squared drawn_triple(Random& random, std::int64_t range);
 /// rows of that length. v is primitive.
 Squared drawn_quadruple(Random& random, std::int64_t range);
 
-/// Primitive v in the plane with |v|^2 = w^2 + 1 or w^2 - 1.
+/// Primitive v in the plane with |v|^2 = w^2 + 1 or w^2 - 1, w below a bound.
 struct NearSquare {
   IntVec v;
   std::int64_t w;
 };
-NearSquare drawn_near_square(Random& random);
+NearSquare drawn_near_square(Random& random, std::int64_t below);
 
-/// Convergents k / r of sqrt(n / h), r up to 2^50: n r^2 - h k^2 is as small as it gets, so that r, k solve
+/// Convergents k / r of sqrt(n / h), r up to 2^bits, at most 50: n r^2 - h k^2 is as small as it gets, so that r, k solve
 /// Pell's equation or nearly. Ends early if the root is rational.
 struct IntegerRatio {
   std::int64_t k, r;
 };
-std::vector<IntegerRatio> convergents_of_root(std::int64_t n, std::int64_t h);
+std::vector<IntegerRatio> convergents_of_root(std::int64_t n, std::int64_t h, int bits);
 
 /// The start x from which the flight along the primitive v passes the origin at the closest point after
 /// the distance `along` or a little more, with v x (0 - x) = `turns` 2^-exponent `across` exactly. `across`
-/// must be at right angles to v (2D: a multiple of (0, 0, 1)). Nothing if no binary64 vector near there does
-/// that.
+/// must be at right angles to v (2D: a multiple of (0, 0, 1)). Nothing if no vector of numbers of so many bits
+/// near there does that.
 std::optional<Vec> start_beside(const IntVec& v, const IntVec& across, std::int64_t turns, int exponent,
-                                double along);
+                                double along, int bits);
 
 }  // namespace lorentz::cases

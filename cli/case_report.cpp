@@ -6,6 +6,7 @@
 #include "files/messages.hpp"
 #include "files/whole_file.hpp"
 #include "pictures/finding_drawing.hpp"
+#include "report/claim_words.hpp"
 #include "report/finding_json.hpp"
 #include "report/manifest.hpp"
 #include "report/page.hpp"
@@ -21,8 +22,8 @@ std::vector<std::string> commands_of(const CaseReport& report) {
   const std::string lines = report::printed(report.scene, report::query_members(report.query, report.scene));
   std::vector<std::string> commands{report.command, lines + " | lorentz first-hit --engine oracle --detail"};
   if (!report.engine.empty())
-    commands.push_back(
-        fmt::format("{} | lorentz compare --queries - --engine {}", lines, shell_quoted(report.engine)));
+    commands.push_back(fmt::format("{} | lorentz compare --queries - --engine {}{}", lines,
+                                   shell_quoted(report.engine), report::arguments_of(report.claim)));
   return commands;
 }
 
@@ -47,7 +48,7 @@ std::optional<double> radii_of(const CaseReport& report, const oracle::Margins& 
 
 void add_finding(json::Members& object, const CaseReport& report) {
   const Components dimension(report.scene);
-  const oracle::Margins margins(report.scene);
+  const oracle::Margins margins(report.scene, report.claim.precision);
   const std::string drawing = drawing_of(report);
   object.add("cause", report.cause, "explanation", report.explanation, "count", 1, "where", report.where,
              "verdict", report.verdict, "scene", report.scene, "query",

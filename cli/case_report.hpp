@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <lorentz/answer.hpp>
+#include <lorentz/claim.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 #include "cli/command.hpp"
@@ -26,6 +27,7 @@ struct CaseReport {
   std::optional<ObstacleId> decisive;  ///< that the answer given is judged by
   std::optional<double> by_ulps;       ///< the inputs must move for the answer to be right
   std::vector<std::string> more;       ///< lines that are said after the reason
+  Claim claim;                         ///< by which it is judged
   std::string engine;                  ///< whose answer it is; empty: nobody's
 };
 

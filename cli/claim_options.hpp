@@ -21,14 +21,15 @@ struct ClaimOptions {
   /// InputError.
   void ask(const std::vector<question::EngineInfo>& engines);
 
-  /// Throws InputError.
-  Claim claim() const;
+  /// `otherwise`: where neither the options nor the engines say a precision. Throws InputError.
+  Claim claim(NumberFormat otherwise = NumberFormat::binary64) const;
 
-  Option precision_row();
+  Option precision_row(const std::string& otherwise = "else binary64");
   Option time_tolerance_row();
 
  private:
-  Claim said_;  // by the engines
+  std::optional<NumberFormat> said_precision_;  // by the engines
+  std::optional<double> said_tolerance_;
 };
 
 }  // namespace lorentz::cli

@@ -11,6 +11,7 @@
 #include "fuzz/campaign/ranks.hpp"
 #include "fuzz/examine/answerers.hpp"
 #include "question/answerer.hpp"
+#include "report/claim_words.hpp"
 
 namespace lorentz::cli {
 
@@ -49,7 +50,21 @@ std::vector<fuzz::Stored> findings_of(const Store& store, std::int64_t campaign)
   return findings;
 }
 
+// One claim a store: margins and findings of several would stand side by side, in ulps of several precisions.
+void check_claim(const Store& store, const Claim& claim) {
+  for (const fuzz::Campaign& campaign : store.campaigns()) {
+    const Claim known = claim_of(campaign.manifest);
+    if (known == claim) continue;
+    const std::string arguments = report::arguments_of(known);
+    throw InputError(
+        fmt::format("{}: its campaign {} is judged{}; go on with {}, or name another store", store.path(),
+                    campaign.id, report::full_words_of(known),
+                    arguments.empty() ? "neither --precision nor --time-tolerance" : arguments.substr(1)));
+  }
+}
+
 Opened opened(Store& store, const fuzz::Plan& plan, const FuzzOptions& options) {
+  check_claim(store, plan.claim);
   Opened one;
   one.report.is_stored = options.store.has_value();
   one.report.manifest = manifest_of(plan, options.engine);

@@ -53,8 +53,8 @@ std::vector<FindingCause> causes_of(const std::vector<fuzz::Stored>& findings);
 
 std::string table_of(const std::vector<FindingCause>& causes);
 
-/// A case in lines, with what is said of it.
-std::string text_of(const fuzz::CaseText& text);
+/// A case in lines, with what is said of it; an ulp is one of the precision.
+std::string text_of(const fuzz::CaseText& text, NumberFormat precision);
 
 /// A finding as one JSON object; its lines are in it as they stand in streams.
 void add_finding(json::Members& object, const fuzz::Stored& finding);

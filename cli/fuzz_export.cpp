@@ -6,9 +6,11 @@
 #include <lorentz/exchange.hpp>
 #include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"
+#include "cli/fuzz_options.hpp"
 #include "cli/output.hpp"
 #include "golden/maker.hpp"
 #include "question/engines.hpp"
+#include "report/claim_words.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -67,13 +69,16 @@ void explain_targets(const std::vector<fuzz::Campaign>& campaigns, std::map<std:
 
 golden::Header header_of(const std::vector<fuzz::Campaign>& campaigns) {
   golden::Header header;
+  for (const fuzz::Campaign& campaign : campaigns)
+    header.precision = claim_of(campaign.manifest).precision;  // of all
   header.name = "findings";
   header.description = "What campaigns found, shrunk: the answers are the exact ones.";
   header.version = LORENTZ_VERSION;
   for (const fuzz::Campaign& campaign : campaigns) {
     const fuzz::CampaignManifest& m = campaign.manifest;
-    header.generator += fmt::format("lorentz fuzz --engine {} --seed {} --shard {} --target {} ({}); ",
-                                    shell_quoted(m.engine), m.seed, m.shard, m.targets, m.options);
+    header.generator += fmt::format("lorentz fuzz --engine {} --seed {} --shard {} --target {}{} ({}); ",
+                                    shell_quoted(m.engine), m.seed, m.shard, m.targets,
+                                    report::arguments_of(claim_of(m)), m.options);
   }
   header.generator += "lorentz fuzz export";
   return header;
@@ -89,7 +94,8 @@ void print_golden_set(const std::vector<ExportedCase>& examples,
   std::optional<golden::Maker> maker;
   for (const ExportedCase& one : examples) {
     const fuzz::Finding& finding = one.stored->finding;
-    if (finding.shrunk.scene != scene_line) maker.emplace(one.shrunk.scene);
+    if (finding.shrunk.scene != scene_line)
+      maker.emplace(one.shrunk.scene, golden::Others{}, header.precision);
     const Scene& scene = one.shrunk.scene;
     const Query& query = one.shrunk.query;
     golden::Record record;

@@ -2,6 +2,8 @@
 #include "cli/fuzz_options.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <limits>
 #include <tuple>
 
 #include <lorentz/exchange.hpp>
@@ -10,6 +12,7 @@
 #include "files/messages.hpp"
 #include "question/answerer.hpp"
 #include "question/engines.hpp"
+#include "report/claim_words.hpp"
 #include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
@@ -66,7 +69,7 @@ std::vector<const cases::Target*> targets_of(const FuzzOptions& options) {
 
 }  // namespace
 
-fuzz::Plan plan_of(const FuzzOptions& options) {
+fuzz::Plan plan_of(FuzzOptions options) {
   fuzz::Plan plan;
   const question::EngineInfo engine = question::engine_named(options.engine);
   plan.seed = options.seed;
@@ -76,6 +79,8 @@ fuzz::Plan plan_of(const FuzzOptions& options) {
   plan.keep = options.keep;
   plan.mutate = options.mutate;
   plan.reword = options.reword;
+  options.claim.ask({engine});
+  plan.claim = options.claim.claim();
   plan.truth = truth_named(options.judge, {engine});
   plan.counts.times = options.times;
   plan.counts.undecided = options.undecided || (!options.no_undecided && !engine.traits.leaves_undecided);
@@ -109,8 +114,24 @@ fuzz::CampaignManifest manifest_of(const fuzz::Plan& plan, const std::string& en
   if (plan.scope.dimension != 0) manifest.options += fmt::format(", {}D", plan.scope.dimension);
   if (plan.scope.scenes != fuzz::Scope::Scenes::any)
     manifest.options += ", scenes " + name_of_scenes(plan.scope.scenes);
+  manifest.options += report::words_of(plan.claim);  // nothing of binary64: stores from before are of it
   manifest.shard = fmt::format("{}/{}", plan.shard, plan.shards);
   return manifest;
+}
+
+Claim claim_of(const fuzz::CampaignManifest& manifest) {
+  constexpr std::string_view kWithin = ", times within ";
+  const std::string& words = manifest.options;
+  Claim claim;
+  if (words.find(", in binary32") != words.npos) claim.precision = NumberFormat::binary32;
+  if (words.find(", times not judged") != words.npos)
+    claim.time_tolerance = std::numeric_limits<double>::infinity();
+  if (const auto at = words.find(kWithin); at != words.npos) {
+    double tolerance = 0;
+    std::from_chars(words.data() + at + kWithin.size(), words.data() + words.size(), tolerance);
+    claim.time_tolerance = tolerance;
+  }
+  return claim;
 }
 
 std::string command_of(const FuzzOptions& o) {
@@ -141,6 +162,8 @@ std::string command_of(const FuzzOptions& o) {
   add_unless("--mutate", o.mutate, usual.mutate);
   add_unless("--reword", o.reword, usual.reword);
   add_unless("--judge", o.judge, usual.judge);
+  add_if("--precision", o.claim.precision);
+  add_if("--time-tolerance", o.claim.time_tolerance);
   add_if("--ulps", o.ulps);
   add_if("--timeout", o.timeout);
   add_if("--progress", o.progress);
@@ -182,6 +205,8 @@ std::vector<Option> rows_of(FuzzOptions& options) {
           {"--first", &options.first, "", "stop at the first finding"},
           {"--ulps", Tolerance{&options.ulps}, "K",
            "the tolerance k, as in `compare` (default: 4); 0: the exact answer and no other"},
+          options.claim.precision_row(),
+          options.claim.time_tolerance_row(),
           {"--timeout", Positive{&options.timeout}, "SECONDS", kTimeoutHelp},
           {"--times", &options.times, "", "wrong times are findings, too"},
           {"--undecided", &options.undecided, "",

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/claim_options.hpp"
 #include "cli/command.hpp"
 #include "fuzz/campaign/store.hpp"
 #include "starts/free_starts.hpp"
@@ -22,6 +23,7 @@ struct FuzzOptions {
   std::optional<std::uint64_t> count, dimension;
   std::uint64_t seed = starts::kDefaultSeed, jobs = 1, keep = 3, mutate = 32, reword = 1;
   std::string engine = "reduction", shard = "0/1", judge = "oracle", scenes = "any";
+  ClaimOptions claim;
   bool json = false, first = false, times = false, undecided = false, no_undecided = false;
 };
 
@@ -31,6 +33,9 @@ std::vector<Option> rows_of(FuzzOptions& options);
 fuzz::Plan plan_of(const FuzzOptions& options);
 fuzz::Bounds bounds_of(const FuzzOptions& options);
 fuzz::CampaignManifest manifest_of(const fuzz::Plan& plan, const std::string& engine);
+
+/// By which claim a campaign was judged: its manifest's options say so.
+Claim claim_of(const fuzz::CampaignManifest& manifest);
 
 /// The command with these options, as a shell takes it.
 std::string command_of(const FuzzOptions& options);

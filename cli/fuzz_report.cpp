@@ -5,8 +5,10 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/fuzz.hpp"
+#include "cli/fuzz_options.hpp"
 #include "files/messages.hpp"
 #include "question/engines.hpp"
+#include "report/claim_words.hpp"
 #include "report/reason.hpp"
 #include "report/share.hpp"
 #include "report/table.hpp"
@@ -100,17 +102,17 @@ std::string FuzzReport::target_table() const {
 
 std::string FuzzReport::text() const {
   std::string out = fmt::format(
-      "{}, seed {}{}: cases, and variants of some, judged by {}\n\n{}\n{}{}", manifest.engine, manifest.seed,
-      manifest.shard == "0/1" ? "" : ", shard " + manifest.shard,
+      "{}, seed {}{}: cases, and variants of some, judged by {}{}\n\n{}\n{}{}", manifest.engine,
+      manifest.seed, manifest.shard == "0/1" ? "" : ", shard " + manifest.shard,
       manifest.options.find("judged by certified") != std::string::npos ? "certified" : "the oracle",
-      target_table(), layers(*this), bounds(*this));
+      report::words_of(claim_of(manifest)), target_table(), layers(*this), bounds(*this));
   if (findings.empty()) return out + "no findings\n";
   out += table_of(causes_of(findings));
   if (is_stored) return out;
   out += "\nthe simplest finding of each cause (--store FILE keeps all):\n";
   for (const FindingCause& cause : causes_of(findings))
     out += fmt::format("\n{}: {}\n{}", cause.simplest->label(), cause.name,
-                       text_of(cause.simplest->finding.shrunk));
+                       text_of(cause.simplest->finding.shrunk, claim_of(manifest).precision));
   return out;
 }
 
@@ -136,6 +138,7 @@ void add_target(json::Members& object, const std::string& name, const TargetTall
 void FuzzReport::add_targets(json::Members& object) const {
   object.add("version", manifest.version, "engine", manifest.engine, "seed", manifest.seed, "shard",
              manifest.shard, "options", manifest.options);
+  report::add_claim(object, claim_of(manifest));
   object.add("targets", json::objects(tallies, [&](json::Members& one, const TargetTally& tally) {
                add_target(one, targets[static_cast<std::size_t>(&tally - tallies.data())], tally);
              }));
@@ -183,20 +186,20 @@ std::string table_of(const std::vector<FindingCause>& causes) {
 namespace {
 
 // By how much the obstacle in question is met or missed, where two answers stand against each other.
-std::string reason_in(const fuzz::CaseText& text) {
+std::string reason_in(const fuzz::CaseText& text, NumberFormat precision) {
   const fuzz::ReadCase one = fuzz::case_in(text);
   const auto says_what = [](const Answer& answer) {
     return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside ||
            answer.outcome == Outcome::never;
   };
   if (!says_what(one.given) || !says_what(one.exact)) return "";
-  return report::reason_of(oracle::Margins(one.scene), one.scene, one.query, one.exact, one.given,
+  return report::reason_of(oracle::Margins(one.scene, precision), one.scene, one.query, one.exact, one.given,
                            report::decisive_of(one.scene, one.query, one.exact, one.given), "");
 }
 
 }  // namespace
 
-std::string text_of(const fuzz::CaseText& text) {
+std::string text_of(const fuzz::CaseText& text, NumberFormat precision) {
   std::string out =
       fmt::format("{}\n{}\nsays  {}\ntruth {}\n", text.scene, text.query, text.given, text.exact);
   if (std::isinf(text.departs))
@@ -204,7 +207,7 @@ std::string text_of(const fuzz::CaseText& text) {
   else if (text.departs > 0)
     out += fmt::format("departs by {:.3g} ulps at least\n", text.departs);
   if (text.margin) out += fmt::format("margin of the exact answer: {:.3g} ulps\n", *text.margin);
-  return out + reason_in(text);
+  return out + reason_in(text, precision);
 }
 
 void add_finding(json::Members& object, const fuzz::Stored& stored) {

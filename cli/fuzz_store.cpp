@@ -7,8 +7,10 @@
 #include "cli/case_report.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"
+#include "cli/fuzz_options.hpp"
 #include "cli/output.hpp"
 #include "files/beside.hpp"
+#include "report/claim_words.hpp"
 #include "report/reason.hpp"
 #include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
@@ -82,8 +84,15 @@ int list(const StoreOptions& options) {
   return store.is_whole() ? kDone : kFailed;
 }
 
-std::string lines_of(const std::string& heading, const fuzz::CaseText& text) {
-  return '\n' + heading + '\n' + text_of(text);
+std::string lines_of(const std::string& heading, const fuzz::CaseText& text, NumberFormat precision) {
+  return '\n' + heading + '\n' + text_of(text, precision);
+}
+
+// Of the campaign that found it.
+Claim claim_of(const Store& store, const Stored& one) {
+  for (const fuzz::Campaign& campaign : store.campaigns())
+    if (campaign.id == one.campaign) return cli::claim_of(campaign.manifest);
+  return {};
 }
 
 std::string heading_of_shrunk(const fuzz::Finding& f) {
@@ -91,13 +100,14 @@ std::string heading_of_shrunk(const fuzz::Finding& f) {
   return so_far + (f.shrinking == fuzz::Shrinking::cut_short ? ", cut short by the time):" : "):");
 }
 
-std::string text_of(const std::string& id, const fuzz::Finding& f) {
-  std::string out = fmt::format("{}: {}\ncause: {}\n", id, f.kind, f.cause);
+std::string text_of(const std::string& id, const fuzz::Finding& f, const Claim& claim) {
+  std::string out = fmt::format("{}: {}{}\ncause: {}\n", id, f.kind, report::words_of(claim), f.cause);
   if (!f.words.empty()) out += fmt::format("in other words: {}\n", f.words);
   if (f.shrinking == fuzz::Shrinking::due)
     return out + "not shrunk yet: the campaign does so when it is gone on with\n" +
-           lines_of("as found:", f.text);
-  return out + lines_of(heading_of_shrunk(f), f.shrunk) + lines_of("as found:", f.text);
+           lines_of("as found:", f.text, claim.precision);
+  return out + lines_of(heading_of_shrunk(f), f.shrunk, claim.precision) +
+         lines_of("as found:", f.text, claim.precision);
 }
 
 // Of the shrunk case, which is the one to be looked at.
@@ -108,6 +118,7 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
   report.title = "finding " + one.label();
   report.command = fmt::format("lorentz fuzz show {} --store {}{}", shell_quoted(one.label()),
                                shell_quoted(store.path()), files.as_typed());
+  report.claim = claim_of(store, one);
   report.cause = finding.cause;
   report.where = "campaign target " + finding.target;
   report.verdict = finding.kind == "wrong time" ? "wrong-time" : finding.kind;
@@ -116,8 +127,8 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
   report.given = read.given;
   report.exact = read.exact;
   report.decisive = report::decisive_of(report.scene, report.query, report.exact, *report.given);
-  const auto dispute = report::dispute_of(oracle::Margins(report.scene), report.scene, report.query,
-                                          report.exact, *report.given, report.decisive);
+  const auto dispute = report::dispute_of(oracle::Margins(report.scene, report.claim.precision), report.scene,
+                                          report.query, report.exact, *report.given, report.decisive);
   if (dispute) report.explanation = dispute->text;
   if (!finding.words.empty()) report.more.push_back("It was asked in other words: " + finding.words);
   if (finding.shrunk.departs > 0) report.by_ulps = finding.shrunk.departs;
@@ -132,7 +143,7 @@ int show(const StoreOptions& options) {
     if (one.label() != options.id) continue;
     if (options.files.any()) options.files.write(case_report(store, one, options.files));
     print(options.json ? json::line_of([&](json::Members& object) { add_finding(object, one); })
-                       : text_of(options.id, one.finding));
+                       : text_of(options.id, one.finding, claim_of(store, one)));
     return kDone;
   }
   throw InputError(fmt::format("{}: no finding is called {}; `lorentz fuzz list --all` has the names",

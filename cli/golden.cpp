@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 int list(bool as_json) {
-  report::Table table({"set", "records", "committed", "tags", "what"});
+  report::Table table({"set", "precision", "records", "committed", "tags", "what"});
   table.with_prose();
   std::vector<std::string> json;
   for (const golden::Set& set : golden::sets()) {
@@ -30,12 +30,12 @@ int list(bool as_json) {
     for (const std::string& file : golden::committed_sets())
       if (fs::path(file).stem() == set.name)
         committed = std::to_string(count = golden::Reader(file).header().count);
-    const bool endless = set.most > set.committed;
-    table.add({set.name, endless ? "any" : std::to_string(set.most), committed,
+    const bool endless = set.most > set.count;
+    table.add({set.name, name_of(set.precision), endless ? "any" : std::to_string(set.most), committed,
                std::to_string(set.tags.size()), set.description});
     json.push_back(json::text_of([&](json::Members& one) {
-      one.add("name", set.name, "committed", count, "description", set.description, "tags",
-              [&](json::Members& tags) {
+      one.add("name", set.name, "committed", count, "description", set.description, "family", set.family,
+              "precision", name_of(set.precision), "tags", [&](json::Members& tags) {
                 for (const cases::Tag& tag : set.tags) tags.add_named(tag.name, tag.note);
               });
     }));

@@ -53,6 +53,9 @@ struct Failure {
 struct SetTally {
   std::string description;
   std::vector<std::pair<std::string, std::string>> notes;  // on the tags
+  Claim claim;
+  std::string label;            // its name; and the precision, if the set says it and the name does not
+  std::string claim_arguments;  // that lead to this claim
   Tally all;
   std::map<std::string, Tally> by_tag;
   bool failed = false;               // the program broke
@@ -90,7 +93,7 @@ class EngineCheck {
   EngineCheck(const EngineInfo& engine, const CheckOptions& options, const AnswererOptions& asking)
       : engine_(engine.name),
         ulps_(options.ulps.value_or(oracle::kDefaultUlps)),
-        claim_(options.claim.claim()),
+        options_(options.claim),
         times_(options.times),
         most_failures_(options.json ? 0 : static_cast<std::size_t>(options.failures)) {
     for (std::uint64_t job = 0; job < (engine.is_own() ? options.jobs : 1); ++job)
@@ -105,13 +108,21 @@ class EngineCheck {
 
   SetTally run(const std::string& path, const std::optional<std::string>& id, std::uint64_t first) {
     golden::Reader reader(path);
+    const Claim claim = options_.claim(reader.header().precision);
     SetTally tally;
-    tally.all.name = reader.header().name;
+    tally.claim = claim;
+    tally.claim_arguments = report::arguments_of(claim);
+    if (claim.precision == NumberFormat::binary64 && reader.header().precision != claim.precision)
+      tally.claim_arguments += " --precision binary64";
+    tally.all.name = tally.label = reader.header().name;
+    if (const std::string precision = name_of(claim.precision);
+        !options_.precision && claim.precision != NumberFormat::binary64 && !tally.label.ends_with(precision))
+      tally.label += ", in " + precision;
     tally.description = reader.header().description;
     tally.notes = reader.header().tags;
     Progress progress(engine_.c_str(), reader.header().count);
     const Source records = in_its_numbers(
-        records_of(golden::questions_of(reader, claim_), id, first, progress), tally.of_other_numbers);
+        records_of(golden::questions_of(reader, claim), id, first, progress), tally.of_other_numbers);
     for (std::vector<Question> part; !(part = some_of(records, kTogether)).empty();)
       examine(part, answerers_, ulps_, [&](const Judged& judged) { take(judged, path, tally); });
     tally.failed = answerers_[0]->failed();
@@ -139,16 +150,23 @@ class EngineCheck {
     if (!failed || failures_.size() >= most_failures_) return;
     Place& place = *question.place;
     failures_.push_back({set, question.where, fmt::format("{}", fmt::join(question.tags, ", ")), engine_,
-                         judgement, question.margin, question.exact, reply.answer, place.scene(), "",
-                         report::arguments_of(claim_)});
+                         judgement, margin_of(question), question.exact, reply.answer, place.scene(), "",
+                         tally.claim_arguments});
     if (question.is_query() && judgement.verdict == oracle::Verdict::wrong)
       failures_.back().reason = report::reason_of(place.margins(), place.scene(), question.query,
                                                   question.exact, reply.answer, judgement.obstacle, "    ");
   }
 
+  // The record's, or computed where that counts in another precision's ulps.
+  static std::optional<double> margin_of(const Question& question) {
+    if (question.margin || !question.is_query()) return question.margin;
+    const auto decision = question.place->margins().hardest_decision(question.query, question.exact);
+    return decision ? std::optional(decision->margin) : std::nullopt;
+  }
+
   const std::string engine_;
   const double ulps_;
-  const Claim claim_;
+  const ClaimOptions options_;
   const bool times_;
   const std::size_t most_failures_;
   std::vector<std::unique_ptr<Answerer>> answerers_;  // one a thread
@@ -213,17 +231,27 @@ void add_counts(json::Members& object, const Tally& t) {
 void add_set(json::Members& object, const SetTally& set) {
   object.add("set", set.all.name);
   add_counts(object, set.all);
-  object.add("not_asked", set.not_asked(), "tags", [&](json::Members& tags) {
-    for (const auto& [tag, tally] : set.by_tag)
-      tags.add_named(tag, [&](json::Members& counts) { add_counts(counts, tally); });
-  });
+  object.add("not_asked", set.not_asked(), "precision", name_of(set.claim.precision), "tags",
+             [&](json::Members& tags) {
+               for (const auto& [tag, tally] : set.by_tag)
+                 tags.add_named(tag, [&](json::Members& counts) { add_counts(counts, tally); });
+             });
+}
+
+// By which claim all sets were judged; of several precisions none.
+void add_common_claim(json::Members& object, const Claim& claim, const std::vector<SetTally>& tallies) {
+  const NumberFormat first = tallies.empty() ? claim.precision : tallies.front().claim.precision;
+  if (std::ranges::all_of(tallies, [&](const SetTally& set) { return set.claim.precision == first; }))
+    report::add_claim(object, {first, claim.time_tolerance});
+  else
+    object.add("precision", std::optional<double>(), "time_tolerance", claim.time_tolerance);
 }
 
 std::string json_of(const std::string& engine, const Claim& claim, const std::vector<SetTally>& tallies,
                     std::size_t not_asked) {
   return json::line_of([&](json::Members& object) {
     object.add("engine", engine, "sets", json::objects(tallies, add_set));
-    report::add_claim(object, claim);
+    add_common_claim(object, claim, tallies);
     std::size_t records = 0;
     for (const SetTally& set : tallies) records += set.not_asked();
     object.add("records_not_asked", records, "not_asked", not_asked);
@@ -241,7 +269,7 @@ void show(const std::string& engine, const Claim& claim, const std::vector<SetTa
           const std::vector<Failure>& failures, std::size_t not_asked) {
   report::Table table(kColumns);
   for (const SetTally& set : tallies) {
-    table.add(cells_of(set.all.name, "all", set.all));
+    table.add(cells_of(set.label, "all", set.all));
     for (const auto& [tag, tally] : set.by_tag) table.add(cells_of("", tag, tally));
   }
   if (not_asked > 0) table.add(cells_of(fmt::format("{} sets not asked", not_asked), "", {}));
@@ -388,7 +416,7 @@ Command golden_check_command() {
                "files, folders, or names of committed sets (default: all of these)"},
               {"--ulps", Tolerance{&options->ulps}, "K",
                "the tolerance k of the verdicts; 0 forgives nothing (default: 4)"},
-              options->claim.precision_row(),
+              options->claim.precision_row("else each set's own"),
               options->claim.time_tolerance_row(),
               {"--first", Whole{&options->first, 1, 1'000'000'000'000}, "N",
                "only the first N records of each set"},

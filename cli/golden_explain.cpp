@@ -43,7 +43,8 @@ void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::
     print(fmt::format("\nIt is not a valid query: {}. The answer is `error`.\n", read.flaw));
     return;
   }
-  const oracle::Margins margins(reader.scene());
+  const NumberFormat precision = reader.header().precision;
+  const oracle::Margins margins(reader.scene(), precision);
   const Answer& expect = record.expect;
   if (expect.outcome == Outcome::never) {
     print(
@@ -57,6 +58,8 @@ void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::
   if (hit)
     print(fmt::format("An ulp in each input moves that time by up to {:.4g} of its ulps (its condition).\n",
                       margins.condition(*read.query, expect)));
+  if (precision != NumberFormat::binary64)
+    print(fmt::format("An ulp here is one of {}, of {} bits.\n", name_of(precision), bits_of(precision)));
   print(report::decision_text(*margins.hardest_decision(*read.query, expect), count) + '\n');
   if (hit)
     print("\nThe nearest obstacles on the way (below 0: met):\n\n" +
@@ -78,12 +81,14 @@ CaseReport case_report(const golden::Reader& reader, const golden::ReadRecord& r
         report.explanation += (report.explanation.empty() ? "" : "; ") + note;
       }
   if (report.cause.empty()) report.cause = reader.header().name;
+  report.claim.precision = reader.header().precision;
   report.scene = reader.scene();
   report.query = *read.query;
   report.exact = record.expect;
   if (record.condition)
     report.more.push_back(
-        fmt::format("An ulp in each input moves the time by up to {:.4g} of its ulps.", *record.condition));
+        fmt::format("An ulp in each input moves the time by up to {:.4g} of its ulps{}.", *record.condition,
+                    reader.header().precision == NumberFormat::binary64 ? "" : ", which are of binary32"));
   return report;
 }
 

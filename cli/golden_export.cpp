@@ -122,7 +122,7 @@ constexpr const char* kCHead =
     "{};\n"
     "   the time of entry correctly rounded, the point and the outward normal there, and how far the inputs "
     "may\n"
-    "   move, in ulps, until another outcome is right. NAN: does not apply. */\n"
+    "   move, in ulps of {}, until another outcome is right. NAN: does not apply. */\n"
     "#include <math.h>\n"
     "static const struct lorentz_case {{\n  const char *id, *tags;\n  int dimension;\n  double asked[19];\n"
     "  int leaving;\n  char outcome;\n  double told[8];\n}} lorentz_cases[] = {{\n";
@@ -131,9 +131,10 @@ int act(const std::string& name, const std::string& format) {
   const bool as_c = index_of_name(format, {"csv", "c"}, "--format") == 1;
   golden::Reader reader(golden::find_set(name));
   const golden::Header& header = reader.header();
-  std::string text = as_c ? fmt::format(fmt::runtime(kCHead), in_comment(header.name),
-                                        in_comment(header.description), in_comment(name), kAsked, kTold)
-                          : fmt::format(fmt::runtime(kCsvHead), kAsked, kTold);
+  std::string text =
+      as_c ? fmt::format(fmt::runtime(kCHead), in_comment(header.name), in_comment(header.description),
+                         in_comment(name), kAsked, kTold, name_of(header.precision))
+           : fmt::format(fmt::runtime(kCsvHead), kAsked, kTold);
   for (golden::ReadRecord read; reader.next(read);) {
     const ExportedRecord one = exported(reader, read);
     text += as_c ? c_line(one) : csv_line(one);

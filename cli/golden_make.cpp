@@ -5,6 +5,7 @@
 #include <thread>
 
 #include <lorentz/exchange.hpp>
+#include "cli/claim_options.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
 #include "cli/output.hpp"
@@ -22,16 +23,26 @@ namespace {
 namespace fs = std::filesystem;
 
 struct MakeOptions {
-  std::optional<std::string> set, folder;
+  std::optional<std::string> set, folder, precision;
   std::optional<std::uint64_t> count;
   std::string output = "-";
   std::uint64_t seed = starts::kDefaultSeed, jobs = 1;
 };
 
-const golden::Set& set_named(const std::string& name) {
-  std::vector<std::string> names;
-  for (const golden::Set& set : golden::sets()) names.push_back(set.name);
-  return golden::sets()[index_of_name(name, names, "--set")];
+const golden::Set& set_of(const MakeOptions& options) {
+  ClaimOptions claim;
+  claim.precision = options.precision;
+  const NumberFormat precision = claim.claim().precision;
+  const golden::Set* set = golden::set_named(*options.set, precision);
+  if (!set) {
+    std::vector<std::string> names;
+    for (const golden::Set& one : golden::sets()) names.push_back(one.name);
+    index_of_name(*options.set, names, "--set");  // throws
+  }
+  if (options.precision && set->precision != precision)
+    throw InputError(
+        fmt::format("--precision: the set {} is of {} only", set->name, name_of(set->precision)));
+  return *set;
 }
 
 void report(const golden::Order& order, const golden::RecordCounts& counts) {
@@ -85,8 +96,9 @@ int make_all(golden::Order order, const std::string& folder) {
   fs::create_directories(folder, error);
   std::string sums;
   for (const golden::Set& set : golden::sets()) {
+    if (!set.is_committed) continue;
     order.set = &set;
-    order.count = set.committed;
+    order.count = set.count;
     const std::string name = set.name + ".ndjson", path = (fs::path(folder) / name).string();
     report(order, make_file(order, path));
     sums += golden::sha256(contents(path)) + "  " + name + '\n';
@@ -99,8 +111,8 @@ int make_all(golden::Order order, const std::string& folder) {
 }
 
 int make_one(golden::Order order, const MakeOptions& options) {
-  order.set = &set_named(*options.set);
-  order.count = options.count.value_or(order.set->committed);
+  order.set = &set_of(options);
+  order.count = options.count.value_or(order.set->count);
   if (order.count > order.set->most) {
     say("{}: there are {} records, not {}", order.set->name, order.set->most, order.count);
     order.count = order.set->most;
@@ -124,8 +136,8 @@ int act(const MakeOptions& options) {
   golden::Order order;
   order.seed = options.seed;
   order.jobs = options.jobs;
-  if (options.folder && (options.set || options.count))
-    throw InputError("--all makes every set at its own count; leave --set and --count out");
+  if (options.folder && (options.set || options.count || options.precision))
+    throw InputError("--all makes every set as it is committed; leave --set, --count and --precision out");
   if (options.folder) return make_all(order, *options.folder);
   if (!options.set) throw InputError("name a set (--set NAME), or a folder for all of them (--all FOLDER)");
   return make_one(order, options);
@@ -140,8 +152,12 @@ Command golden_make_command() {
       "Produces a set: the same, bit for bit, whatever --jobs.",
       {
           {"--set", &options->set, "SET", "which set (lorentz golden list)"},
+          {"--precision", &options->precision, "binary64|binary32",
+           "of the numbers of scenes and queries: cases are hard in its ulps, which margins and conditions "
+           "count "
+           "(default: binary64)"},
           {"--count", Whole{&options->count, 1, 1'000'000'000'000}, "N",
-           "how many records (default: as many as are committed)"},
+           "how many records (default: as many as are committed, or would be)"},
           {"--seed", Whole{&options->seed}, "N", "of the cases"},
           {"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads"},
           {"-o,--output", &options->output, "FILE",
@@ -152,7 +168,8 @@ Command golden_make_command() {
       },
 
       "Every record was agreed by two oracles: walk, where it can go, and the checked certificate.\n"
-      "Example:\n  lorentz golden make --set near-rational --count 1e3 --jobs 2 -o near-rational.ndjson",
+      "Example:\n  lorentz golden make --set near-rational --count 1e3 --jobs 2 -o near-rational.ndjson\n"
+      "  lorentz golden make --set grazing --precision binary32 -o grazing-binary32.ndjson",
       [options] { return act(*options); }};
 }
 

@@ -44,7 +44,8 @@ VerifyFindings verify(const std::string& path, bool walk) {
   };
   for (golden::ReadRecord read; reader.next(read); progress.at(findings.records)) {
     ++findings.records;
-    if (scene != reader.scene_number()) maker.emplace(reader.scene(), reader.scene_line());
+    if (scene != reader.scene_number())
+      maker.emplace(reader.scene(), reader.scene_line(), golden::Others{}, reader.header().precision);
     scene = reader.scene_number();
     auto flaw = flaw_in_set(reader.header(), read.record, ids);
     if (!flaw) flaw = maker->flaw_of(read.record, read.query, walk);

@@ -79,13 +79,14 @@ std::function<void(const std::string&)> clock_of(double seconds) {
 }
 
 // Tells at which row it is.
-std::function<void(const std::string&)> rows_shown() {
+std::function<void(const std::string&)> rows_shown(NumberFormat precision) {
   struct RowBar {
-    Progress bar{"judging (rows)", judge::number_of_rows(), 1};
+    explicit RowBar(NumberFormat precision) : bar("judging (rows)", judge::number_of_rows(precision), 1) {}
+    Progress bar;
     std::string last = {};
     std::size_t begun = 0;
   };
-  return [rows = std::make_shared<RowBar>()](const std::string& row) {
+  return [rows = std::make_shared<RowBar>(precision)](const std::string& row) {
     if (row != rows->last) ++rows->begun, rows->last = row;
     rows->bar.at(rows->begun - 1, [&] { return row; });
   };
@@ -132,7 +133,7 @@ int act(const JudgeOptions& options) {
   RequestedFile html(options.html);
   const std::optional<judge::Baseline> baseline = baseline_of(options);
   const Interrupt interrupt;
-  order.on_progress = order.questions ? rows_shown() : clock_of(order.seconds());
+  order.on_progress = order.questions ? rows_shown(order.claim.precision) : clock_of(order.seconds());
   const JudgeReport report = judge::judged(order, Interrupt::came());
   order.on_progress = {};  // the bar is gone before anything is printed
   print(options.json ? report.json() : report.text());

@@ -192,6 +192,7 @@ def check(name):
                 version, count, tags = integer((head := box["golden"])["format"]), integer(head["count"]), head["tags"]
                 named = [head[key] for key in ("name", "description", "generator", "version") if key in head]
                 require({*map(type, named + [*tags.values()])} <= {str}, "names and tags are explained in strings")
+                require(head.get("precision", "binary64") in ("binary64", "binary32"), "unknown precision")
             elif "scene" in box:
                 require(not {"id", "x", "v", "from"} & {*box}, "a scene's line with a key of a record")
                 scene, text = read_scene(box["scene"]), line

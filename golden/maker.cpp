@@ -42,6 +42,7 @@ std::optional<std::string> flaw_of_form(const Record& record) {
 struct Maker::Impl {
   Scene scene;
   std::string scene_line;
+  NumberFormat precision;
   oracle::Oracle oracle;
   oracle::Walk walk;
   oracle::Margins margins;
@@ -50,12 +51,13 @@ struct Maker::Impl {
 
   Others others;
 
-  Impl(const Scene& scene, std::string line, Others those)
+  Impl(const Scene& scene, std::string line, Others those, NumberFormat its_precision)
       : scene(scene),
         scene_line(std::move(line)),
+        precision(its_precision),
         oracle(scene),
         walk(scene, kWalkCells),
-        margins(scene),
+        margins(scene, its_precision),
         prover(scene),
         check(scene),
         others(std::move(those)) {}
@@ -83,9 +85,10 @@ std::string line_of(const Scene& scene) {
 
 }  // namespace
 
-Maker::Maker(const Scene& scene, Others others) : Maker(scene, line_of(scene), std::move(others)) {}
-Maker::Maker(const Scene& scene, std::string scene_line, Others others)
-    : impl_(std::make_unique<const Impl>(scene, std::move(scene_line), std::move(others))) {}
+Maker::Maker(const Scene& scene, Others others, NumberFormat precision)
+    : Maker(scene, line_of(scene), std::move(others), precision) {}
+Maker::Maker(const Scene& scene, std::string scene_line, Others others, NumberFormat precision)
+    : impl_(std::make_unique<const Impl>(scene, std::move(scene_line), std::move(others), precision)) {}
 Maker::Maker(Maker&&) noexcept = default;
 Maker::~Maker() = default;
 
@@ -141,6 +144,8 @@ std::optional<std::string> Maker::flaw_of(const Record& record, const std::optio
     return query ? "this is a query, `error` is no answer to it"
                  : "this is no query, it has no answer but `error`";
   }
+  if (!consists_of(impl_->scene, impl_->precision) || !consists_of(*query, impl_->precision))
+    return std::string("its numbers are not of ") + name_of(impl_->precision);
   if (!record.certificate) return "it has no certificate";
   if (auto why = impl_->check.refutation(*query, record.expect, *record.certificate)) return why;
   Record again;

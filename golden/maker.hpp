@@ -32,12 +32,13 @@ struct Others {
   std::function<oracle::Certificate(const Query&, const Answer&)> prove = {};
 };
 
-/// For the questions of one scene.
+/// For the questions of one scene. Margins and conditions count in ulps of `precision`.
 class Maker {
  public:
-  explicit Maker(const Scene& scene, Others others = {});
+  explicit Maker(const Scene& scene, Others others = {}, NumberFormat precision = NumberFormat::binary64);
   /// For a scene that stands in a set, in this line: ids depend on how it is written.
-  Maker(const Scene& scene, std::string scene_line, Others others = {});
+  Maker(const Scene& scene, std::string scene_line, Others others = {},
+        NumberFormat precision = NumberFormat::binary64);
   Maker(Maker&&) noexcept;
   ~Maker();
 
@@ -51,8 +52,9 @@ class Maker {
   /// and ProofTooLong.
   MadeRecord make(std::string question, const std::optional<Query>& query) const;
 
-  /// What is wrong with a record, or nothing: the id does not belong to the question; the certificate does
-  /// not prove the answer; margin or condition are others; walk, if asked, says otherwise.
+  /// What is wrong with a record, or nothing: the id does not belong to the question; its numbers, or those of
+  /// the scene, are not of the precision; the certificate does not prove the answer; margin or condition are
+  /// others; walk, if asked, says otherwise.
   std::optional<std::string> flaw_of(const Record& record, const std::optional<Query>& query,
                                      bool ask_walk) const;
 

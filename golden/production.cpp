@@ -38,7 +38,8 @@ Batch make_batch(const Order& order, std::uint64_t number) {
     scene_line.clear();
     append_scene_line(scene_line, question.scene);
     scene_line.pop_back();
-    if (!maker || maker->scene_line() != scene_line) maker.emplace(question.scene);
+    if (!maker || maker->scene_line() != scene_line)
+      maker.emplace(question.scene, Others{}, order.set->precision);
     batch.push_back({scene_line, question.scene, maker->make(question.text, question.query)});
     batch.back().record.record.tags = question.tags;
   }
@@ -183,10 +184,12 @@ std::string text_in(const std::string& piece, ProductionState& state) {
 }  // namespace
 
 Header header_of(const Order& order) {
-  Header header{order.set->name, order.set->description, {}, LORENTZ_VERSION, order.count, {}};
-  header.generator = "lorentz golden make --set " + order.set->name + " --count " +
-                     std::to_string(order.count) + " --seed " + std::to_string(order.seed);
-  for (const cases::Tag& tag : order.set->tags) header.tags.emplace_back(tag.name, tag.note);
+  const Set& set = *order.set;
+  Header header{set.name, set.description, {}, LORENTZ_VERSION, order.count, {}, set.precision};
+  const bool is_wide = set.precision == NumberFormat::binary64;
+  header.generator = fmt::format("lorentz golden make --set {}{} --count {} --seed {}", set.family,
+                                 is_wide ? "" : " --precision binary32", order.count, order.seed);
+  for (const cases::Tag& tag : set.tags) header.tags.emplace_back(tag.name, tag.note);
   return header;
 }
 

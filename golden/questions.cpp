@@ -19,7 +19,7 @@ question::Source questions_of(Reader& reader, const Claim& claim) {
         .text = read.query ? "" : std::move(record.question),
         .id = json_quoted(record.id),
         .tags = std::move(record.tags),
-        .margin = claim.precision == NumberFormat::binary64 ? record.margin : std::nullopt};
+        .margin = claim.precision == reader.header().precision ? record.margin : std::nullopt};
   };
 }
 

@@ -7,7 +7,7 @@
 namespace lorentz::golden {
 
 /// The next records; `where` is the record's id. Throws as the reader does. The reader must outlast the source.
-/// Judged by the claim; margins are those of the records, of binary64 only.
+/// Judged by the claim. Margins are those of the records if the claim's precision is the set's, else recomputed.
 question::Source questions_of(Reader& reader, const Claim& claim = {});
 
 }  // namespace lorentz::golden

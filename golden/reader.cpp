@@ -25,6 +25,13 @@ int read_index(json::Value value, const std::string& key) {
   return static_cast<int>(read_count(value, key, 1'000'000'000));
 }
 
+NumberFormat read_precision(json::Value value, const std::string& key) {
+  const std::string name = read_text(value, key);
+  for (const NumberFormat precision : {NumberFormat::binary64, NumberFormat::binary32})
+    if (name == name_of(precision)) return precision;
+  throw InputError(key + ": " + json_quoted(name) + " is unknown; expected binary64 or binary32");
+}
+
 Header read_header(json::Value value) {
   Header header;
   bool has_format = false, has_count = false, has_tags = false;
@@ -41,6 +48,8 @@ Header read_header(json::Value value) {
       header.generator = read_text(member, key);
     } else if (key == "version") {
       header.version = read_text(member, key);
+    } else if (key == "precision") {
+      header.precision = read_precision(member, key);
     } else if (key == "count") {
       header.count = static_cast<std::uint64_t>(read_count(member, key));
       has_count = true;

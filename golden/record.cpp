@@ -70,10 +70,11 @@ void append_header_line(std::string& out, const Header& header) {
   json::append(out, [&](json::Members& line) {
     line.add("golden", [&](json::Members& golden) {
       golden.add("format", 1, "name", header.name, "description", header.description, "generator",
-                 header.generator, "version", header.version, "count", header.count, "tags",
-                 [&](json::Members& tags) {
-                   for (const auto& [tag, note] : header.tags) tags.add_named(tag, note);
-                 });
+                 header.generator, "version", header.version, "count", header.count);
+      if (header.precision != NumberFormat::binary64) golden.add("precision", name_of(header.precision));
+      golden.add("tags", [&](json::Members& tags) {
+        for (const auto& [tag, note] : header.tags) tags.add_named(tag, note);
+      });
     });
   });
   out += '\n';

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <lorentz/certificate.hpp>
+#include <lorentz/claim.hpp>
 #include <lorentz/exchange.hpp>
 #include "src/exchange/json_writer.hpp"
 
@@ -20,6 +21,8 @@ struct Header {
   std::string version;    ///< of the program that made it
   std::uint64_t count = 0;
   std::vector<std::pair<std::string, std::string>> tags;  ///< each with what it is out to break
+  /// Of all numbers of its scenes and queries, and of the ulps that margins and conditions count.
+  NumberFormat precision = NumberFormat::binary64;
 };
 
 struct Record {

@@ -19,19 +19,24 @@ struct SetQuestion {
 };
 
 struct Set {
-  std::string name, description;
+  std::string name;    ///< of binary32 the family's with "-binary32" behind it
+  std::string family;  ///< of cases; of bad-queries its name
+  std::string description;
   std::vector<cases::Tag> tags;
-  std::uint64_t committed;  ///< how many records of it data/golden holds
-  std::uint64_t most;       ///< how many there are
+  NumberFormat precision;  ///< of the numbers of scenes and queries
+  std::uint64_t count;     ///< how many records are made if nobody says how many
+  std::uint64_t most;      ///< how many there are
+  bool is_committed;       ///< data/golden holds so many of them
 
-  /// Follows from (set, seed, index).
+  /// Follows from (set, seed, index). Cases in a row share a scene: 32 in binary64, 8 in binary32.
   SetQuestion question(std::uint64_t seed, std::uint64_t index) const;
 };
 
-/// All sets: one of each family of cases, and bad-queries.
+/// All sets: one of each family of cases, and bad-queries; then one of each family in binary32.
 const std::vector<Set>& sets();
 
-/// Null if there is none of that name.
-const Set* set_named(std::string_view name);
+/// The set of this family in the precision; or else the one of this name, whatever its precision. Null if there
+/// is none.
+const Set* set_named(std::string_view name, NumberFormat precision = NumberFormat::binary64);
 
 }  // namespace lorentz::golden

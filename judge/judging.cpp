@@ -1,5 +1,4 @@
 #include "judge/judging.hpp"
-#include "golden/find_sets.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -11,6 +10,7 @@
 #include <lorentz/exchange.hpp>
 
 #include "files/scene_file.hpp"
+#include "golden/find_sets.hpp"
 #include "golden/reader.hpp"
 #include "judge/judge_paths.hpp"
 #include "judge/questions.hpp"
@@ -122,8 +122,18 @@ std::vector<NamedPlace> fly_drawn(Examination& examination, const TimePlan& plan
   return all;
 }
 
+// The committed sets that an engine is asked about: those in binary32 are for engines in binary32 alone, to
+// others the same families are harder in binary64.
+std::vector<std::string> golden_sets_for(NumberFormat precision) {
+  std::vector<std::string> files = golden::committed_sets();
+  if (precision == NumberFormat::binary64)
+    std::erase_if(
+        files, [&](const std::string& file) { return golden::Reader(file).header().precision != precision; });
+  return files;
+}
+
 void check_golden_sets(Examination& examination, double seconds) {
-  const std::vector<std::string> files = golden::committed_sets();
+  const std::vector<std::string> files = golden_sets_for(examination.claim().precision);
   Shares shares(seconds, files.size());
   for (const std::string& file : files) {
     const golden::Header header = golden::Reader(file).header();
@@ -304,9 +314,9 @@ double JudgeOrder::seconds() const {
   return plan_of(*this).seconds();
 }
 
-std::size_t number_of_rows() {
+std::size_t number_of_rows(NumberFormat precision) {
   constexpr std::size_t kOthers = 4;  // near-rational, grazing, free paths, campaign
-  return kSceneries.size() + golden::committed_sets().size() + kOthers;
+  return kSceneries.size() + golden_sets_for(precision).size() + kOthers;
 }
 
 JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {

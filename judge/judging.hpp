@@ -35,7 +35,7 @@ struct JudgeOrder {
 };
 
 /// Of a report.
-std::size_t number_of_rows();
+std::size_t number_of_rows(NumberFormat precision);
 
 /// All that can be said of the engine; when `stop` is set, what was found until then. Throws
 /// FileError without the catalogue or the golden sets.

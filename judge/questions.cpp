@@ -121,24 +121,19 @@ class CampaignQuestions {
 
   // Some cases of a scene of the target's, and the variants of one of them.
   void make(const cases::Target& target, std::uint64_t begin) {
-    const cases::Case base = target.make(seed_, begin);
+    const cases::Case base = target.make(seed_, begin, claim_.precision);
     if (!scope_.admits(base.scene)) return;
     const auto place = place_for(base.scene, claim_);
-    if (place->scene() != base.scene && !fuzz::is_sound(place->scene())) return;  // what rounding made of it
-    const auto add = [&](const Query& made, std::optional<Answer> exact, std::uint64_t index, int step) {
-      const Query query = rounded(made, claim_.precision);
-      if (!place->has_numbers_for(made)) exact.reset();
-      if (!exact && flaw_of(query, place->scene())) return;
-      if (!exact) exact = place->exact(query);
+    const auto add = [&](const Query& query, const Answer& exact, std::uint64_t index, int step) {
       questions_.push_back({.place = place,
                             .query = query,
-                            .exact = std::move(*exact),
+                            .exact = exact,
                             .where = fmt::format("campaign, {}/{}{}", target.name(), index,
                                                  step > 0 ? fmt::format(".{}", step) : "")});
     };
     for (std::uint64_t index = begin; index < begin + kCases; ++index) {
-      const cases::Case one = target.make(seed_, index);
-      if (one.scene == base.scene) add(one.query, std::nullopt, index, 0);
+      const cases::Case one = target.make(seed_, index, claim_.precision);
+      if (one.scene == base.scene) add(one.query, place->exact(one.query), index, 0);
     }
     int step = 0;
     const cases::Random random(seed_, target.name(), begin, cases::Use::variants);

@@ -34,7 +34,7 @@ enum class Fairness { of_time, of_scenes };
 
 /// Cases of all targets of campaigns in turn, and of one of each scene the variants that climb to the
 /// smallest margin, without end; of scenes that the scope admits, and of these the ones that are `part`
-/// modulo `parts`. In binary32 all is rounded to it.
+/// modulo `parts`. All consist of numbers of the claim's precision.
 Source campaign(std::uint64_t seed, const fuzz::Scope& scope, Fairness fairness = Fairness::of_time,
                 unsigned part = 0, unsigned parts = 1, const Claim& claim = {});
 

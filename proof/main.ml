@@ -93,7 +93,9 @@ let read_header set box =
   List.iter (fun tag -> Hashtbl.replace set.tags tag ()) (Json.keys tags);
   let named = List.filter_map (fun key -> Json.find key head) [ "name"; "description"; "generator"; "version" ] in
   let is_string = function Json.String _ -> true | _ -> false in
-  Record.require (List.for_all is_string named && List.for_all (fun (_, said) -> is_string said) (Json.members tags)) "names and tags are explained in strings"
+  Record.require (List.for_all is_string named && List.for_all (fun (_, said) -> is_string said) (Json.members tags)) "names and tags are explained in strings";
+  let is_known = function None | Some (Json.String ("binary64" | "binary32")) -> true | Some _ -> false in
+  Record.require (is_known (Json.find "precision" head)) "unknown precision"
 
 let find_text text part first =
   let n = String.length part in

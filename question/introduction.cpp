@@ -62,9 +62,9 @@ std::optional<Introduction> introduction_in(std::string_view line) {
   const bool is_there = read_first(line, "engine", [&](std::string_view key, json::Value value) {
     if (key == "name") made.name = value.text();
     if (key == "version") made.version = value.text();
-    if (key == "precision") made.claim.precision = format_called(value.text());
+    if (key == "precision") made.precision = format_called(value.text());
     if (key == "time_tolerance" && !value.is_null())
-      made.claim.time_tolerance = not_negative(value, "time_tolerance");
+      made.time_tolerance = not_negative(value, "time_tolerance");
     if (key == "dimensions") made.dimensions = dimensions_in(value);
   });
   return is_there ? std::optional(made) : std::nullopt;

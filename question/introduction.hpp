@@ -13,7 +13,8 @@ namespace lorentz::question {
 /// `{"engine":{"name":..,"version":..,"precision":..,"time_tolerance":..,"dimensions":[..]}}`: each may be left out.
 struct Introduction {
   std::string name = {}, version = {};
-  Claim claim = {};
+  std::optional<NumberFormat> precision = {};
+  std::optional<double> time_tolerance = {};  ///< as Claim::time_tolerance
   std::vector<int> dimensions = {};  ///< empty: not said
 };
 

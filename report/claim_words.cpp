@@ -13,6 +13,12 @@ std::string words_of(const Claim& claim) {
                       : fmt::format(", times within {}", *claim.time_tolerance));
 }
 
+std::string full_words_of(const Claim& claim) {
+  const std::string precision = std::string(" in ") + name_of(claim.precision);
+  if (!claim.time_tolerance) return precision + ", times by ulps";
+  return precision + words_of({NumberFormat::binary64, claim.time_tolerance});
+}
+
 std::string arguments_of(const Claim& claim) {
   std::string text;
   if (claim.precision != NumberFormat::binary64)

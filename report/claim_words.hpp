@@ -11,6 +11,9 @@ namespace lorentz::report {
 /// ", in binary32, times within 1e-4"; empty of binary64 and times judged by ulps.
 std::string words_of(const Claim& claim);
 
+/// " in binary64, times by ulps": always both.
+std::string full_words_of(const Claim& claim);
+
 /// As arguments, each with a space before it; empty of no claim.
 std::string arguments_of(const Claim& claim);
 

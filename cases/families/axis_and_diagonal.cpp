@@ -16,7 +16,10 @@
 namespace lorentz::cases {
 namespace {
 
-void set_direction(Random& random, int dimension, Case& made) {
+void set_direction(Source& source, int dimension, Case& made) {
+  Random& random = source.random;
+  const bool is_wide = source.precision == NumberFormat::binary64;
+  const double smallest = is_wide ? 0x1p-1074 : 0x1p-149;
   Vec& v = made.query.v;
   const bool axis = random.one_in(3);
   const IntVec g = drawn_primitive(random, dimension, random.one_in(2) ? 1 : 6);
@@ -31,23 +34,29 @@ void set_direction(Random& random, int dimension, Case& made) {
     const std::uint64_t how = random.below(4);
     if (how == 0) v[i] = -0.0, minus_zero = true;
     if (how == 1)
-      v[i] = random.sign() * (random.one_in(3) ? 0x1p-1074 : random.octave(-1022, -30)), tiny = true;
+      v[i] = random.sign() * (random.one_in(3) ? smallest
+                              : is_wide        ? random.octave(-1022, -30)
+                                               : random.octave(-126, -30)),
+      tiny = true;
   }
   if (minus_zero) made.tags.push_back("minus-zero");
   if (tiny) made.tags.push_back("tiny-component");
   if (tiny || !random.one_in(3)) return;
   const bool huge = random.one_in(2);
   made.tags.push_back(huge ? "huge-velocity" : "subnormal-velocity");
-  const double factor = huge ? random.octave(900, 1020) : std::ldexp(1, -1074);
+  const double factor = !huge ? smallest : is_wide ? random.octave(900, 1020) : random.octave(100, 120);
   for (int i = 0; i < dimension; ++i)
     if (v[i] != 0) v[i] *= huge ? factor : factor * static_cast<double>(random.integer(1, 4096));
 }
 
 // A multiple of 1/8 in a cell near or far, mostly moved along v, which keeps it on the same line.
-void set_axis_start(Random& random, int dimension, const Lattice& lattice, Case& made) {
+void set_axis_start(Source& source, int dimension, const Lattice& lattice, Case& made) {
+  Random& random = source.random;
+  const bool is_wide = source.precision == NumberFormat::binary64;
   Vec& x = made.query.x;
   const bool far = random.one_in(4);
-  const std::int64_t range = far ? std::int64_t{1} << random.integer(20, 56) : 50;
+  const std::int64_t range =
+      far ? std::int64_t{1} << (is_wide ? random.integer(20, 56) : random.integer(8, 26)) : 50;
   const double grid = random.one_in(2) ? 2 : 8;
   for (int i = 0; i < dimension; ++i) {
     const double share = static_cast<double>(random.integer(0, static_cast<std::int64_t>(grid)));
@@ -57,7 +66,7 @@ void set_axis_start(Random& random, int dimension, const Lattice& lattice, Case&
   if (far) made.tags.push_back("far-cell");
   if (random.one_in(4)) {
     made.tags.push_back("ulps-off");
-    jitter(random, x, dimension, 2);
+    jitter(random, x, dimension, 2, source.precision);
   }
 }
 
@@ -68,8 +77,8 @@ Case make_axis(Source& source) {
   const int dimension = drawn.one_in(2) ? 3 : 2;
   made.scene = drawn.one_in(3) ? drawn_crystal(drawn, dimension).scene : unit_scene(dimension, 1);
   set_radius(made.scene, kRadii[drawn.below(7)]);
-  set_axis_start(source.random, dimension, made.scene.lattices[0], made);
-  set_direction(source.random, dimension, made);
+  set_axis_start(source, dimension, made.scene.lattices[0], made);
+  set_direction(source, dimension, made);
   return made;
 }
 
@@ -83,12 +92,18 @@ Family axis_and_diagonal() {
       {{"axis", "along an axis: slopes of 0 and infinity"},
        {"small-integers", "along a small integer vector: periodic, through corners and middles of cells"},
        {"minus-zero", "a component is -0, which is 0"},
-       {"tiny-component", "a component of 2^-30 down to 2^-1074, which is not 0"},
-       {"huge-velocity", "components beyond 1e270: their squares overflow"},
-       {"subnormal-velocity", "components below 1e-307: their squares vanish"},
-       {"far-cell", "starts in cells up to 2^56: the offset in the cell keeps few bits, or none"},
+       {"tiny-component", "a component of 2^-30 down to 2^-1074, which is not 0",
+        "a component of 2^-30 down to 2^-149, which is not 0"},
+       {"huge-velocity", "components beyond 1e270: their squares overflow",
+        "components beyond 1e30: their squares overflow"},
+       {"subnormal-velocity", "components below 1e-307: their squares vanish",
+        "components below 1e-38: their squares vanish"},
+       {"far-cell", "starts in cells up to 2^56: the offset in the cell keeps few bits, or none",
+        "starts in cells up to 2^26: the offset in the cell keeps few bits, or none"},
        {"ulps-off", "a start moved up to 2 ulps in each component"}},
-      make_axis};
+      make_axis,
+      "Directions of zeros and small integers, starts at halves and in far cells, velocities at the ends of "
+      "binary32's range."};
 }
 
 }  // namespace lorentz::cases

@@ -38,7 +38,8 @@ IntVec sphere_point(Random& random, const std::array<std::int64_t, 4>& quaternio
 }
 
 // A velocity at a surface point with the outward normal n.
-Vec drawn_velocity(Random& random, const Vec& n, int dimension, std::vector<std::string>& tags) {
+Vec drawn_velocity(Source& source, const Vec& n, int dimension, std::vector<std::string>& tags) {
+  Random& random = source.random;
   Vec tangent = cross(n, dimension == 2 ? Vec{0, 0, 1} : to_vec(drawn_primitive(random, 3, 5)));
   if (tangent == Vec{}) tangent = cross(n, n[0] == 0 ? Vec{1, 0, 0} : Vec{-n[1], n[0], 1});  // n was drawn
   const double side = random.sign();
@@ -54,7 +55,8 @@ Vec drawn_velocity(Random& random, const Vec& n, int dimension, std::vector<std:
       return scaled(tangent, side);
     default:
       tags.push_back("nearly-tangential");
-      return sum(scaled(tangent, side), scaled(n, random.octave(-53, -4) * random.sign()));
+      return sum(scaled(tangent, side),
+                 scaled(n, random.octave(-bits_of(source.precision), -4) * random.sign()));
   }
 }
 
@@ -85,13 +87,14 @@ void set_from(Random& random, const ObstacleId& own, const Vec& n, int dimension
 }
 
 // x on or ulps from the surface around `centre`.
-void set_start(Random& random, const Vec& centre, const Vec& n, int dimension, bool exact, Case& made) {
+void set_start(Source& source, const Vec& centre, const Vec& n, int dimension, bool exact, Case& made) {
+  Random& random = source.random;
   made.query.x = sum(centre, n);
   const bool off = random.one_in(2);
   made.tags.push_back(exact && !off ? "on-surface" : "near-surface");
   if (off)
     for (int i = 0; i < dimension; ++i)
-      if (random.one_in(2)) made.query.x[i] = moved(made.query.x[i], random.integer(-4, 4));
+      if (random.one_in(2)) made.query.x[i] = moved(made.query.x[i], random.integer(-4, 4), source.precision);
 }
 
 Case make_exact(Source& source) {
@@ -106,7 +109,8 @@ Case make_exact(Source& source) {
     w = 0;
     for (const std::int64_t component : quaternion) w += component * component;
   }
-  const int exponent = std::ilogb(static_cast<double>(w)) + static_cast<int>(drawn.integer(3, 9));
+  const int exponent = std::ilogb(static_cast<double>(w)) +
+                       static_cast<int>(drawn.integer(3, source.precision == NumberFormat::binary64 ? 9 : 7));
   made.scene = unit_scene(dimension, std::ldexp(static_cast<double>(w), -exponent));
   const IntVec point = dimension == 2 ? circle_point(random, w) : sphere_point(random, quaternion);
   const Symmetry symmetry(random, dimension);
@@ -118,8 +122,8 @@ Case make_exact(Source& source) {
     own.cell[i] = Integer(cell);
     centre[i] = static_cast<double>(cell);
   }
-  set_start(random, centre, n, dimension, true, made);
-  made.query.v = drawn_velocity(random, n, dimension, made.tags);
+  set_start(source, centre, n, dimension, true, made);
+  made.query.v = drawn_velocity(source, n, dimension, made.tags);
   set_from(random, own, n, dimension, made);
   return made;
 }
@@ -137,8 +141,8 @@ Case make_rounded(Source& source) {
     cell[i] = random.integer(-3, 3), own.cell[i] = Integer(cell[i]);
   const Vec centre = sum(lattice.atoms[own.atom].position, cartesian(lattice, cell)),
             n = scaled(random.direction(made.scene.dimension), lattice.atoms[own.atom].radius);
-  set_start(random, centre, n, made.scene.dimension, false, made);
-  made.query.v = drawn_velocity(random, n, made.scene.dimension, made.tags);
+  set_start(source, centre, n, made.scene.dimension, false, made);
+  made.query.v = drawn_velocity(source, n, made.scene.dimension, made.tags);
   set_from(random, own, n, made.scene.dimension, made);
   return made;
 }
@@ -153,7 +157,8 @@ Family boundary_starts() {
            {"inwards", "hits at once, at t = 0 if it starts on the surface"},
            {"outwards", "does not hit the obstacle that it starts on"},
            {"tangential", "touches, which is no hit"},
-           {"nearly-tangential", "a slope of 2^-4 to 2^-53 against the tangent: a chord of any shortness"},
+           {"nearly-tangential", "a slope of 2^-4 to 2^-53 against the tangent: a chord of any shortness",
+            "a slope of 2^-4 to 2^-24 against the tangent: a chord of any shortness"},
            {"leaving", "`from` is the obstacle that x is on"},
            {"from-around-x", "`from` contains x, and is ignored all the same"},
            {"from-elsewhere", "`from` is another obstacle, near or 2^60 cells away"}},

@@ -20,46 +20,55 @@
 namespace lorentz::cases {
 namespace {
 
-constexpr int kEdgeGrid = 40;  // exact starts and radii are multiples of 2^-40
-
-// A radius below the half width, or within ulps of it; a multiple of 2^-40 if `exact` and not closing.
-double drawn_radius(Random& random, double closing, bool exact, std::vector<std::string>& tags) {
-  if (random.one_in(3)) {
-    tags.push_back("closing");
-    return moved(closing, random.one_in(3) ? 0 : drawn_ulps(random));
-  }
-  const double r = closing * random.between(0.05, 0.95);
-  return exact ? std::ldexp(std::floor(std::ldexp(r, kEdgeGrid)), -kEdgeGrid) : r;
+// Exact starts and radii are multiples of 2^-this.
+constexpr int edge_grid(NumberFormat precision) {
+  return precision == NumberFormat::binary64 ? 40 : 18;
 }
 
-bool on_grid(double r) {
-  const double steps = std::ldexp(r, kEdgeGrid);
+// A radius below the half width, or within ulps of it; on the grid if `exact` and not closing.
+double drawn_radius(Random& random, NumberFormat precision, double closing, bool exact,
+                    std::vector<std::string>& tags) {
+  if (random.one_in(3)) {
+    tags.push_back("closing");
+    return moved(closing, random.one_in(3) ? 0 : drawn_ulps(random), precision);
+  }
+  const double r = closing * random.between(0.05, 0.95);
+  const int grid = edge_grid(precision);
+  return exact ? std::ldexp(std::floor(std::ldexp(r, grid)), -grid) : r;
+}
+
+bool on_grid(double r, NumberFormat precision) {
+  const double steps = std::ldexp(r, edge_grid(precision));
   return steps == std::floor(steps);
 }
 
 // v parallel to the axis, or ulps off it; a zero component of the axis becomes an ulp of the length.
-void set_corridor_direction(Random& random, Vec v, int dimension, Case& made) {
-  const double factor = static_cast<double>(random.integer(1, 1000)) * random.sign();
+void set_corridor_direction(Source& source, Vec v, int dimension, Case& made) {
+  Random& random = source.random;
+  const int most = source.precision == NumberFormat::binary64 ? 1000 : 30;
+  const double factor = static_cast<double>(random.integer(1, most)) * random.sign();
   for (int i = 0; i < dimension; ++i) v[i] = v[i] == 0 ? 0.0 : v[i] * factor;
   made.tags.push_back("along");
   if (random.one_in(2)) {
     made.tags.back() = "off-axis";
     const int i = static_cast<int>(random.below(static_cast<std::uint64_t>(dimension)));
     const double ulps = static_cast<double>(random.integer(1, 4)) * random.sign();
-    v[i] = v[i] == 0 ? std::ldexp(ulps * length(v), -52) : moved(v[i], static_cast<std::int64_t>(ulps));
+    v[i] = v[i] == 0 ? std::ldexp(ulps * length(v), 1 - bits_of(source.precision))
+                     : moved(v[i], static_cast<std::int64_t>(ulps), source.precision);
   }
   made.query.v = v;
 }
 
 // Moves a start on the edge off it in one component, or leaves it there.
-void move_off_edge(Random& random, bool exact, int dimension, Case& made) {
+void move_off_edge(Source& source, bool exact, int dimension, Case& made) {
+  Random& random = source.random;
   const bool off = random.below(3) > 0;
   made.tags.push_back(exact && !off ? "on-edge" : "near-edge");
   if (!off) return;
   const int i = static_cast<int>(random.below(static_cast<std::uint64_t>(dimension)));
   double& component = made.query.x[i];
-  component = component == 0 ? std::ldexp(static_cast<double>(drawn_ulps(random)), -53)
-                             : moved(component, drawn_ulps(random));
+  component = component == 0 ? std::ldexp(static_cast<double>(drawn_ulps(random)), -bits_of(source.precision))
+                             : moved(component, drawn_ulps(random), source.precision);
 }
 
 Case make_square(Source& source) {
@@ -68,15 +77,17 @@ Case make_square(Source& source) {
   const Squared triple = drawn_triple(source.scene, source.scene.one_in(2) ? 3 : 9);
   const IntVec g = axis ? IntVec{1, 0, 0} : triple.v;
   const std::int64_t w = axis ? 1 : triple.length;
-  const double r = drawn_radius(source.scene, 0.5 / static_cast<double>(w), true, made.tags);
+  const double r =
+      drawn_radius(source.scene, source.precision, 0.5 / static_cast<double>(w), true, made.tags);
   made.scene = unit_scene(2, r);
   Random& random = source.random;
-  const auto turns = static_cast<std::int64_t>(std::ldexp(r, kEdgeGrid)) * w;
-  const auto x = start_beside(g, {0, 0, 1}, turns, kEdgeGrid, random.between(-9, 9));
+  const int grid = edge_grid(source.precision);
+  const auto turns = static_cast<std::int64_t>(std::ldexp(r, grid)) * w;
+  const auto x = start_beside(g, {0, 0, 1}, turns, grid, random.between(-9, 9), bits_of(source.precision));
   const Symmetry symmetry(random, 2);
   made.query.x = symmetry(*x);
-  set_corridor_direction(random, symmetry(to_vec(g)), 2, made);
-  move_off_edge(random, on_grid(r), 2, made);
+  set_corridor_direction(source, symmetry(to_vec(g)), 2, made);
+  move_off_edge(source, on_grid(r, source.precision), 2, made);
   return made;
 }
 
@@ -86,13 +97,13 @@ Case make_lattice(Source& source) {
   const Lattice& lattice = made.scene.lattices[0];
   const IntVec g = drawn_primitive(source.scene, 2, 5), u = bezout(g);
   const double half = half_width(lattice, 2, g);
-  set_radius(made.scene, drawn_radius(source.scene, half, false, made.tags));
+  set_radius(made.scene, drawn_radius(source.scene, source.precision, half, false, made.tags));
   Random& random = source.random;
   const double height = lattice.atoms[0].radius / (2 * half);  // the edge, in distances of rows
   made.query.x = sum(scaled(cartesian(lattice, g), random.between(-2, 2)),
                      scaled(cartesian(lattice, {-u[1], u[0], 0}), height * random.sign()));
-  set_corridor_direction(random, cartesian(lattice, g), 2, made);
-  move_off_edge(random, false, 2, made);
+  set_corridor_direction(source, cartesian(lattice, g), 2, made);
+  move_off_edge(source, false, 2, made);
   return made;
 }
 
@@ -105,24 +116,25 @@ Case make_planar(Source& source) {
   made.tags.push_back("planar-channel");
   const auto& [n, w] = kNormals[source.scene.below(5)];
   const auto [g1, g2] = across_of(n);
-  const double r = drawn_radius(source.scene, 0.5 / w, true, made.tags);
+  const double r = drawn_radius(source.scene, source.precision, 0.5 / w, true, made.tags);
   made.scene = unit_scene(3, r);
-  // n . x = r |n| exactly: x = s_1 g_1 + s_2 g_2 + r |n| u with n . u = 1, all multiples of 2^-40.
+  // n . x = r |n| exactly: x = s_1 g_1 + s_2 g_2 + r |n| u with n . u = 1, all on the grid.
   Random& random = source.random;
-  const std::int64_t s1 = random.integer(-(1l << kEdgeGrid), 1l << kEdgeGrid),
-                     s2 = random.integer(-(1l << kEdgeGrid), 1l << kEdgeGrid),
-                     off = static_cast<std::int64_t>(std::ldexp(r, kEdgeGrid)) * w;
+  const int grid = edge_grid(source.precision), bits = source.precision == NumberFormat::binary64 ? 20 : 12;
+  const std::int64_t s1 = random.integer(-(1l << grid), 1l << grid),
+                     s2 = random.integer(-(1l << grid), 1l << grid),
+                     off = static_cast<std::int64_t>(std::ldexp(r, grid)) * w;
   const IntVec u = bezout(n);
-  const std::int64_t a = random.integer(-(1 << 20), 1 << 20), b = random.integer(1, 1 << 20);
+  const std::int64_t a = random.integer(-(1 << bits), 1 << bits), b = random.integer(1, 1 << bits);
   Vec x{}, v{};
   for (int i = 0; i < 3; ++i) {
-    x[i] = std::ldexp(static_cast<double>(s1 * g1[i] + s2 * g2[i] + off * u[i]), -kEdgeGrid);
+    x[i] = std::ldexp(static_cast<double>(s1 * g1[i] + s2 * g2[i] + off * u[i]), -grid);
     v[i] = static_cast<double>(a * g1[i] + b * g2[i]);
   }
   const Symmetry symmetry(random, 3);
   made.query.x = symmetry(x);
-  set_corridor_direction(random, symmetry(v), 3, made);
-  move_off_edge(random, on_grid(r), 3, made);
+  set_corridor_direction(source, symmetry(v), 3, made);
+  move_off_edge(source, on_grid(r, source.precision), 3, made);
   return made;
 }
 
@@ -133,8 +145,10 @@ Family corridor_edge() {
           "Starts on or ulps from the edge of a corridor or planar channel, along its axis or ulps off it.",
           {{"on-edge", "exactly on the edge: the line is tangent to every obstacle of a row, and hits none"},
            {"near-edge", "within 2^10 ulps of the edge, on either side: never, or a grazing hit"},
-           {"along", "v as nearly along the axis as binary64 has it"},
-           {"off-axis", "v a few ulps off the axis: the corridor is left after some 10^15 cells"},
+           {"along", "v as nearly along the axis as binary64 has it",
+            "v as nearly along the axis as binary32 has it"},
+           {"off-axis", "v a few ulps off the axis: the corridor is left after some 10^15 cells",
+            "v a few ulps off the axis: the corridor is left after some 10^6 cells"},
            {"closing", "the radius is within 2^10 ulps of half the corridor's width"},
            {"planar-channel", "the same beside lattice planes, in space"}},
           [](Source& source) {

@@ -34,18 +34,19 @@ struct SlantedLayers {
     const auto place = [&](std::int64_t a) { return std::ldexp(static_cast<double>(a), -k); };
     return lattice_scene(3, {Vec{1, 0, place(P)}, Vec{0, 1, place(Q)}, Vec{0, 0, apart}}, 1);
   }
-  // In the layers but for N . v = j 2^-50-k.
-  Vec velocity(Random& random, std::int64_t j) const {
-    constexpr std::int64_t kLarge = std::int64_t{1} << 50;
-    const std::int64_t V0 = random.integer(-kLarge, kLarge);
+  // In the layers but for N . v = j 2^-50-k (in binary32 j 2^-21-k).
+  Vec velocity(Random& random, NumberFormat precision, std::int64_t j) const {
+    const int bits = bits_of(precision) - 3;
+    const std::int64_t large = std::int64_t{1} << bits;
+    const std::int64_t V0 = random.integer(-large, large);
     std::int64_t inverse =
         Q;  // of Q modulo 2^3, and after each of Newton's steps modulo a power twice as high
     for (int step = 0; step < 3; ++step) inverse = (inverse * ((2 - Q * inverse) & low())) & low();
     const std::int64_t rest = (-j - P * (V0 & low())) & low();
-    const std::int64_t V1 = (random.integer(-kLarge, kLarge) & ~low()) + ((rest * inverse) & low());
+    const std::int64_t V1 = (random.integer(-large, large) & ~low()) + ((rest * inverse) & low());
     const Wide V2 = (j + static_cast<Wide>(P) * V0 + static_cast<Wide>(Q) * V1) >> k;
     Vec v{static_cast<double>(V0), static_cast<double>(V1), static_cast<double>(V2)};
-    return scaled(v, 0x1p-50);
+    return scaled(v, std::ldexp(1, -bits));
   }
 
  private:
@@ -72,15 +73,18 @@ Case make_drift(Source& source) {
   made.query.v = sum(scaled(a, random.between(-1, 1)), scaled(b, random.between(0.1, 1)));
   if (layers && !random.one_in(3)) {
     made.tags.push_back("by-bits");
-    made.query.v = drawn_layers.velocity(random, static_cast<std::int64_t>(-side) * random.integer(1, 4));
+    made.query.v = drawn_layers.velocity(random, source.precision,
+                                         static_cast<std::int64_t>(-side) * random.integer(1, 4));
   } else if (random.one_in(2)) {
     made.tags.push_back("by-slope");
-    const double slope = random.octave(-40, -4) * length(made.query.v);
+    const double slope =
+        random.octave(source.precision == NumberFormat::binary64 ? -40 : -20, -4) * length(made.query.v);
     made.query.v = sum(made.query.v, scaled(normal, -side * slope));
   } else {
     made.tags.push_back("by-rounding");
   }
-  const double out = r + (half - r) * random.octave(-20, random.one_in(2) ? 0 : -8);
+  const double out = r + (half - r) * random.octave(source.precision == NumberFormat::binary64 ? -20 : -16,
+                                                    random.one_in(2) ? 0 : -8);
   made.query.x =
       sum(sum(scaled(a, random.uniform()), scaled(b, random.uniform())), scaled(normal, side * out));
   return made;

@@ -15,25 +15,27 @@
 namespace lorentz::cases {
 namespace {
 
-constexpr int kEarlyGrid = 55;  // places are whole multiples of 2^-55
-constexpr std::int64_t kQuarter = std::int64_t{1} << (kEarlyGrid - 2);
-
 Case make_early(Source& source) {
   Case made;
   Random &drawn = source.scene, &random = source.random;
   const int dimension = drawn.one_in(3) ? 3 : 2;
-  const std::int64_t K = drawn.integer(1, std::int64_t{1} << drawn.integer(dimension == 2 ? 20 : 36, 49)) | 1;
-  const double k = std::ldexp(static_cast<double>(K), -kEarlyGrid - 2);
+  const bool is_wide = source.precision == NumberFormat::binary64;
+  const int grid = bits_of(source.precision) + 2;  // places are whole multiples of 2^-55
+  const std::int64_t quarter = std::int64_t{1} << (grid - 2);
+  const std::int64_t least = dimension == 2 ? (is_wide ? 20 : 6) : (is_wide ? 36 : 12);
+  const std::int64_t K = drawn.integer(1, std::int64_t{1} << drawn.integer(least, grid - 6)) | 1;
+  const double k = std::ldexp(static_cast<double>(K), -grid - 2);
   const Symmetry symmetry(drawn, dimension);
   made.scene = unit_scene(dimension, 5 * k);
   made.scene.lattices[0].atoms[0].position = symmetry(Vec{0, 3 * k, 0});
   // u - 4 k from a quarter to a half, u even.
-  const std::int64_t u = 2 * random.integer((K + kQuarter + 1) / 2, (K + 2 * kQuarter - 1) / 2);
+  const std::int64_t u = 2 * random.integer((K + quarter + 1) / 2, (K + 2 * quarter - 1) / 2);
   const bool late = random.one_in(4);
-  const double beside = random.octave(-200, -112) * (late ? -1 : 1);
+  const double beside = (is_wide ? random.octave(-200, -112) : random.octave(-120, -54)) * (late ? -1 : 1);
   made.tags.push_back(late ? "late" : "early");
-  made.query.x = symmetry(Vec{std::ldexp(static_cast<double>(-u), -kEarlyGrid), beside, 0});
-  made.query.v = symmetry(Vec{std::ldexp(1, static_cast<int>(random.integer(-60, 60))), 0, 0});
+  made.query.x = symmetry(Vec{std::ldexp(static_cast<double>(-u), -grid), beside, 0});
+  made.query.v = symmetry(
+      Vec{std::ldexp(1, static_cast<int>(random.integer(is_wide ? -60 : -30, is_wide ? 60 : 30))), 0, 0});
   return made;
 }
 

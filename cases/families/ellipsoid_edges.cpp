@@ -64,7 +64,7 @@ Case make_edge(Source& source) {
         sum(atom.position, image(semiaxes, sum(n, scaled(w, -random.between(1.05, 1.3) / length(w)))));
     made.query.v = image(semiaxes, w);
   }
-  if (random.one_in(3)) jitter(random, made.query.x, dimension, 2);
+  if (random.one_in(3)) jitter(random, made.query.x, dimension, 2, source.precision);
   return made;
 }
 

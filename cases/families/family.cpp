@@ -1,12 +1,60 @@
 #include "cases/families/family.hpp"
 
+#include <stdexcept>
+
+#include <lorentz/scene_check.hpp>
 #include "cases/families/family_list.hpp"
+#include "cases/free_start.hpp"
 
 namespace lorentz::cases {
 
-Case Family::make(std::uint64_t seed, std::uint64_t index) const {
-  Source source{index, Random(seed, name_, index / kCasesPerScene, Use::scenes), Random(seed, name_, index)};
+namespace {
+
+constexpr std::uint64_t kMostAttempts = 1000;  // more than any family needs: a bug, if they are not enough
+constexpr std::uint64_t kMostIntoObstacles = 100;
+
+bool is_sound(const Scene& scene) {
+  return !flaw_of(scene) && !oracle::dependence_in(scene);
+}
+
+}  // namespace
+
+std::vector<Tag> Family::tags(NumberFormat precision) const {
+  if (precision == NumberFormat::binary64) return tags_;
+  std::vector<Tag> found;
+  for (const Tag& tag : tags_)
+    if (!tag.note_in_binary32.empty()) found.push_back({tag.name, tag.note_in_binary32});
+  return found;
+}
+
+Case Family::attempt(std::uint64_t seed, std::uint64_t index, NumberFormat precision, std::uint64_t scene,
+                     std::uint64_t query) const {
+  const Series series(name_);
+  Source source{index, Random(seed, series, index / kCasesPerScene, Use::scenes, scene),
+                Random(seed, series, index, Use::cases, query), precision};
   return maker_(source);
+}
+
+// The scene follows from its own random numbers alone, and so does which attempt at it is the first sound one:
+// all cases that share a scene agree on it.
+Case Family::make(std::uint64_t seed, std::uint64_t index, NumberFormat precision) const {
+  if (precision == NumberFormat::binary64) return attempt(seed, index, precision, 0, 0);
+  std::uint64_t scene = 0;
+  for (std::uint64_t query = 0; scene + query < kMostAttempts;) {
+    const Case drawn = attempt(seed, index, precision, scene, query);
+    Case made{rounded(drawn.scene, precision), rounded(drawn.query, precision), drawn.tags};
+    if (!is_sound(made.scene)) {
+      ++scene;
+    } else if (flaw_of(made.query, made.scene)) {
+      ++query;
+    } else if (query < kMostIntoObstacles && starts_inside(made.scene, made.query) &&
+               !starts_inside(drawn.scene, drawn.query)) {
+      ++query;
+    } else {
+      return made;
+    }
+  }
+  throw std::logic_error(std::string(name_) + ": no case in " + name_of(precision));
 }
 
 const std::vector<Family>& families() {

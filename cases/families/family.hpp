@@ -12,18 +12,32 @@ namespace lorentz::cases {
 class Family {
  public:
   using Maker = Case (*)(Source&);
-  Family(std::string_view name, std::string_view description, std::vector<Tag> tags, Maker maker)
-      : name_(name), description_(description), tags_(std::move(tags)), maker_(maker) {}
+  /// The last: what it is in binary32, if that is something else.
+  Family(std::string_view name, std::string_view description, std::vector<Tag> tags, Maker maker,
+         std::string_view description_in_binary32 = {})
+      : name_(name),
+        description_(description),
+        description_in_binary32_(description_in_binary32.empty() ? description : description_in_binary32),
+        tags_(std::move(tags)),
+        maker_(maker) {}
 
   std::string_view name() const { return name_; }
-  std::string_view description() const { return description_; }
-  const std::vector<Tag>& tags() const { return tags_; }
+  std::string_view description(NumberFormat precision = NumberFormat::binary64) const {
+    return precision == NumberFormat::binary64 ? description_ : description_in_binary32_;
+  }
+  /// Those that cases in the precision have, with what they are there.
+  std::vector<Tag> tags(NumberFormat precision = NumberFormat::binary64) const;
 
   /// A case without flaws; with at least one tag, all of them of tags(). Some 10 us in 2D and 100 us in 3D.
-  Case make(std::uint64_t seed, std::uint64_t index) const;
+  /// Scene and query consist of numbers of the precision, and what is an ulp in the tags' notes is one of it. A
+  /// case is drawn again where rounding would put its start into an obstacle; after some tries it stays there.
+  Case make(std::uint64_t seed, std::uint64_t index, NumberFormat precision = NumberFormat::binary64) const;
 
  private:
-  std::string_view name_, description_;
+  Case attempt(std::uint64_t seed, std::uint64_t index, NumberFormat precision, std::uint64_t scene,
+               std::uint64_t query) const;
+
+  std::string_view name_, description_, description_in_binary32_;
   std::vector<Tag> tags_;
   Maker maker_;
 };

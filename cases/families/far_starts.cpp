@@ -20,7 +20,8 @@ namespace lorentz::cases {
 namespace {
 
 // A row of cubes or boxes, or a crystal, of any size.
-Scene far_scene(Random& drawn, std::vector<std::string>& tags) {
+Scene far_scene(Random& drawn, NumberFormat precision, std::vector<std::string>& tags) {
+  const int least = precision == NumberFormat::binary64 ? -40 : -16;
   const int dimension = drawn.one_in(3) ? 2 : 3;
   const double size = drawn.one_in(2) ? drawn.between(0.5, 2) : drawn.octave(-20, 20);
   const bool box = !drawn.one_in(4);
@@ -31,14 +32,14 @@ Scene far_scene(Random& drawn, std::vector<std::string>& tags) {
       for (Vec& u : lattice.vectors) u = scaled(u, size);
       for (Atom& atom : lattice.atoms) atom.position = scaled(atom.position, size);
     }
-    scale_obstacles(scene,
-                    size * (drawn.one_in(2) ? 1.25 * (1 - drawn.octave(-40, -8)) : drawn.between(0.9, 1.25)));
+    scale_obstacles(
+        scene, size * (drawn.one_in(2) ? 1.25 * (1 - drawn.octave(least, -8)) : drawn.between(0.9, 1.25)));
     return scene;
   }
   std::array<Vec, 3> vectors{};
   for (int i = 0; i < dimension; ++i)
     vectors[i][i] = i == 0 || drawn.one_in(2) ? size : size * drawn.between(1, 2);
-  const double gap = drawn.one_in(3) ? drawn.octave(-40, -1) : drawn.octave(-9, -8);
+  const double gap = drawn.one_in(3) ? drawn.octave(least, -1) : drawn.octave(-9, -8);
   return lattice_scene(dimension, vectors, size / 2 * (1 - gap));
 }
 
@@ -47,9 +48,9 @@ double gap_along(const Vec& u, const Atom& atom) {
   return atom.is_ball() ? std::clamp(1 - 2 * atom.radius / length(u), 0x1p-40, 0.5) : 0x1p-8;
 }
 
-// 2^this many cells out a quotient of 53 bits errs by about the gap.
-int matching_distance(double gap) {
-  return std::min(53 + std::ilogb(gap), 44);
+// 2^this many cells out a quotient of 53 bits (or 24) errs by about the gap.
+int matching_distance(double gap, NumberFormat precision) {
+  return std::clamp(bits_of(precision) + std::ilogb(gap), 4, precision == NumberFormat::binary64 ? 44 : 18);
 }
 
 // Up to 2^this many cells out along one vector; along all of them in every third case.
@@ -67,27 +68,31 @@ IntVec drawn_cell(Random& random, int dimension, std::uint64_t along, int bits,
 Case make_far_start(Source& source) {
   Case made;
   Random& random = source.random;
-  made.scene = far_scene(source.scene, made.tags);
+  made.scene = far_scene(source.scene, source.precision, made.tags);
   const int dimension = made.scene.dimension;
   const Lattice& lattice = made.scene.lattices[0];
   const std::uint64_t along = random.below(static_cast<std::uint64_t>(dimension));
   const Atom& atom = lattice.atoms[random.below(lattice.atoms.size())];
   const Vec& u = lattice.vectors[along];
   const double gap = gap_along(u, atom);
+  const bool is_wide = source.precision == NumberFormat::binary64;
   const bool matching = !random.one_in(4);
   if (matching) made.tags.push_back("matching");
   const auto bits =
-      static_cast<int>(matching ? matching_distance(gap) + random.integer(-1, 0) : random.integer(10, 50));
+      static_cast<int>(matching  ? matching_distance(gap, source.precision) + random.integer(-1, 0)
+                       : is_wide ? random.integer(10, 50)
+                                 : random.integer(4, 20));
   const IntVec cell = drawn_cell(random, dimension, along, bits, made.tags);
   const bool midway = !random.one_in(4) || !atom.is_ball();
   made.tags.push_back(midway ? "midway" : "edge");
   const double off = random.one_in(4)   ? 0
-                     : random.one_in(4) ? random.octave(-40, -6)
+                     : random.one_in(4) ? random.octave(is_wide ? -40 : -16, -6)
                                         : random.between(gap, 2 * gap);
   const double arm = (midway ? 0.5 : atom.radius / length(u)) * (1 + off * random.sign());
   made.query.x = sum(sum(atom.position, cartesian(lattice, cell)), scaled(u, arm * random.sign()));
   if (random.one_in(4))
-    for (int i = 0; i < dimension; ++i) made.query.x[i] += random.octave(-30, -8) * length(u) * random.sign();
+    for (int i = 0; i < dimension; ++i)
+      made.query.x[i] += random.octave(is_wide ? -30 : -16, -8) * length(u) * random.sign();
   made.query.v = random.direction(dimension);
   return made;
 }

@@ -20,7 +20,9 @@ Case make_generic(Source& source, int dimension) {
   Case made;
   const bool unit = source.scene.one_in(2);
   made.scene = unit ? unit_scene(dimension, 1) : drawn_crystal(source.scene, dimension).scene;
-  const std::uint64_t decade = source.index / kCasesPerScene % std::size(kPowers);
+  // In binary32 flights beyond 10^6 cells are noise: below 1e-3 nothing can be told.
+  const std::uint64_t decades = source.precision == NumberFormat::binary64 ? std::size(kPowers) : 3;
+  const std::uint64_t decade = source.index / kCasesPerScene % decades;
   const double largest = decade > 0 ? 10 : made.scene.lattices[0].atoms.size() == 1 ? 3 : 2.1;
   set_radius(made.scene, kPowers[decade] * source.scene.between(1, largest));
   made.query.x = free_point(source.random, made.scene);
@@ -30,14 +32,16 @@ Case make_generic(Source& source, int dimension) {
 }
 
 std::vector<Tag> tags() {
-  return {{"radius-1e-1", "radius 0.1 to 0.3: dense obstacles, short flights, many starts near a surface"},
-          {"radius-1e-2", "radius 0.01 to 0.1"},
-          {"radius-1e-3", "radius 1e-3 to 1e-2"},
-          {"radius-1e-4", "radius 1e-4 to 1e-3: cell-to-cell programs become slow"},
-          {"radius-1e-5", "radius 1e-5 to 1e-4"},
-          {"radius-1e-6", "radius 1e-6 to 1e-5: a textbook quadratic at the start has no digit left in 2D"},
-          {"unit-cell", "the square or cubic lattice, which programs treat apart"},
-          {"crystal", "another lattice, or several obstacles a cell"}};
+  return {
+      {"radius-1e-1", "radius 0.1 to 0.3: dense obstacles, short flights, many starts near a surface"},
+      {"radius-1e-2", "radius 0.01 to 0.1"},
+      {"radius-1e-3", "radius 1e-3 to 1e-2",
+       "radius 1e-3 to 1e-2: a textbook quadratic at the start has no digit left in 2D"},
+      {"radius-1e-4", "radius 1e-4 to 1e-3: cell-to-cell programs become slow", ""},
+      {"radius-1e-5", "radius 1e-5 to 1e-4", ""},
+      {"radius-1e-6", "radius 1e-6 to 1e-5: a textbook quadratic at the start has no digit left in 2D", ""},
+      {"unit-cell", "the square or cubic lattice, which programs treat apart"},
+      {"crystal", "another lattice, or several obstacles a cell"}};
 }
 
 }  // namespace

@@ -27,10 +27,13 @@
 namespace lorentz::cases {
 namespace {
 
-constexpr int kGrazingGrid = 40;
+// Starts and radii are multiples of 2^-this, so that they are exact.
+constexpr int grazing_grid(NumberFormat precision) {
+  return precision == NumberFormat::binary64 ? 40 : 22;
+}
 
 // Moves x and v by ulps, and says so; mostly nothing moves.
-void move_off(Random& random, int dimension, Case& made) {
+void move_off(Random& random, NumberFormat precision, int dimension, Case& made) {
   const std::uint64_t how = random.below(8);
   if (how < 4) return;
   const auto i = static_cast<std::size_t>(random.below(static_cast<std::uint64_t>(dimension)));
@@ -38,48 +41,55 @@ void move_off(Random& random, int dimension, Case& made) {
   const std::int64_t ulps =
       (how < 7 ? random.integer(1, 4) : random.integer(5, 1024)) * (random.one_in(2) ? 1 : -1);
   double& component = how == 6 ? made.query.v[i] : made.query.x[i];
-  component = component == 0 ? std::ldexp(static_cast<double>(ulps), -53) : moved(component, ulps);
+  component = component == 0 ? std::ldexp(static_cast<double>(ulps), -bits_of(precision))
+                             : moved(component, ulps, precision);
 }
 
 // The query that passes the obstacle of the cell 0 with v x d = turns 2^-exponent across, in one of the
 // lattice's symmetries. r is at most 0.3.
-void set_query(Random& random, int dimension, const IntVec& v, const IntVec& across, std::int64_t turns,
+void set_query(Source& source, int dimension, const IntVec& v, const IntVec& across, std::int64_t turns,
                int exponent, double r, Case& made) {
+  Random& random = source.random;
+  const int bits = bits_of(source.precision), longest = bits == 53 ? 60 : 20;
   std::optional<Vec> x;
   for (double along = r * random.between(0.1, 1.5); !x && along > 0; along = along > 0.01 * r ? along / 2 : 0)
-    x = start_beside(v, across, turns, exponent, along);
+    x = start_beside(v, across, turns, exponent, along, bits);
   if (!x) x = Vec{-1.5 * r, 0, 0};  // no exact start: any
   const Symmetry symmetry(random, dimension);
   made.query.x = symmetry(*x);
   made.query.v = symmetry(to_vec(v));
   if (random.one_in(4))
-    made.query.v = scaled(made.query.v, std::ldexp(1, static_cast<int>(random.integer(-60, 60))));
+    made.query.v = scaled(made.query.v, std::ldexp(1, static_cast<int>(random.integer(-longest, longest))));
 }
 
-// Whole numbers give the distance exactly. r is a multiple of 2^-40, or some ulps from that.
+// Whole numbers give the distance exactly. r is a multiple of the grid, or some ulps from that.
 Case make_squares(Source& source) {
   Case made;
+  const bool is_wide = source.precision == NumberFormat::binary64;
+  const int grid = grazing_grid(source.precision), least = is_wide ? -14 : -8;
   const int dimension = source.scene.one_in(3) ? 3 : 2;
   const auto steps = static_cast<std::int64_t>(std::ldexp(
-      source.scene.one_in(2) ? source.scene.between(0.05, 0.3) : source.scene.octave(-14, -4), kGrazingGrid));
-  const double r = std::ldexp(static_cast<double>(steps), -kGrazingGrid);
+      source.scene.one_in(2) ? source.scene.between(0.05, 0.3) : source.scene.octave(least, -4), grid));
+  const double r = std::ldexp(static_cast<double>(steps), -grid);
   const bool r_moved = source.scene.one_in(6);
   made.scene = unit_scene(
-      dimension, r_moved ? moved(r, source.scene.integer(1, 4) * (source.scene.one_in(2) ? 1 : -1)) : r);
+      dimension,
+      r_moved ? moved(r, source.scene.integer(1, 4) * (source.scene.one_in(2) ? 1 : -1), source.precision)
+              : r);
   if (r_moved) made.tags.push_back("ulps-off");
   Random& random = source.random;
   if (dimension == 3) {
-    const Squared quadruple = drawn_quadruple(random, random.one_in(2) ? 4 : 60);
-    set_query(random, 3, quadruple.v, quadruple.across, steps, kGrazingGrid, r, made);
+    const Squared quadruple = drawn_quadruple(random, random.one_in(2) ? 4 : is_wide ? 60 : 20);
+    set_query(source, 3, quadruple.v, quadruple.across, steps, grid, r, made);
   } else if (random.one_in(2)) {
-    const Squared triple = drawn_triple(random, random.one_in(2) ? 9 : 2000);
-    set_query(random, 2, triple.v, triple.across, steps, kGrazingGrid, r, made);
+    const Squared triple = drawn_triple(random, random.one_in(2) ? 9 : is_wide ? 2000 : 40);
+    set_query(source, 2, triple.v, triple.across, steps, grid, r, made);
   } else {
     made.tags.push_back("near-square");
-    const NearSquare near = drawn_near_square(random);
-    set_query(random, 2, near.v, {0, 0, near.w}, steps, kGrazingGrid, r, made);
+    const NearSquare near = drawn_near_square(random, std::int64_t{1} << (is_wide ? 27 : 13));
+    set_query(source, 2, near.v, {0, 0, near.w}, steps, grid, r, made);
   }
-  if (!r_moved) move_off(random, dimension, made);
+  if (!r_moved) move_off(random, source.precision, dimension, made);
   if (made.tags.empty()) made.tags.push_back("exact-tangent");
   return made;
 }
@@ -92,10 +102,12 @@ Case make_pell(Source& source) {
   const int dimension = drawn.one_in(3) ? 3 : 2;
   IntVec v{}, h{0, 0, 1};
   std::vector<IntegerRatio> fractions;
-  for (int tries = 0; tries < 16 && fractions.size() < 8; ++tries) {
+  const int bits = bits_of(source.precision);
+  const std::size_t enough = bits == 53 ? 8 : 4;
+  for (int tries = 0; tries < 16 && fractions.size() < enough; ++tries) {
     v = drawn_primitive(drawn, dimension, dimension == 2 ? 60 : 12);
     if (dimension == 3) h = across_of(v)[0];
-    fractions = convergents_of_root(dot(v, v), dot(h, h));
+    fractions = convergents_of_root(dot(v, v), dot(h, h), bits - 3);
   }
   const std::size_t few = fractions.size() / 4;  // the first are not near
   const auto [k, r_steps] = fractions[few + drawn.below(fractions.size() - few)];
@@ -103,9 +115,9 @@ Case make_pell(Source& source) {
   const double r = std::ldexp(static_cast<double>(r_steps), -exponent);
   made.scene = unit_scene(dimension, r);
   // On a finer grid, so that there are starts enough.
-  const int finer = std::max(0, 43 - std::ilogb(static_cast<double>(r_steps)));
-  set_query(source.random, dimension, v, h, k << finer, exponent + finer, r, made);
-  move_off(source.random, dimension, made);
+  const int finer = std::max(0, (bits == 53 ? 43 : 21) - std::ilogb(static_cast<double>(r_steps)));
+  set_query(source, dimension, v, h, k << finer, exponent + finer, r, made);
+  move_off(source.random, source.precision, dimension, made);
   return made;
 }
 
@@ -116,7 +128,8 @@ Family grazing() {
           "Lines that pass an obstacle at the distance of its radius, exactly or within ulps.",
           {{"exact-tangent", "exactly tangent: the line touches, and does not hit"},
            {"near-square", "v^2 is a square plus or minus 1: tangent but for a relative 1/(2 v^2)"},
-           {"pell", "radius and distance from Pell's equation: tangent but for as little as 2^-100"},
+           {"pell", "radius and distance from Pell's equation: tangent but for as little as 2^-100",
+            "radius and distance from Pell's equation: tangent but for as little as 2^-42"},
            {"ulps-off", "one of x, v, r up to 4 ulps from such a case"},
            {"near-graze", "x 5 to 1024 ulps from such a case"}},
           [](Source& source) { return source.scene.one_in(3) ? make_pell(source) : make_squares(source); }};

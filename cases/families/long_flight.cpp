@@ -2,7 +2,7 @@
 //
 // v = (1, 2^-k) in a corridor along the first axis leaves it after about 2^k times its width, and the disc
 // that is hit is the first of the next row that reaches into the strip that is left: nothing can be walked,
-// and all of the 2^k cells count. k up to 100: times to 1e30. Near the end the line is so nearly parallel to
+// and all of the 2^k cells count. k up to 100 (in binary32 46): times to 1e30. Near the end the line is so nearly parallel to
 // the row that it meets the first disc about at its highest point: the entry is a square root of a difference
 // that has cancelled.
 #include <cmath>
@@ -15,8 +15,8 @@
 namespace lorentz::cases {
 namespace {
 
-double drift(Random& random) {
-  const int k = static_cast<int>(random.integer(8, 100));
+double drift(Random& random, NumberFormat precision) {
+  const int k = static_cast<int>(random.integer(8, precision == NumberFormat::binary64 ? 100 : 46));
   return random.sign() * (random.one_in(2) ? std::ldexp(1, -k) : random.octave(-k, -k + 1));
 }
 
@@ -43,32 +43,34 @@ Case make_long(Source& source) {
   Case made;
   Random &drawn = source.scene, &random = source.random;
   const std::uint64_t kind = drawn.below(4);
+  const int least = source.precision == NumberFormat::binary64 ? -30 : -16;
   Vec &x = made.query.x, &v = made.query.v;
   x[0] = random.between(-2, 2);
   if (kind < 2) {
     made.tags.push_back("corridor-drift");
     const auto vectors = drawn_rows(drawn, made.tags);
-    const double r = drawn.one_in(3) ? 0.5 * (1 - drawn.octave(-30, -4)) : drawn.between(0.01, 0.39);
+    const double r = drawn.one_in(3) ? 0.5 * (1 - drawn.octave(least, -4)) : drawn.between(0.01, 0.39);
     made.scene = lattice_scene(2, vectors, r);
     x[1] = static_cast<double>(random.integer(-2, 2)) + 0.5 + (0.5 - r) * 0.9 * random.between(-1, 1);
-    v = {random.sign(), drift(random)};
+    v = {random.sign(), drift(random, source.precision)};
   } else if (kind == 2) {
     made.tags.push_back("plane-drift");
-    const double r = drawn.one_in(3) ? 0.5 * (1 - drawn.octave(-30, -4)) : drawn.between(0.01, 0.49);
+    const double r = drawn.one_in(3) ? 0.5 * (1 - drawn.octave(least, -4)) : drawn.between(0.01, 0.49);
     made.scene = unit_scene(3, r);
     x[1] = random.uniform();
     x[2] = 0.5 + (0.5 - r) * 0.9 * random.between(-1, 1);
     v = {random.sign(),
          random.one_in(3) ? std::ldexp(static_cast<double>(random.integer(-16, 16)), -4)
                           : random.between(-1, 1),
-         drift(random)};
+         drift(random, source.precision)};
   } else {
     made.tags.push_back("cylinder-drift");
     const double r = drawn.between(0.5, 0.7), room = (std::sqrt(0.5) - r) * 0.6;
     made.scene = unit_scene(3, r);
     x[1] = 0.5 + room * random.between(-1, 1);
     x[2] = 0.5 + room * random.between(-1, 1);
-    v = {random.sign(), drift(random), random.one_in(3) ? 0.0 : drift(random)};
+    v = {random.sign(), drift(random, source.precision),
+         random.one_in(3) ? 0.0 : drift(random, source.precision)};
   }
   if (random.one_in(3)) v = scaled(v, random.octave(-20, 20));
   return made;
@@ -79,12 +81,14 @@ Case make_long(Source& source) {
 Family long_flight() {
   return {"long-flight",
           "Slow drifts out of corridors and channels: flights of up to 10^30.",
-          {{"corridor-drift", "2^-8 to 2^-100 off a corridor's axis: cells beyond 2^53, beyond 2^63"},
+          {{"corridor-drift", "2^-8 to 2^-100 off a corridor's axis: cells beyond 2^53, beyond 2^63",
+            "2^-8 to 2^-46 off a corridor's axis: cells beyond 2^24, beyond 2^31"},
            {"oblique", "rows shifted against each other: the cell is not the nearest integer"},
            {"turned", "the corridor's axis is no primitive vector, but a long sum of them"},
            {"plane-drift", "the same out of a plane channel: a window that grows holds ever more rows"},
            {"cylinder-drift", "the same out of a cylindrical channel between overlapping spheres"}},
-          make_long};
+          make_long,
+          "Slow drifts out of corridors and channels: flights of up to 10^14."};
 }
 
 }  // namespace lorentz::cases

@@ -21,17 +21,18 @@ namespace lorentz::cases {
 namespace {
 
 // A radius beside the half width at which the corridors close.
-double drawn_radius(Random& random, double closing, std::vector<std::string>& tags) {
+double drawn_radius(Random& random, NumberFormat precision, double closing, std::vector<std::string>& tags) {
+  const int least = -51 + missing_bits(precision);
   switch (random.below(4)) {
     case 0:
       tags.push_back("corridor-open");
       return closing * random.between(0.05, 0.9);
     case 1:
       tags.push_back("just-open");
-      return closing * (1 - random.octave(-51, -10));
+      return closing * (1 - random.octave(least, -10));
     case 2:
       tags.push_back("just-closed");
-      return closing * (1 + random.octave(-51, -10));
+      return closing * (1 + random.octave(least, -10));
     default:
       tags.push_back("small-radius");
       return closing * random.octave(-18, -4);
@@ -39,35 +40,37 @@ double drawn_radius(Random& random, double closing, std::vector<std::string>& ta
 }
 
 // F_(n+1) u_1 + F_n u_2
-IntVec golden(Random& random) {
+IntVec golden(Random& random, NumberFormat precision) {
+  const std::int64_t most = precision == NumberFormat::binary64 ? 70 : 30;
   std::int64_t a = 1, b = 1;
-  for (std::int64_t steps = random.integer(5, 70); steps > 0; --steps) b = std::exchange(a, a + b);
+  for (std::int64_t steps = random.integer(5, most); steps > 0; --steps) b = std::exchange(a, a + b);
   return {a, b, 0};
 }
 
-Vec flat_direction(Random& random, const Lattice& lattice, const IntVec& g, const IntVec& next,
-                   std::vector<std::string>& tags) {
+Vec flat_direction(Random& random, NumberFormat precision, const Lattice& lattice, const IntVec& g,
+                   const IntVec& next, std::vector<std::string>& tags) {
+  const int missing = missing_bits(precision);
   switch (random.below(4)) {
     case 0: {
       tags.push_back("ulps-off-rational");
       Vec v = scaled(cartesian(lattice, g), static_cast<double>(random.integer(1, 99)));
-      jitter(random, v, 2, 3);
+      jitter(random, v, 2, 3, precision);
       return v;
     }
     case 1: {
       tags.push_back("neighbours");
-      const std::int64_t n = random.integer(1, std::int64_t{1} << random.integer(2, 44));
+      const std::int64_t n = random.integer(1, std::int64_t{1} << random.integer(2, 44 - missing));
       return cartesian(lattice, {n * g[0] + next[0], n * g[1] + next[1], 0});
     }
     case 2: {
       tags.push_back("huge-quotient");
-      const double drift = random.octave(-52, -8) * random.sign();
+      const double drift = random.octave(-52 + missing, -8) * random.sign();
       return sum(cartesian(lattice, g), scaled(cartesian(lattice, next), drift));
     }
     default: {
       tags.push_back("golden");
-      Vec v = cartesian(lattice, golden(random));
-      jitter(random, v, 2, 2);
+      Vec v = cartesian(lattice, golden(random, precision));
+      jitter(random, v, 2, 2, precision);
       return v;
     }
   }
@@ -79,11 +82,12 @@ Case make_flat(Source& source) {
   const Lattice& lattice = made.scene.lattices[0];
   const IntVec g = drawn_primitive(source.scene, 2, source.scene.one_in(4) ? 200 : 9), u = bezout(g);
   const IntVec next{-u[1], u[0], 0};  // det(g, next) = 1
-  set_radius(made.scene, drawn_radius(source.scene, half_width(lattice, 2, g), made.tags));
+  set_radius(made.scene, drawn_radius(source.scene, source.precision, half_width(lattice, 2, g), made.tags));
   Random& random = source.random;
-  made.query.v = flat_direction(random, lattice, g, next, made.tags);
+  made.query.v = flat_direction(random, source.precision, lattice, g, next, made.tags);
   if (random.one_in(2)) {  // in the middle of a corridor
-    const double off = random.one_in(2) ? 0 : random.octave(-50, -10) * random.sign();
+    const double off =
+        random.one_in(2) ? 0 : random.octave(-50 + missing_bits(source.precision), -10) * random.sign();
     made.query.x = sum(scaled(cartesian(lattice, g), random.between(-1, 1)),
                        scaled(cartesian(lattice, next), 0.5 + off));
   } else {
@@ -92,21 +96,22 @@ Case make_flat(Source& source) {
   return made;
 }
 
-Vec solid_direction(Random& random, const Lattice& lattice, const IntVec& g1, const IntVec& g2,
-                    const IntVec& next, std::vector<std::string>& tags) {
+Vec solid_direction(Random& random, NumberFormat precision, const Lattice& lattice, const IntVec& g1,
+                    const IntVec& g2, const IntVec& next, std::vector<std::string>& tags) {
   if (random.one_in(2)) {
     tags.push_back("ulps-off-rational");
     IntVec g{};
     const std::int64_t a = random.integer(-9, 9), b = random.integer(1, 9);
     for (int i = 0; i < 3; ++i) g[i] = a * g1[i] + b * g2[i];
     Vec v = scaled(cartesian(lattice, g), static_cast<double>(random.integer(1, 99)));
-    jitter(random, v, 3, 3);
+    jitter(random, v, 3, 3, precision);
     return v;
   }
   tags.push_back("near-plane");
   const Vec in_plane = sum(scaled(cartesian(lattice, g1), random.between(-1, 1)),
                            scaled(cartesian(lattice, g2), random.between(0.1, 1)));
-  return sum(in_plane, scaled(cartesian(lattice, next), random.octave(-52, -8) * random.sign()));
+  const double slope = random.octave(-52 + missing_bits(precision), -8) * random.sign();
+  return sum(in_plane, scaled(cartesian(lattice, next), slope));
 }
 
 // Planes with the indices n: g_1, g_2 span a sublattice of them, and next . n = 1.
@@ -116,11 +121,12 @@ Case make_solid(Source& source) {
   const Lattice& lattice = made.scene.lattices[0];
   const IntVec n = drawn_primitive(source.scene, 3, source.scene.one_in(4) ? 12 : 2), next = bezout(n);
   const auto [g1, g2] = across_of(n);
-  set_radius(made.scene, drawn_radius(source.scene, half_width(lattice, 3, n), made.tags));
+  set_radius(made.scene, drawn_radius(source.scene, source.precision, half_width(lattice, 3, n), made.tags));
   Random& random = source.random;
-  made.query.v = solid_direction(random, lattice, g1, g2, next, made.tags);
+  made.query.v = solid_direction(random, source.precision, lattice, g1, g2, next, made.tags);
   if (random.one_in(2)) {  // in the middle of a channel
-    const double off = random.one_in(2) ? 0 : random.octave(-50, -10) * random.sign();
+    const double off =
+        random.one_in(2) ? 0 : random.octave(-50 + missing_bits(source.precision), -10) * random.sign();
     made.query.x = sum(sum(scaled(cartesian(lattice, g1), random.uniform()),
                            scaled(cartesian(lattice, g2), random.uniform())),
                        scaled(cartesian(lattice, next), 0.5 + off));
@@ -135,15 +141,20 @@ Case make_solid(Source& source) {
 Family near_rational() {
   return {"near-rational",
           "Directions ulps from lattice vectors, or with huge partial quotients.",
-          {{"ulps-off-rational", "an ulp decides whether the flight ends here or in 10^15 cells"},
+          {{"ulps-off-rational", "an ulp decides whether the flight ends here or in 10^15 cells",
+            "an ulp decides whether the flight ends here or in 10^6 cells"},
            {"neighbours",
             "n times a lattice vector plus its neighbour in the Stern-Brocot tree: rows of n "
-            "obstacles, and 2^44 fold steps for who walks them"},
-           {"huge-quotient", "a small slope against a lattice vector: one partial quotient of up to 2^52"},
+            "obstacles, and 2^44 fold steps for who walks them",
+            "n times a lattice vector plus its neighbour in the Stern-Brocot tree: rows of n "
+            "obstacles, and 2^15 fold steps for who walks them"},
+           {"huge-quotient", "a small slope against a lattice vector: one partial quotient of up to 2^52",
+            "a small slope against a lattice vector: one partial quotient of up to 2^23"},
            {"golden", "all partial quotients 1: the longest continued fraction"},
            {"near-plane", "a small slope against a lattice plane: thousands of rows in one plane"},
            {"corridor-open", "the corridors along the lattice vector are open"},
-           {"just-open", "they are open by a relative 2^-10 to 2^-51"},
+           {"just-open", "they are open by a relative 2^-10 to 2^-51",
+            "they are open by a relative 2^-10 to 2^-22, before rounding"},
            {"just-closed", "they are closed by as little"},
            {"small-radius", "obstacles small against the corridors"}},
           [](Source& source) { return source.scene.one_in(3) ? make_solid(source) : make_flat(source); }};

@@ -24,7 +24,8 @@ Case make_nearby(Source& source) {
   }
   const double r = made.scene.lattices[0].atoms[0].radius;
   const Vec n = random.direction(dimension), along = random.direction(dimension);
-  made.query.x = scaled(n, r * (1 + random.octave(-40, -2)));
+  made.query.x =
+      scaled(n, r * (1 + random.octave(source.precision == NumberFormat::binary64 ? -40 : -18, -2)));
   made.query.v = sum(scaled(n, -1), scaled(along, random.between(0, 0.8)));
   return made;
 }

@@ -20,25 +20,30 @@ namespace {
 
 __extension__ typedef __int128 Wide;
 
-// v with V_0 W_1 2^22 - V_1 W_0 = j times their common divisor g. V_0 is not 0: u_0 K / g is 1 modulo W_0 /
+// v with V_0 W_1 2^22 - V_1 W_0 = j (in binary32 2^10) times their common divisor g. V_0 is not 0: u_0 K / g is 1 modulo W_0 /
 // g, so that W_0 / g would divide j; but W_0 is odd, g at most W_1 < 2^30, and W_0 / g > 2^22 > j.
-Vec nearly_parallel_to(std::int64_t W0, std::int64_t W1, std::int64_t j) {
-  const std::int64_t K = W1 << 22;
+Vec nearly_parallel_to(std::int64_t W0, std::int64_t W1, std::int64_t j, NumberFormat precision) {
+  const int bits = bits_of(precision), shift = precision == NumberFormat::binary64 ? 22 : 10;
+  const std::int64_t K = W1 << shift;
   const IntVec u = bezout({K, W0, 0});
   const Wide V0 = (static_cast<Wide>(j) * u[0] % W0 + W0) % W0;
   const Wide V1 = (V0 * K - static_cast<Wide>(j) * content_of({K, W0, 0})) / W0;
-  return {std::ldexp(static_cast<double>(V0), -52), std::ldexp(static_cast<double>(V1), -76), 0};
+  return {std::ldexp(static_cast<double>(V0), 1 - bits),
+          std::ldexp(static_cast<double>(V1), -1 - bits - shift), 0};
 }
 
 Case make_nearly_parallel(Source& source) {
   Case made;
   Random &drawn = source.scene, &random = source.random;
-  constexpr std::int64_t kUnit = std::int64_t{1} << 51;
-  const std::int64_t X0 = kUnit + drawn.integer(0, kUnit / 8), X1 = (kUnit + drawn.integer(0, kUnit / 8)) | 1;
-  const std::int64_t W0 = X0 + X1 + (X0 % 2 == 0 ? 0 : 1), W1 = drawn.integer(1 << 29, (1 << 30) - 1) | 1;
-  const std::int64_t Y = drawn.integer(3 * kUnit, 4 * kUnit - 1);
-  const Vec b0{std::ldexp(static_cast<double>(W0 - X1), -51), std::ldexp(static_cast<double>(Y), -53), 0},
-      b1{std::ldexp(static_cast<double>(X1), -51), std::ldexp(static_cast<double>(W1 - Y), -53), 0};
+  const bool is_wide = source.precision == NumberFormat::binary64;
+  const int bits = bits_of(source.precision), few = is_wide ? 29 : 12;
+  const std::int64_t unit = std::int64_t{1} << (bits - 2);
+  const std::int64_t X0 = unit + drawn.integer(0, unit / 8), X1 = (unit + drawn.integer(0, unit / 8)) | 1;
+  const std::int64_t W0 = X0 + X1 + (X0 % 2 == 0 ? 0 : 1), W1 = drawn.integer(1 << few, (2 << few) - 1) | 1;
+  const std::int64_t Y = drawn.integer(3 * unit, 4 * unit - 1);
+  const Vec b0{std::ldexp(static_cast<double>(W0 - X1), 2 - bits), std::ldexp(static_cast<double>(Y), -bits),
+               0},
+      b1{std::ldexp(static_cast<double>(X1), 2 - bits), std::ldexp(static_cast<double>(W1 - Y), -bits), 0};
   const int dimension = drawn.one_in(3) ? 3 : 2;
   const Symmetry symmetry(drawn, dimension);
   const Vec b2 = dimension == 3 ? Vec{0, 0, drawn.between(1, 2)} : Vec{};
@@ -46,8 +51,8 @@ Case make_nearly_parallel(Source& source) {
   made.scene = lattice_scene(dimension, {symmetry(b0), symmetry(b1), symmetry(b2)}, r);
   const bool exactly = random.one_in(8);
   made.tags.push_back(exactly ? "parallel" : "nearly");
-  const std::int64_t j = random.integer(1, std::int64_t{1} << random.integer(0, 21));
-  const Vec w = sum(b0, b1), v = exactly ? w : nearly_parallel_to(W0, W1, j);
+  const std::int64_t j = random.integer(1, std::int64_t{1} << random.integer(0, is_wide ? 21 : 9));
+  const Vec w = sum(b0, b1), v = exactly ? w : nearly_parallel_to(W0, W1, j, source.precision);
   // The corridor is in the middle between two rows along w; in space near their plane, or no plane is met.
   const Vec x = sum(scaled(b0, 0.5 + random.between(-0.05, 0.05)), scaled(w, random.between(-1, 1)));
   made.query.x = symmetry(sum(x, Vec{0, 0, dimension == 3 ? r * random.between(-0.9, 0.9) : 0}));

@@ -23,12 +23,14 @@ double sixty_fourths(Random& random, std::int64_t low, std::int64_t high) {
 }
 
 // Between low and high, sometimes just so.
-double within(Random& random, double low, double high) {
-  if (random.one_in(4)) return low + (high - low) * random.octave(-40, -4);
+double within(Random& random, NumberFormat precision, double low, double high) {
+  const int least = precision == NumberFormat::binary64 ? -40 : -16;
+  if (random.one_in(4)) return low + (high - low) * random.octave(least, -4);
   return random.between(low, high);
 }
 
-void corridor(Random& drawn, Random& random, Case& made) {
+void corridor(Source& source, Case& made) {
+  Random &drawn = source.scene, &random = source.random;
   made.tags.push_back("corridor");
   std::array<Vec, 3> vectors{Vec{1, 0}, Vec{0, 1}, Vec{}};
   if (drawn.one_in(2))
@@ -40,14 +42,16 @@ void corridor(Random& drawn, Random& random, Case& made) {
   const double half = half_width(lattice, 2, g);
   set_radius(made.scene, half * drawn.between(0.01, 0.98));
   const double edge = lattice.atoms[0].radius / (2 * half);  // in distances of rows
-  const double rows = static_cast<double>(random.integer(-3, 3)) + within(random, edge, 1 - edge);
+  const double rows =
+      static_cast<double>(random.integer(-3, 3)) + within(random, source.precision, edge, 1 - edge);
   made.query = {sum(scaled(cartesian(lattice, g), random.between(-2, 2)),
                     scaled(cartesian(lattice, {-u[1], u[0], 0}), rows)),
                 cartesian(lattice, g),
                 {}};
 }
 
-void plane(Random& drawn, Random& random, Case& made) {
+void plane(Source& source, Case& made) {
+  Random &drawn = source.scene, &random = source.random;
   made.tags.push_back("plane");
   const IntVec n = drawn_primitive(drawn, 3, 2);
   const double size = length(to_vec(n)), r = drawn.between(0.01, 0.98) / (2 * size);
@@ -56,14 +60,17 @@ void plane(Random& drawn, Random& random, Case& made) {
   const Vec u = to_vec(bezout(n));
   made.query.x =
       sum(sum(scaled(to_vec(g1), random.between(-2, 2)), scaled(to_vec(g2), random.between(-2, 2))),
-          scaled(u, within(random, r * size, 1 - r * size)));
+          scaled(u, within(random, source.precision, r * size, 1 - r * size)));
   const bool simple = random.one_in(2);
-  const auto a = static_cast<double>(random.integer(-(simple ? 5 : 1 << 30), simple ? 5 : 1 << 30)),
-             b = static_cast<double>(random.integer(1, simple ? 5 : 1 << 30));
+  const std::int64_t most =
+      simple ? 5 : std::int64_t{1} << (source.precision == NumberFormat::binary64 ? 30 : 12);
+  const auto a = static_cast<double>(random.integer(-most, most)),
+             b = static_cast<double>(random.integer(1, most));
   made.query.v = sum(scaled(to_vec(g1), a), scaled(to_vec(g2), b));
 }
 
-void cylinder(Random& drawn, Random& random, Case& made) {
+void cylinder(Source& source, Case& made) {
+  Random &drawn = source.scene, &random = source.random;
   made.tags.push_back("cylinder");
   const double r = drawn.between(0.5, 0.7), room = std::sqrt(0.5) - r;
   made.scene = unit_scene(3, r);
@@ -72,17 +79,19 @@ void cylinder(Random& drawn, Random& random, Case& made) {
 }
 
 // Rows of two kinds of obstacles along the first axis.
-void motif(Random& drawn, Random& random, Case& made) {
+void motif(Source& source, Case& made) {
+  Random &drawn = source.scene, &random = source.random;
   made.tags.push_back("motif");
   const double y = sixty_fourths(drawn, 24, 40), r = drawn.between(0.01, 0.15),
                other = drawn.between(0.01, 0.2);
   made.scene = unit_scene(2, r);
   made.scene.lattices[0].atoms.push_back({{drawn.uniform(), y}, other, {}});
-  made.query = {{random.between(-2, 2), within(random, r, y - other)}, {1, 0}, {}};
+  made.query = {{random.between(-2, 2), within(random, source.precision, r, y - other)}, {1, 0}, {}};
 }
 
 // Two lattices whose rows along the first axis coincide, or stand in the middle of each other's.
-void superposition(Random& drawn, Random& random, Case& made) {
+void superposition(Source& source, Case& made) {
+  Random &drawn = source.scene, &random = source.random;
   made.tags.push_back("superposition");
   const double r = drawn.between(0.01, 0.2), other = drawn.between(0.01, 0.2);
   made.scene = unit_scene(2, r);
@@ -91,34 +100,37 @@ void superposition(Random& drawn, Random& random, Case& made) {
                     Vec{}};
   second.atoms = {{{drawn.uniform(), 0}, other, {}}};
   made.scene.lattices.push_back(second);
-  made.query = {{random.between(-2, 2), within(random, std::max(r, other), 0.5 - other)}, {1, 0}, {}};
+  made.query = {
+      {random.between(-2, 2), within(random, source.precision, std::max(r, other), 0.5 - other)}, {1, 0}, {}};
 }
 
 // An ellipse { A y : |y| < 1 } reaches as high as the length of the second row of A.
-void ellipse(Random& drawn, Random& random, Case& made) {
+void ellipse(Source& source, Case& made) {
+  Random &drawn = source.scene, &random = source.random;
   made.tags.push_back("ellipse");
   made.scene = unit_scene(2, 1);
   const double size = drawn.between(0.05, 0.45), thin = size / drawn.between(1, 20);
   const Vec a = drawn.direction(2);
   made.scene.lattices[0].atoms[0] = {{}, 0, {scaled(a, size), Vec{-a[1] * thin, a[0] * thin}}};
   const double height = std::sqrt(size * a[1] * size * a[1] + thin * a[0] * thin * a[0]);
-  made.query = {{random.between(-2, 2), within(random, height, 1 - height)}, {1, 0}, {}};
+  made.query = {{random.between(-2, 2), within(random, source.precision, height, 1 - height)}, {1, 0}, {}};
 }
 
 Case make_never(Source& source) {
-  static constexpr void (*kKinds[])(Random&, Random&, Case&) = {corridor, plane,         cylinder,
-                                                                motif,    superposition, ellipse};
+  static constexpr void (*kKinds[])(Source&, Case&) = {corridor, plane,         cylinder,
+                                                       motif,    superposition, ellipse};
   Case made;
   Random& random = source.random;
-  kKinds[source.scene.below(6)](source.scene, random, made);
+  kKinds[source.scene.below(6)](source, made);
   Vec& v = made.query.v;
   v = scaled(v, std::ldexp(random.sign(), static_cast<int>(random.integer(-6, 6))));
   if (random.one_in(4)) {
     made.tags.push_back("neighbour");
     const auto i = static_cast<std::size_t>(random.below(static_cast<std::uint64_t>(made.scene.dimension)));
     const std::int64_t ulps = random.integer(1, 3);
-    v[i] =
-        v[i] == 0 ? std::ldexp(length(v) * random.sign(), static_cast<int>(-50 - ulps)) : moved(v[i], ulps);
+    v[i] = v[i] == 0 ? std::ldexp(length(v) * random.sign(),
+                                  static_cast<int>(-50 + missing_bits(source.precision) - ulps))
+                     : moved(v[i], ulps, source.precision);
   }
   return made;
 }
@@ -134,7 +146,8 @@ Family never() {
            {"motif", "between rows of different obstacles"},
            {"superposition", "along a corridor that two lattices have in common"},
            {"ellipse", "past tilted ellipses"},
-           {"neighbour", "v a few ulps off: mostly a hit, after some 10^15 cells"}},
+           {"neighbour", "v a few ulps off: mostly a hit, after some 10^15 cells",
+            "v a few ulps off: mostly a hit, after some 10^6 cells"}},
           make_never};
 }
 

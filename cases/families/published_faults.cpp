@@ -23,13 +23,14 @@ struct FaultExample {
   Vec x, v;
   bool leaving;
   const char* tag;
+  std::int64_t ulps_off = 0;  // x moved by so many to the left and upwards, off the disc
 };
 
 const FaultExample kExamples[] = {
     {2, 0.2, {-9.0 / 205, 8.0 / 41}, {9, 5}, true, "skipped-disc"},
     {2, 0.05, {-7.0 / 500, 6.0 / 125}, {8, 7}, true, "skipped-disc"},
-    {2, 0.2, {moved(-9.0 / 205, -1), moved(8.0 / 41, 1)}, {9, 5}, false, "skipped-disc"},
-    {2, 0.05, {moved(-7.0 / 500, -1), moved(6.0 / 125, 1)}, {8, 7}, false, "skipped-disc"},
+    {2, 0.2, {-9.0 / 205, 8.0 / 41}, {9, 5}, false, "skipped-disc", 1},
+    {2, 0.05, {-7.0 / 500, 6.0 / 125}, {8, 7}, false, "skipped-disc", 1},
     {2, 1.0 / 81, {0, 0.878597}, {2, 1}, false, "endless-channel"},
     {2, 1.0 / 81, {0, 0.378597}, {2, 1}, false, "endless-channel"},
     {2, 1e-3, {0, 0.3}, {1, 2.5 * 1e-3}, false, "slow-drift"},
@@ -40,14 +41,16 @@ const FaultExample kExamples[] = {
 };
 constexpr std::uint64_t kExampleCount = sizeof kExamples / sizeof kExamples[0];
 
-Case example(std::uint64_t index) {
+Case example(std::uint64_t index, NumberFormat precision) {
   const FaultExample& one = kExamples[index];
   Case made{unit_scene(one.dimension, one.radius), {one.x, one.v, {}}, {"example", one.tag}};
+  Vec& x = made.query.x;
+  if (one.ulps_off != 0) x = {moved(x[0], -one.ulps_off, precision), moved(x[1], one.ulps_off, precision)};
   if (one.leaving) made.query.from = ObstacleId{};
   return made;
 }
 
-Query skipped_disc(Random& random, double r, std::vector<std::string>& tags) {
+Query skipped_disc(Random& random, NumberFormat precision, double r, std::vector<std::string>& tags) {
   const auto q = static_cast<double>(random.integer(1, 4)),
              p = static_cast<double>(random.integer(1, static_cast<std::int64_t>(q)));
   double slope = p / q, b = 0;
@@ -65,7 +68,7 @@ Query skipped_disc(Random& random, double r, std::vector<std::string>& tags) {
   if (leaving)
     query.from = ObstacleId{};
   else
-    query.x = {moved(query.x[0], -2), moved(query.x[1], 2)};  // x_1 < 0 < x_2: outwards
+    query.x = {moved(query.x[0], -2, precision), moved(query.x[1], 2, precision)};  // x_1 < 0 < x_2: outwards
   query.v = scaled(query.v, random.octave(-3, 3));
   return query;
 }
@@ -104,18 +107,18 @@ Query along_axis(Random& random, const Scene& scene, std::vector<std::string>& t
 }
 
 Case make_published(Source& source) {
-  if (source.index < kExampleCount) return example(source.index);
+  if (source.index < kExampleCount) return example(source.index, source.precision);
   Case made;
   Random &drawn = source.scene, &random = source.random;
   const std::uint64_t kind = drawn.below(6);
   const double r = kind == 2   ? drawn.octave(-6, -4)
-                   : kind == 3 ? drawn.octave(-24, -6)
+                   : kind == 3 ? drawn.octave(source.precision == NumberFormat::binary64 ? -24 : -16, -6)
                                : drawn.between(0.05, kind == 4 ? 0.3 : 0.2);
   made.scene = unit_scene(kind == 4 || (kind == 5 && drawn.one_in(2)) ? 3 : 2, r);
   switch (kind) {
     case 0:
     case 1:
-      made.query = skipped_disc(random, r, made.tags);
+      made.query = skipped_disc(random, source.precision, r, made.tags);
       break;
     case 2:
       made.query = endless_channel(random, r, made.tags);

@@ -33,12 +33,13 @@ Case make_large(Source& source) {
   const int dimension = drawn.one_in(2) ? 3 : 2;
   const double covering = std::sqrt(dimension) / 2;
   const Vec hole = dimension == 2 ? Vec{0.5, 0.5} : Vec{0.5, 0.5, 0.5};
+  const bool is_wide = source.precision == NumberFormat::binary64;
   double r = 0.5;
   switch (drawn.below(5)) {
     case 0:
       made.tags.push_back("touching");
-      r = drawn.one_in(2) ? moved(0.5, drawn.integer(-3, 3))
-                          : 0.5 * (1 + drawn.octave(-40, -4) * drawn.sign());
+      r = drawn.one_in(2) ? moved(0.5, drawn.integer(-3, 3), source.precision)
+                          : 0.5 * (1 + drawn.octave(is_wide ? -40 : -20, -4) * drawn.sign());
       break;
     case 1:
       made.tags.push_back("overlapping");
@@ -50,7 +51,9 @@ Case make_large(Source& source) {
       break;
     case 3:
       made.tags.push_back("covering");
-      r = drawn.one_in(2) ? moved(covering, drawn.integer(-4, 4)) : covering * (1 - drawn.octave(-41, -30));
+      r = drawn.one_in(2) ? moved(covering, drawn.integer(-4, 4), source.precision)
+          : is_wide       ? covering * (1 - drawn.octave(-41, -30))
+                          : covering * (1 - drawn.octave(-20, -14));
       break;
     default: {
       made.tags.push_back("elongated");
@@ -59,14 +62,15 @@ Case make_large(Source& source) {
       made.scene = unit_scene(dimension, r);
       made.scene.lattices[0].vectors[1][1] = far;
       made.query.x = drawn_start(random, made.scene, {0.5, far / 2, dimension == 2 ? 0 : 0.5}, room);
-      made.query.v =
-          random.one_in(2) ? random.direction(dimension) : near_integer_direction(random, dimension);
+      made.query.v = random.one_in(2) ? random.direction(dimension)
+                                      : near_integer_direction(random, dimension, source.precision);
       return made;
     }
   }
   made.scene = unit_scene(dimension, r);
-  made.query.x = drawn_start(random, made.scene, hole, std::max(covering - r, 0x1p-50));
-  made.query.v = random.one_in(2) ? random.direction(dimension) : near_integer_direction(random, dimension);
+  made.query.x = drawn_start(random, made.scene, hole, std::max(covering - r, is_wide ? 0x1p-50 : 0x1p-21));
+  made.query.v = random.one_in(2) ? random.direction(dimension)
+                                  : near_integer_direction(random, dimension, source.precision);
   return made;
 }
 
@@ -75,7 +79,9 @@ Case make_tiny(Source& source) {
   Random &drawn = source.scene, &random = source.random;
   const int dimension = drawn.one_in(2) ? 3 : 2;
   made.tags.push_back(dimension == 2 ? "tiny-2d" : "tiny-3d");
-  double r = dimension == 2 ? drawn.octave(-39, -20) : drawn.octave(-23, -10);
+  const bool is_wide = source.precision == NumberFormat::binary64;
+  double r = dimension == 2 ? (is_wide ? drawn.octave(-39, -20) : drawn.octave(-19, -10))
+                            : (is_wide ? drawn.octave(-23, -10) : drawn.octave(-13, -6));
   made.scene = unit_scene(dimension, r);
   if (drawn.one_in(2)) {
     made.tags.push_back("scaled-cell");
@@ -90,7 +96,7 @@ Case make_tiny(Source& source) {
   made.query.v = random.direction(dimension);
   if (random.one_in(4)) {
     made.tags.push_back("slow");
-    made.query.v = near_integer_direction(random, dimension);
+    made.query.v = near_integer_direction(random, dimension, source.precision);
   }
   return made;
 }
@@ -104,7 +110,8 @@ Family large_radius() {
       {{"touching", "radius within ulps of half the lattice constant: gaps of an ulp, or none"},
        {"overlapping", "neighbours overlap: the nearest centre is not the first entry"},
        {"pocket", "free pockets closed on all sides: no flight leaves its cell"},
-       {"covering", "radius within 2^-30 of the covering radius: pockets of 10^-9, or none"},
+       {"covering", "radius within 2^-30 of the covering radius: pockets of 10^-9, or none",
+        "radius within 2^-14 of the covering radius: pockets of 10^-4, or none"},
        {"elongated", "radius of up to 50 shortest vectors: rows merge into walls, dozens contain a point"}},
       make_large};
 }
@@ -112,11 +119,14 @@ Family large_radius() {
 Family tiny_radius() {
   return {"tiny-radius",
           "Radii down to 1e-12 of the lattice constant in the plane, 1e-7 in space.",
-          {{"tiny-2d", "flights of 10^6 to 10^12 cells in the plane"},
-           {"tiny-3d", "flights of 10^6 to 10^13 cells in space"},
+          {{"tiny-2d", "flights of 10^6 to 10^12 cells in the plane",
+            "flights of 10^3 to 10^6 cells in the plane"},
+           {"tiny-3d", "flights of 10^6 to 10^13 cells in space", "flights of 10^3 to 10^7 cells in space"},
            {"scaled-cell", "cells of 10^-9 to 10^9, skewed: absolute tolerances show"},
-           {"slow", "directions ulps from small integers: flights of 10^15 and more, or none"}},
-          make_tiny};
+           {"slow", "directions ulps from small integers: flights of 10^15 and more, or none",
+            "directions ulps from small integers: flights of 10^6 and more, or none"}},
+          make_tiny,
+          "Radii down to 1e-6 of the lattice constant in the plane, 1e-4 in space."};
 }
 
 }  // namespace lorentz::cases

@@ -13,6 +13,7 @@
 #include "cases/hard_moves.hpp"
 #include "cases/integer_vectors.hpp"
 #include "cases/scene_edit.hpp"
+#include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {
@@ -44,13 +45,14 @@ Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
 }
 
 // Along the lattice, with small integers, exactly or up to ulps and tilts.
-Vec along(Random& random, const Lattice& lattice, int dimension) {
+Vec along(Random& random, NumberFormat precision, const Lattice& lattice, int dimension) {
   Vec v{};
   for (int i = 0; i < lattice.rank(dimension); ++i)
     v = sum(v, scaled(lattice.vectors[i], static_cast<double>(random.integer(-5, 5))));
   if (v == Vec{}) v = lattice.vectors[0];
   if (random.one_in(2)) return v;
-  return sum(v, scaled(random.direction(dimension), length(v) * random.octave(-50, -4)));
+  return sum(
+      v, scaled(random.direction(dimension), length(v) * random.octave(-50 + missing_bits(precision), -4)));
 }
 
 Case make_case(Source& source) {
@@ -81,19 +83,20 @@ Case make_case(Source& source) {
       break;
     case 2:
       made.tags.push_back("along");
-      made.query.v = along(random, lattice, dimension);
+      made.query.v = along(random, source.precision, lattice, dimension);
       made.query.x = sum(target, scaled(random.direction(dimension), reach * random.between(1, 3)));
       break;
     case 3:
       made.tags.push_back("leaving");
       made.query.from = own;
       made.query.x = sum(target, scaled(direction, reach));
-      made.query.v = random.one_in(2) ? along(random, lattice, dimension) : random.direction(dimension);
+      made.query.v = random.one_in(2) ? along(random, source.precision, lattice, dimension)
+                                      : random.direction(dimension);
       break;
     default:
       made.tags.push_back("edge");
       made.query.x = sum(made.query.x, scaled(random.direction(dimension), reach * random.between(0.1, 0.9)));
-      move_to_edge(random, made.scene, oracle_of(made.scene), made.query);
+      move_to_edge(random, made.scene, oracle_of(made.scene), made.query, source.precision);
   }
   return made;
 }

@@ -27,51 +27,57 @@ void scale_scene(Scene& scene, double factor) {
   scale_obstacles(scene, factor);
 }
 
-void set_limit_radius(Random& drawn, Case& made) {
+void set_limit_radius(Random& drawn, NumberFormat precision, Case& made) {
   const double tiny = made.scene.dimension == 2 ? kTinyFlat : kTinySolid;
   switch (drawn.below(3)) {
     case 0:
       made.tags.push_back("tiny-radius");
-      return set_radius(made.scene,
-                        moved(tiny, drawn.integer(-2, 2)) * (drawn.one_in(2) ? 1 : drawn.between(1, 10)));
+      return set_radius(made.scene, moved(tiny, drawn.integer(-2, 2), precision) *
+                                        (drawn.one_in(2) ? 1 : drawn.between(1, 10)));
     case 1:
       made.tags.push_back("half-radius");
-      return set_radius(made.scene, moved(0.5, drawn.integer(-2, 2)));
+      return set_radius(made.scene, moved(0.5, drawn.integer(-2, 2), precision));
     default:
       made.tags.push_back("ordinary-radius");
       return set_radius(made.scene, drawn.octave(-10, -1));
   }
 }
 
-void set_velocity(Random& random, int dimension, Case& made) {
+void set_velocity(Source& source, int dimension, Case& made) {
+  Random& random = source.random;
+  const bool is_wide = source.precision == NumberFormat::binary64;
+  const int subnormal_bits = is_wide ? 30 : 20, smallest = is_wide ? -1074 : -149;
   made.query.v = random.direction(dimension);
   switch (random.below(4)) {
     case 0:
       made.tags.push_back("subnormal-velocity");
       for (double& component : made.query.v)
-        component = std::ldexp(std::round(std::ldexp(component, 30)), -1074);
+        component = std::ldexp(std::round(std::ldexp(component, subnormal_bits)), smallest);
       break;
     case 1:
       made.tags.push_back("huge-velocity");
-      made.query.v = scaled(made.query.v, random.octave(1000, 1023));
+      made.query.v = scaled(made.query.v, is_wide ? random.octave(1000, 1023) : random.octave(110, 127));
       break;
     case 2: {
       made.tags.push_back("uneven-velocity");
       const std::uint64_t which = random.below(static_cast<std::uint64_t>(dimension));
-      made.query.v[which] = std::ldexp(made.query.v[which], -static_cast<int>(random.integer(1, 1060)));
+      made.query.v[which] =
+          std::ldexp(made.query.v[which], -static_cast<int>(random.integer(1, is_wide ? 1060 : 135)));
       break;
     }
     default:
       made.tags.push_back("unit-velocity");
   }
-  if (made.query.v == Vec{}) made.query.v[0] = 0x1p-1074;
+  if (made.query.v == Vec{}) made.query.v[0] = std::ldexp(1, smallest);
 }
 
-void set_far_start(Random& random, int dimension, Case& made) {
+void set_far_start(Source& source, int dimension, Case& made) {
+  Random& random = source.random;
   made.query.x = point_in_cell(random, made.scene);
   if (!random.one_in(2)) return;
   made.tags.push_back("far-start");
-  const int exponent = static_cast<int>(random.integer(10, 52));
+  const int exponent = static_cast<int>(source.precision == NumberFormat::binary64 ? random.integer(10, 52)
+                                                                                   : random.integer(4, 23));
   IntVec cell{};
   for (int i = 0; i < dimension; ++i)
     cell[i] = random.integer(-(std::int64_t{1} << exponent), std::int64_t{1} << exponent);
@@ -80,16 +86,17 @@ void set_far_start(Random& random, int dimension, Case& made) {
 
 Case make_scale(Source& source) {
   Case made;
-  Random &drawn = source.scene, &random = source.random;
+  Random& drawn = source.scene;
   const int dimension = drawn.one_in(3) ? 3 : 2;
   const bool unit = drawn.one_in(2);
   made.scene = unit ? unit_scene(dimension, 0.25) : drawn_crystal(drawn, dimension).scene;
-  if (unit) set_limit_radius(drawn, made);
-  set_far_start(random, dimension, made);
-  set_velocity(random, dimension, made);
+  if (unit) set_limit_radius(drawn, source.precision, made);
+  set_far_start(source, dimension, made);
+  set_velocity(source, dimension, made);
   if (drawn.one_in(2)) {
     made.tags.push_back("scaled-scene");
-    const double factor = std::ldexp(1, static_cast<int>(drawn.integer(-300, 300)));
+    const std::int64_t most = source.precision == NumberFormat::binary64 ? 300 : 80;
+    const double factor = std::ldexp(1, static_cast<int>(drawn.integer(-most, most)));
     scale_scene(made.scene, factor);
     made.query.x = scaled(made.query.x, factor);
   }

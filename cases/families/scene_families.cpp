@@ -22,7 +22,8 @@ namespace lorentz::cases {
 namespace {
 
 // Drawn, near-rational in coordinates of the first lattice, or grazing.
-void set_query(Random& random, Case& made) {
+void set_query(Source& source, Case& made) {
+  Random& random = source.random;
   const int dimension = made.scene.dimension;
   Query& query = made.query;
   query.x = free_point(random, made.scene);
@@ -36,13 +37,13 @@ void set_query(Random& random, Case& made) {
       query.v = cartesian(made.scene.lattices[random.below(made.scene.lattices.size())],
                           drawn_primitive(random, dimension, 4));
       query.v = scaled(query.v, random.octave(-1, 1));
-      jitter(random, query.v, dimension, 3);
+      jitter(random, query.v, dimension, 3, source.precision);
       return;
     }
     default:
       for (int tries = 0; tries < 4; ++tries) {
         Query moved = query;
-        if (!move_to_edge(random, made.scene, oracle_of(made.scene), moved)) {
+        if (!move_to_edge(random, made.scene, oracle_of(made.scene), moved, source.precision)) {
           query.v = random.direction(dimension);
           continue;
         }
@@ -57,7 +58,8 @@ void set_query(Random& random, Case& made) {
 std::vector<Tag> with_kinds(std::vector<Tag> tags) {
   tags.push_back({"drawn", "uniform free start, isotropic direction"});
   tags.push_back({"near-rational", "a lattice vector, to a few ulps"});
-  tags.push_back({"grazing", "the first obstacle is passed or met within 2^-10 to 2^-50 of its edge"});
+  tags.push_back({"grazing", "the first obstacle is passed or met within 2^-10 to 2^-50 of its edge",
+                  "the first obstacle is passed or met within 2^-10 to 2^-21 of its edge"});
   return tags;
 }
 
@@ -77,7 +79,7 @@ Case make_crystal(Source& source) {
     default:
       scale_obstacles(made.scene, source.scene.octave(-13, -3));
   }
-  set_query(source.random, made);
+  set_query(source, made);
   return made;
 }
 
@@ -128,7 +130,7 @@ Case make_superposition(Source& source) {
   }
   if (dimension == 3) made.tags.push_back("space");
   Random& random = source.random;
-  set_query(random, made);
+  set_query(source, made);
   if (made.tags.back() == "drawn")  // far from the point that turned lattices share
     for (int i = 0; i < dimension; ++i) made.query.x[i] += static_cast<double>(random.integer(-20, 20));
   return made;
@@ -175,7 +177,7 @@ Case make_ellipsoid(Source& source) {
     atoms.push_back(other);
     atoms.push_back({Vec{0.5, 0, 0}, size * 0.3, {}});
   }
-  set_query(source.random, made);
+  set_query(source, made);
   return made;
 }
 

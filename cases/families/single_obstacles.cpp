@@ -64,12 +64,28 @@ Ray plain(Random& random, int dimension, double w) {
   return ray;
 }
 
-// Past the edge by 10^-30 to 1 radii, on either side, and from any distance.
-Ray past_edge(Random& random, int dimension, double w, bool far_away) {
-  const double far = far_away ? w * random.octave(10, 50) : std::round(w * random.between(2, 20));
-  const double depth = random.octave(-100, 0) * random.sign();
+// What depends on the precision of the case's numbers.
+struct RayRange {
+  explicit RayRange(NumberFormat its_precision)
+      : precision(its_precision), is_wide(its_precision == NumberFormat::binary64) {}
+
+  const NumberFormat precision;
+  const bool is_wide;
+  const int bits = bits_of(precision);
+  const int farthest = is_wide ? 50 : 21;                       // of a start: 2^this radii
+  const int least_depth = is_wide ? -100 : -40;                 // past the edge by 2^this radii
+  const double depth_of_numbers = is_wide ? 0x1p-48 : 0x1p-19;  // a rounded start still tells such depths
+  const int tangent_bits = is_wide ? 20 : 9;
+  const int smallest = is_wide ? -600 : -90, largest = is_wide ? 600 : 80;  // of a unit: 2^this
+  const int ordinary = is_wide ? 40 : 20;                                   // units up to 2^this either way
+};
+
+// Past the edge by 10^-30 (in binary32 10^-12) to 1 radii, on either side, and from any distance.
+Ray past_edge(Random& random, const RayRange& range, int dimension, double w, bool far_away) {
+  const double far = far_away ? w * random.octave(10, range.farthest) : std::round(w * random.between(2, 20));
+  const double depth = random.octave(range.least_depth, 0) * random.sign();
   Ray ray;
-  if (std::fabs(depth) > 0x1p-48) {
+  if (std::fabs(depth) > range.depth_of_numbers) {
     ray = aimed(random, dimension, far, w * (1 - depth));
   } else {
     const Symmetry symmetry(random, dimension);
@@ -81,24 +97,25 @@ Ray past_edge(Random& random, int dimension, double w, bool far_away) {
   return ray;
 }
 
-Ray tangent(Random& random, const Touching& touching) {
-  const double steps = random.one_in(4) ? 0 : static_cast<double>(random.integer(1, std::int64_t{1} << 20));
+Ray tangent(Random& random, const RayRange& range, const Touching& touching) {
+  const double steps =
+      random.one_in(4) ? 0 : static_cast<double>(random.integer(1, std::int64_t{1} << range.tangent_bits));
   Ray ray{sum(touching.n, scaled(touching.tangent, -steps)), touching.tangent, steps == 0, {"tangent"}};
   if (steps == 0) ray.tags.push_back("self-intersection");
   return ray;
 }
 
 // On the surface, or some ulps to 10^-3 radii off it; inwards, outwards, along it or nearly so.
-Ray at_surface(Random& random, int dimension, const Touching& touching) {
+Ray at_surface(Random& random, const RayRange& range, int dimension, const Touching& touching) {
   Ray ray{touching.n, {}, true, {"self-intersection"}};
   switch (random.below(3)) {
     case 0:
       break;
     case 1:
-      jitter(random, ray.x, dimension, 4);
+      jitter(random, ray.x, dimension, 4, range.precision);
       break;
     default:
-      ray.x = scaled(ray.x, 1 + random.octave(-50, -10) * random.sign());
+      ray.x = scaled(ray.x, 1 + random.octave(3 - range.bits, -10) * random.sign());
   }
   const Vec inward = scaled(touching.n, -1);
   switch (random.below(4)) {
@@ -109,7 +126,7 @@ Ray at_surface(Random& random, int dimension, const Touching& touching) {
       ray.v = sum(touching.n, scaled(touching.tangent, random.between(-2, 2)));
       break;
     case 2:
-      ray.v = sum(touching.tangent, scaled(inward, random.octave(-53, -4) * random.sign()));
+      ray.v = sum(touching.tangent, scaled(inward, random.octave(-range.bits, -4) * random.sign()));
       break;
     default:
       ray.v = random.direction(dimension);
@@ -117,57 +134,64 @@ Ray at_surface(Random& random, int dimension, const Touching& touching) {
   return ray;
 }
 
-Ray from_inside(Random& random, int dimension, double w) {
+Ray from_inside(Random& random, const RayRange& range, int dimension, double w) {
   return {scaled(random.direction(dimension),
-                 w * (random.one_in(2) ? random.uniform() : 1 - random.octave(-52, -2))),
+                 w * (random.one_in(2) ? random.uniform() : 1 - random.octave(1 - range.bits, -2))),
           random.direction(dimension),
           true,
           {"inside"}};
 }
 
-Ray far_origin(Random& random, int dimension, double w) {
-  Ray ray = aimed(random, dimension, w * random.octave(10, 50), w * random.between(0, 1.5));
+Ray far_origin(Random& random, const RayRange& range, int dimension, double w) {
+  Ray ray = aimed(random, dimension, w * random.octave(10, range.farthest), w * random.between(0, 1.5));
   ray.tags = {"far-origin"};
   return ray;
 }
 
-Ray ray_beside(Random& random, int dimension, const Touching& touching) {
+Ray ray_beside(Random& random, const RayRange& range, int dimension, const Touching& touching) {
   const double w = touching.w;
   switch (random.below(10)) {
     case 0:
       return plain(random, dimension, w);
     case 1:
     case 2:
-      return past_edge(random, dimension, w, false);
+      return past_edge(random, range, dimension, w, false);
     case 3:
-      return tangent(random, touching);
+      return tangent(random, range, touching);
     case 4:
     case 5:
-      return at_surface(random, dimension, touching);
+      return at_surface(random, range, dimension, touching);
     case 6:
-      return from_inside(random, dimension, w);
+      return from_inside(random, range, dimension, w);
     case 7:
-      return past_edge(random, dimension, w, true);
+      return past_edge(random, range, dimension, w, true);
     default:
-      return far_origin(random, dimension, w);
+      return far_origin(random, range, dimension, w);
   }
 }
 
 // Does b^2 - a c, of the quadratic a t^2 + 2 b t + c, lose half of its bits or more?
-bool cancels(const Ray& ray, double w) {
+bool cancels(const Ray& ray, const RayRange& range, double w) {
   const double a = dot(ray.v, ray.v), b = dot(ray.x, ray.v), c = dot(ray.x, ray.x) - w * w;
-  return std::fabs(b * b - a * c) < 0x1p-26 * b * b;
+  return std::fabs(b * b - a * c) < std::ldexp(b * b, -range.bits / 2);
 }
 
 // v times a power of two: of no consequence but to squares.
-void stretch(Random& random, Ray& ray) {
+void stretch(Random& random, const RayRange& range, Ray& ray) {
   if (!random.one_in(8)) return;
   const bool longer = random.one_in(2), subnormal = !longer && random.one_in(2);
   ray.tags.push_back(longer ? "long-direction" : subnormal ? "subnormal-direction" : "short-direction");
-  const int exponent = longer ? 900 : subnormal ? -1040 : -900;
-  ray.v = scaled(ray.v, std::ldexp(1.0, exponent + static_cast<int>(random.integer(-20, 20)) -
-                                            std::ilogb(std::max({std::fabs(ray.v[0]), std::fabs(ray.v[1]),
-                                                                 std::fabs(ray.v[2])}))));
+  const int about = range.is_wide ? (longer      ? 900
+                                     : subnormal ? -1040
+                                                 : -900)
+                                  : (longer      ? 100
+                                     : subnormal ? -132
+                                                 : -90);
+  const int give_or_take = range.is_wide ? 20 : subnormal ? 5 : 10;
+  const auto exponent = about + static_cast<int>(random.integer(-give_or_take, give_or_take));
+  ray.v =
+      scaled(ray.v, std::ldexp(1.0, exponent - std::ilogb(std::max({std::fabs(ray.v[0]), std::fabs(ray.v[1]),
+                                                                    std::fabs(ray.v[2])}))));
 }
 
 Scene alone(int dimension, Atom atom) {
@@ -178,14 +202,14 @@ Scene alone(int dimension, Atom atom) {
 }
 
 // The ray beside the ball of radius w, and what follows from it.
-Ray finished_ray(Random& random, int dimension, const Touching& touching, Case& made) {
-  Ray ray = ray_beside(random, dimension, touching);
-  if (cancels(ray, touching.w)) ray.tags.push_back("cancellation");
+Ray finished_ray(Random& random, const RayRange& range, int dimension, const Touching& touching, Case& made) {
+  Ray ray = ray_beside(random, range, dimension, touching);
+  if (cancels(ray, range, touching.w)) ray.tags.push_back("cancellation");
   if (ray.on_obstacle && random.one_in(3)) {
     ray.tags.push_back("leaving");
     made.query.from = ObstacleId{};
   }
-  stretch(random, ray);
+  stretch(random, range, ray);
   made.tags = ray.tags;
   return ray;
 }
@@ -193,18 +217,19 @@ Ray finished_ray(Random& random, int dimension, const Touching& touching, Case& 
 Case ball_case(Source& source, int dimension) {
   Case made;
   Random& drawn = source.scene;
-  const int size = drawn.one_in(2) ? 0 : static_cast<int>(drawn.integer(-600, 600));
+  const RayRange range(source.precision);
+  const int size = drawn.one_in(2) ? 0 : static_cast<int>(drawn.integer(range.smallest, range.largest));
   const double shift = drawn.one_in(2) ? 0 : static_cast<double>(drawn.integer(1, 1 << 12));
   const Touching touching = drawn_touching(drawn, source.random, dimension);
   const double unit = std::ldexp(1.0, size);
   Vec centre{};
   for (int i = 0; i < dimension; ++i) centre[i] = shift * static_cast<double>(drawn.integer(-5, 5));
   made.scene = alone(dimension, Atom{scaled(centre, unit), touching.w * unit, {}});
-  const Ray ray = finished_ray(source.random, dimension, touching, made);
+  const Ray ray = finished_ray(source.random, range, dimension, touching, made);
   made.query.x = scaled(sum(centre, ray.x), unit);
   made.query.v = ray.v;
-  if (size < -40) made.tags.push_back("tiny-ball");
-  if (size > 40) made.tags.push_back("huge-ball");
+  if (size < -range.ordinary) made.tags.push_back("tiny-ball");
+  if (size > range.ordinary) made.tags.push_back("huge-ball");
   return made;
 }
 
@@ -246,7 +271,7 @@ Case ellipsoid_case(Source& source) {
   Atom atom{centre, 0, semiaxes};
   for (Vec& axis : atom.semiaxes) axis = scaled(axis, touching.w);
   made.scene = alone(dimension, std::move(atom));
-  const Ray ray = finished_ray(source.random, dimension, touching, made);
+  const Ray ray = finished_ray(source.random, RayRange(source.precision), dimension, touching, made);
   made.query.x = sum(centre, image(semiaxes, ray.x));
   made.query.v = image(semiaxes, ray.v);
   if (made.query.v == Vec{}) made.query.v[0] = 1;  // a subnormal one vanished
@@ -256,15 +281,18 @@ Case ellipsoid_case(Source& source) {
 
 std::vector<Tag> ray_tags() {
   return {{"plain", "some radii away, well off the edge"},
-          {"grazing", "passes the edge by 10^-30 to 1 radii, on either side"},
+          {"grazing", "passes the edge by 10^-30 to 1 radii, on either side",
+           "passes the edge by 10^-12 to 1 radii, on either side"},
           {"tangent", "touches, exactly where nothing was rounded: which is not a hit"},
           {"self-intersection", "starts on the surface, exactly, or within 10^-3 radii of it"},
           {"inside", "starts inside, perhaps by a roundoff"},
-          {"far-origin", "starts 10^3 to 10^15 radii away"},
+          {"far-origin", "starts 10^3 to 10^15 radii away", "starts 10^3 to 10^6 radii away"},
           {"cancellation", "the discriminant of the quadratic loses half of its bits, or all"},
           {"leaving", "`from` is the obstacle, which is ignored: a ray that leaves it"},
-          {"long-direction", "v has a length of about 2^900, whose square is not a binary64"},
-          {"short-direction", "v has a length of about 2^-900, whose square is 0"},
+          {"long-direction", "v has a length of about 2^900, whose square is not a binary64",
+           "v has a length of about 2^100, whose square is not a binary32"},
+          {"short-direction", "v has a length of about 2^-900, whose square is 0",
+           "v has a length of about 2^-90, whose square is 0"},
           {"subnormal-direction", "the components of v are subnormal"}};
 }
 
@@ -273,7 +301,8 @@ std::vector<Tag> with(std::vector<Tag> tags, std::initializer_list<Tag> more) {
   return tags;
 }
 
-const Tag kTiny{"tiny-ball", "a radius of 2^-600 to 2^-30"}, kHuge{"huge-ball", "a radius of 2^40 to 2^612"};
+const Tag kTiny{"tiny-ball", "a radius of 2^-600 to 2^-30", "a radius of 2^-90 to 2^-10"},
+    kHuge{"huge-ball", "a radius of 2^40 to 2^612", "a radius of 2^20 to 2^92"};
 
 }  // namespace
 

@@ -84,7 +84,8 @@ Case make_sizes(Source& source) {
     return made;
   }
   made.query.x = free_point(random, made.scene);
-  made.query.v = random.one_in(4) ? near_integer_direction(random, dimension) : random.direction(dimension);
+  made.query.v = random.one_in(4) ? near_integer_direction(random, dimension, source.precision)
+                                  : random.direction(dimension);
   return made;
 }
 

@@ -64,7 +64,10 @@ Case make_skewed_cells(Source& source) {
   const double radius = made.scene.lattices[0].atoms[0].radius;
   const bool far = random.one_in(2);
   made.tags.push_back(far ? "far" : "near");
-  const auto range = std::int64_t{1} << (far ? random.integer(20, 40) : random.integer(0, 8));
+  const auto range =
+      std::int64_t{1} << (!far                                         ? random.integer(0, 8)
+                          : source.precision == NumberFormat::binary64 ? random.integer(20, 40)
+                                                                       : random.integer(9, 16));
   IntVec c{};
   Vec centre{};
   for (int k = 0; k < dimension; ++k) {

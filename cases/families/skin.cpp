@@ -34,9 +34,11 @@ std::vector<Vec> drawn_semiaxes(Random& drawn, const Symmetry& symmetry, int w, 
 }
 
 // Another atom with nearly the same surface.
-void add_twin(Random& drawn, const Symmetry& symmetry, double size, Case& made) {
+void add_twin(Random& drawn, NumberFormat precision, const Symmetry& symmetry, double size, Case& made) {
   Atom twin = made.scene.lattices[0].atoms[0];
-  const double aside = size * drawn.octave(-120, -45) * drawn.sign();
+  const double aside =
+      size * (precision == NumberFormat::binary64 ? drawn.octave(-120, -45) : drawn.octave(-60, -18)) *
+      drawn.sign();
   const Vec step = symmetry(Vec{0, aside, 0});
   for (int i = 0; i < 3; ++i) twin.position[i] += step[i];
   if (drawn.one_in(2)) {
@@ -70,9 +72,10 @@ Case make_skin(Source& source) {
   lattice.atoms = {atom};
   if (drawn.one_in(3)) {
     made.tags.push_back("twin");
-    add_twin(drawn, symmetry, size, made);
+    add_twin(drawn, source.precision, symmetry, size, made);
   }
-  const double gap = lengths[0] * random.octave(-100, -45);
+  const double gap = lengths[0] * (source.precision == NumberFormat::binary64 ? random.octave(-100, -45)
+                                                                              : random.octave(-60, -18));
   made.query.x = symmetry(Vec{-gap, -triple.b * lengths[1], 0});
   // Inwards: along the normal, beside it, or nearly along the surface.
   const double first = random.one_in(3) ? 0 : random.octave(-20, 1);

@@ -42,10 +42,12 @@ Atom drawn_needle(Random& drawn, int dimension, Case& made) {
 
 // The obstacle's centre, up to some cells before it, and beside it by about its width: at its edge to within
 // 2^-50 to 1.
-Vec beside(Random& random, const Atom& atom) {
+Vec beside(Random& random, NumberFormat precision, const Atom& atom) {
   const Vec &along = atom.semiaxes[0], &across = atom.semiaxes[1 + random.below(atom.semiaxes.size() - 1)];
-  const double edge = random.one_in(3) ? random.between(-1.5, 1.5)
-                                       : random.sign() * (1 + random.octave(-50, -1) * random.sign());
+  const double edge =
+      random.one_in(3)
+          ? random.between(-1.5, 1.5)
+          : random.sign() * (1 + random.octave(-50 + missing_bits(precision), -1) * random.sign());
   return sum(atom.position,
              sum(scaled(along, -random.between(0.5, random.one_in(2) ? 2 : 40)), scaled(across, edge)));
 }
@@ -61,8 +63,9 @@ Case make_slender(Source& source) {
   made.query.v = random.one_in(2) ? along : scaled(along, random.between(0.5, 2) / length(along));
   if (random.one_in(2)) {
     made.tags.push_back("leaning");
-    made.query.v =
-        sum(made.query.v, scaled(random.direction(dimension), length(made.query.v) * random.octave(-40, -4)));
+    made.query.v = sum(made.query.v, scaled(random.direction(dimension),
+                                            length(made.query.v) *
+                                                random.octave(-40 + missing_bits(source.precision) / 2, -4)));
   } else {
     made.tags.push_back("lengthwise");
   }
@@ -71,7 +74,7 @@ Case make_slender(Source& source) {
     made.query.x = free_point(random, made.scene);
   } else {
     made.tags.push_back("at-its-edge");
-    made.query.x = beside(random, atom);
+    made.query.x = beside(random, source.precision, atom);
   }
   return made;
 }

@@ -15,59 +15,73 @@
 namespace lorentz::cases {
 namespace {
 
-constexpr int kLeast = -1074;
+// What depends on the precision: powers of two.
+struct SpeckRange {
+  explicit SpeckRange(NumberFormat precision) : is_wide(precision == NumberFormat::binary64) {}
+  const bool is_wide;
+  const int least = is_wide ? -1074 : -149, next_to_least = is_wide ? 60 : 12;
+  const int below = is_wide ? 400 : 60;  // specks are smaller than 1, and than the size, by so much
+  const int ordinary = is_wide ? 400 : 50, largest = is_wide ? 1000 : 110;
+};
 
 // The smallest numbers, or any below 2^-400 of the size; at times with all digits.
-double speck(Random& random, int exponent_of_size) {
-  const int most = std::max(kLeast, std::min(exponent_of_size - 400, -400));
-  const auto exponent = static_cast<int>(random.one_in(2) ? kLeast + static_cast<int>(random.below(60))
-                                                          : random.integer(kLeast, most));
+double speck(Random& random, const SpeckRange& range, int exponent_of_size) {
+  const int most = std::max(range.least, std::min(exponent_of_size - range.below, -range.below));
+  const auto exponent = static_cast<int>(
+      random.one_in(2)
+          ? range.least + static_cast<int>(random.below(static_cast<std::uint64_t>(range.next_to_least)))
+          : random.integer(range.least, most));
   return std::ldexp(random.one_in(2) ? 1 : 1 + random.uniform(), std::min(exponent, most)) * random.sign();
 }
 
 // A speck in place of some of the zeros.
-void add_specks(Random& random, Vec& a, int dimension, int exponent_of_size) {
+void add_specks(Random& random, const SpeckRange& range, Vec& a, int dimension, int exponent_of_size) {
   for (int i = 0; i < dimension; ++i)
-    if (a[i] == 0 && random.one_in(2)) a[i] = speck(random, exponent_of_size);
+    if (a[i] == 0 && random.one_in(2)) a[i] = speck(random, range, exponent_of_size);
 }
 
-int drawn_exponent(Random& drawn) {
+int drawn_exponent(Random& drawn, const SpeckRange& range) {
   switch (drawn.below(3)) {
     case 0:
       return static_cast<int>(drawn.integer(-2, 2));
     case 1:
-      return static_cast<int>(drawn.integer(-400, 400));
+      return static_cast<int>(drawn.integer(-range.ordinary, range.ordinary));
     default:
-      return static_cast<int>(drawn.integer(400, 1000));
+      return static_cast<int>(drawn.integer(range.ordinary, range.largest));
   }
 }
 
 Case make_specks(Source& source) {
   Case made;
   Random &drawn = source.scene, &random = source.random;
-  const int dimension = drawn.one_in(3) ? 3 : 2, exponent = drawn_exponent(drawn);
+  const SpeckRange range(source.precision);
+  const int dimension = drawn.one_in(3) ? 3 : 2, exponent = drawn_exponent(drawn, range);
   const double size = std::ldexp(1, exponent);
   std::array<Vec, 3> vectors{};
   const bool skewed = drawn.one_in(4);
   for (int i = 0; i < dimension; ++i) {
     vectors[i][i] = size;
     if (skewed && i > 0) vectors[i][0] = size * static_cast<double>(drawn.integer(-2, 2)) / 4;
-    add_specks(drawn, vectors[i], dimension, exponent);
+    add_specks(drawn, range, vectors[i], dimension, exponent);
   }
   made.scene = lattice_scene(dimension, vectors, size * (drawn.one_in(2) ? 0.25 : drawn.between(0.02, 0.5)));
-  if (drawn.one_in(4)) add_specks(drawn, made.scene.lattices[0].atoms[0].position, dimension, exponent);
+  if (drawn.one_in(4))
+    add_specks(drawn, range, made.scene.lattices[0].atoms[0].position, dimension, exponent);
   const bool row = random.one_in(2);
   made.tags.push_back(row ? "row" : "across");
   Vec x{}, v = random.direction(dimension);
   for (int i = 0; i < dimension; ++i) x[i] = static_cast<double>(random.integer(-4, 4)) / 4;
   if (row) v = to_vec(drawn_primitive(random, dimension, random.one_in(2) ? 1 : 3));
   made.query.x = scaled(x, size);
-  made.query.v = scaled(v, std::ldexp(1, random.one_in(2) ? 0 : static_cast<int>(random.integer(-300, 300))));
+  made.query.v =
+      scaled(v, std::ldexp(1, random.one_in(2) ? 0
+                                               : static_cast<int>(random.integer(range.is_wide ? -300 : -40,
+                                                                                 range.is_wide ? 300 : 40))));
   const bool more = random.one_in(3);
   made.tags.push_back(more ? "specks-in-the-flight" : "specks-in-the-cell");
   if (more) {
-    add_specks(random, made.query.x, dimension, exponent);
-    add_specks(random, made.query.v, dimension, std::ilogb(length(made.query.v)));
+    add_specks(random, range, made.query.x, dimension, exponent);
+    add_specks(random, range, made.query.v, dimension, std::ilogb(length(made.query.v)));
   }
   return made;
 }

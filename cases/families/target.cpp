@@ -4,9 +4,9 @@
 
 namespace lorentz::cases {
 
-Case Target::make(std::uint64_t seed, std::uint64_t index) const {
+Case Target::make(std::uint64_t seed, std::uint64_t index, NumberFormat precision) const {
   const std::uint64_t row = index / kCasesPerScene, count = families_.size();
-  return families_[row % count].make(seed, row / count * kCasesPerScene + index % kCasesPerScene);
+  return families_[row % count].make(seed, row / count * kCasesPerScene + index % kCasesPerScene, precision);
 }
 
 const std::vector<Target>& targets() {

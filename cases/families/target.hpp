@@ -1,5 +1,5 @@
 // What a campaign aims at: each target is a family of cases, or several in turn. A case follows from (seed,
-// target, index) and nothing else.
+// target, index, precision) and nothing else.
 #pragma once
 
 #include <string_view>
@@ -16,7 +16,7 @@ class Target {
 
   std::string_view name() const { return name_; }
   std::string_view description() const { return families_.front().description(); }
-  Case make(std::uint64_t seed, std::uint64_t index) const;
+  Case make(std::uint64_t seed, std::uint64_t index, NumberFormat precision = NumberFormat::binary64) const;
   const std::vector<Family>& families() const { return families_; }
 
  private:

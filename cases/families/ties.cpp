@@ -27,9 +27,10 @@ double dyadic(Random& random, int low, int high) {  // eighths of a power of two
                     static_cast<int>(random.integer(low, high)) - 3);
 }
 
-// A start at whole 2^-40 along the line behind the origin, so that it is exact.
-double behind(Random& random) {
-  return std::ldexp(static_cast<double>(random.integer(1l << 38, 1l << 39)), -40);
+// A start at whole 2^-40 (in binary32 2^-20) along the line behind the origin, so that it is exact.
+double behind(Random& random, NumberFormat precision) {
+  const int grid = precision == NumberFormat::binary64 ? 40 : 20;
+  return std::ldexp(static_cast<double>(random.integer(1l << (grid - 2), 1l << (grid - 1))), -grid);
 }
 
 // Atoms mirrored at the line of flight, which runs along the first axis or the diagonal.
@@ -40,7 +41,7 @@ Case make_mirrored(Source& source, int dimension) {
   const double r = dyadic(drawn, -4, -3), off = r * dyadic(drawn, -3, -2) * 1.5,
                ahead = drawn.one_in(2) ? 0.25 : 0.0;
   const bool diagonal = drawn.one_in(2);
-  const double s = behind(random);
+  const double s = behind(random, source.precision);
   made.scene = unit_scene(dimension, r);
   auto& atoms = made.scene.lattices[0].atoms;
   if (diagonal && dimension == 3) {
@@ -76,10 +77,14 @@ Case make_shared_point(Source& source, int dimension) {
     atoms.push_back(ball(scaled(to_vec(one.v), std::ldexp(1, exponent)),
                          std::ldexp(static_cast<double>(one.length), exponent)));
   }
+  // x and v are to be exact: whole numbers of so many bits, and of as many in the multiple of v that x is.
+  const bool is_wide = source.precision == NumberFormat::binary64;
+  const int velocity_bits = is_wide ? 20 : 12, multiple_bits = is_wide ? 16 : 12;
   const Vec middle = sum(atoms[0].position, atoms[1].position);
   for (int i = 0; i < dimension; ++i)
-    made.query.v[i] = std::round(std::ldexp(middle[i] * random.between(0.5, 1.5), 20));
-  const double far = std::ldexp(static_cast<double>(random.integer(1, 1 << 16)), -37);
+    made.query.v[i] = std::round(std::ldexp(middle[i] * random.between(0.5, 1.5), velocity_bits));
+  const double far = std::ldexp(static_cast<double>(random.integer(1, 1 << multiple_bits)),
+                                -velocity_bits - multiple_bits - 1);
   for (int i = 0; i < dimension; ++i) made.query.x[i] = made.query.v[i] == 0 ? 0.0 : -far * made.query.v[i];
   return made;
 }
@@ -148,8 +153,9 @@ Case make_tie(Source& source) {
     made.tags.push_back("within-ulps");
     Vec& moved_one = random.one_in(2) ? made.query.x : made.query.v;
     for (int i = 0; i < dimension; ++i)
-      moved_one[i] = moved_one[i] == 0 ? std::ldexp(static_cast<double>(random.integer(-4, 4)), -54)
-                                       : moved(moved_one[i], random.integer(-4, 4));
+      moved_one[i] = moved_one[i] == 0 ? std::ldexp(static_cast<double>(random.integer(-4, 4)),
+                                                    -54 + missing_bits(source.precision))
+                                       : moved(moved_one[i], random.integer(-4, 4), source.precision);
   }
   return made;
 }
@@ -165,7 +171,8 @@ Family ties() {
        {"identical-atoms", "one obstacle written twice in the motif: the first of them is the answer"},
        {"superposed", "one lattice written twice, also in another basis and cell: the first is the answer"},
        {"overlapping-neighbours", "obstacles of two neighbouring cells, entered where they meet"},
-       {"within-ulps", "x or v a few ulps off: the tie broken by some 2^-54"}},
+       {"within-ulps", "x or v a few ulps off: the tie broken by some 2^-54",
+        "x or v a few ulps off: the tie broken by some 2^-25"}},
       make_tie};
 }
 

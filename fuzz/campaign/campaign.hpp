@@ -50,6 +50,7 @@ struct Plan {
   std::uint64_t reword =
       1;  ///< one in so many cases, with its variants, is asked in other words, too; 0: none
   Truth truth = Truth::oracle;
+  Claim claim = {};  ///< of the engine: cases consist of its numbers, and answers are judged by it
 };
 
 /// How far a target is, and what was met on the way.

@@ -39,7 +39,7 @@ class SameFailure {
       if (!is_sound(scene) || !is_sane(scene)) return false;
       examiner_.emplace(examiner_in(scene));
     }
-    if (flaw_of(query, scene)) return false;
+    if (flaw_of(query, scene) || !examiner_->place()->has_numbers_for(query)) return false;
     last_ = examiner_->examine(query, limit_);
     work_ += last_.work.value_or(0);
     speed_ = length(query.v);
@@ -59,7 +59,7 @@ class SameFailure {
 
  private:
   Examiner examiner_in(const Scene& scene) const {
-    return {answerer_, std::make_shared<Place>(scene, plan_.truth), plan_.counts.ulps};
+    return {answerer_, std::make_shared<Place>(scene, plan_.truth, plan_.claim), plan_.counts.ulps};
   }
 
   Answerer& answerer_;
@@ -103,7 +103,8 @@ struct StintRunner::Case {
 // A scene, with all that is needed to ask and to judge in it.
 struct StintRunner::SceneContext {
   SceneContext(Answerer& answerer, const Scene& scene, const Plan& plan, std::size_t number)
-      : number(number), examiner(answerer, std::make_shared<Place>(scene, plan.truth), plan.counts.ulps) {}
+      : number(number),
+        examiner(answerer, std::make_shared<Place>(scene, plan.truth, plan.claim), plan.counts.ulps) {}
   const std::size_t number;  // in the order in which they were needed
   Examiner examiner;
 
@@ -172,7 +173,7 @@ void StintRunner::pose(const Stint& stint, Questions& questions) {
   const Target& target = *plan_.targets[stint.target];
   for (std::uint64_t index = stint.begin; index < stint.end && !stop_; ++index) {
     if (index % plan_.shards != plan_.shard) continue;
-    const cases::Case base = target.make(plan_.seed, index);
+    const cases::Case base = target.make(plan_.seed, index, plan_.claim.precision);
     if (!plan_.scope.admits(base.scene)) continue;
     if (!questions.as_made || questions.as_made->examiner.scene() != base.scene)
       questions.as_made = &questions.add_context(*answerer_, base.scene, plan_);
@@ -219,7 +220,7 @@ void StintRunner::pose_in_other_words(Random& random, Questions& questions, std:
     auto& [rewording, context] = questions.other_words(plan_, *answerer_, one, number);
     if (!plan_.scope.admits(context->examiner.scene())) continue;
     auto reworded = rewording.reword(random, one.question.query);
-    if (!reworded) continue;
+    if (!reworded || !context->place()->has_numbers_for(reworded->query)) continue;
     auto carried = rewording.carried(one.question.exact, *reworded);
     Question question{.place = context->place(), .query = std::move(reworded->query)};
     question.exact = carried ? std::move(*carried) : question.place->exact(question.query);
@@ -317,7 +318,7 @@ std::optional<Finding> StintRunner::shrink(Finding finding, double seconds) {
   const Query& query = found.query;
   const LimitAt limit = limit_in(finding.words);
   const Examined examined =
-      Examiner(*answerer_, std::make_shared<Place>(scene, plan_.truth), plan_.counts.ulps)
+      Examiner(*answerer_, std::make_shared<Place>(scene, plan_.truth, plan_.claim), plan_.counts.ulps)
           .examine(query, limit);
   finding.shrinking = Shrinking::done;
   if (!answerer_->failed() && name_of(examined.kind) == finding.kind) {
@@ -331,8 +332,9 @@ std::optional<Finding> StintRunner::shrink(Finding finding, double seconds) {
       const Examined after = fails.examine(shrunk.scene, shrunk.query);
       // Else the engine answers now like this, now like that, and the finding stays as it was found.
       if (name_of(after.kind) == finding.kind)
-        take_for_shrunk(finding, shrunk.scene, shrunk.query, after,
-                        margin_of(oracle::Margins(shrunk.scene), shrunk.query, after.exact));
+        take_for_shrunk(
+            finding, shrunk.scene, shrunk.query, after,
+            margin_of(oracle::Margins(shrunk.scene, plan_.claim.precision), shrunk.query, after.exact));
     }
   }
   replace_broken_answerer();

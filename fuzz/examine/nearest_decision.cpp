@@ -148,10 +148,12 @@ std::optional<int> approach(Random& random, int dimension, const F& f, Vec& x) {
   return approach(f, x, last) ? std::optional(last) : std::nullopt;
 }
 
-// Where the exact answer changes, between neighbouring binary64 values of component k: by bisection, if an
-// answer is another one near there.
+// Where the exact answer changes, between neighbouring numbers of component k: by bisection, if an answer is
+// another one near there.
 void bisect(const Place& place, Query& query, int k) {
-  constexpr std::int64_t kFarthest = std::int64_t{1} << 40;
+  const std::int64_t farthest = std::int64_t{1}
+                                << (place.claim().precision == NumberFormat::binary64 ? 40 : 20);
+  const NumberFormat precision = place.claim().precision;
   const auto answer_at = [&](double x) {
     Query there = query;
     there.x[k] = x;
@@ -160,10 +162,10 @@ void bisect(const Place& place, Query& query, int k) {
   };
   double here = query.x[k], there = here;
   const auto answer = answer_at(here);
-  for (std::int64_t ulps = 1; there == here && ulps <= kFarthest; ulps *= -32)
-    if (const double x = moved(here, ulps); answer_at(x) != answer) there = x;
+  for (std::int64_t ulps = 1; there == here && ulps <= farthest; ulps *= -32)
+    if (const double x = moved(here, ulps, precision); answer_at(x) != answer) there = x;
   if (there == here) return;
-  for (double x = middle(here, there); x != here && x != there; x = middle(here, there))
+  for (double x = middle(here, there, precision); x != here && x != there; x = middle(here, there, precision))
     (answer_at(x) == answer ? here : there) = x;
   query.x[k] = here;
 }
@@ -215,6 +217,7 @@ std::optional<Query> query_near_decision(Random& random, const Place& place, con
   };
   Query near = query;
   const auto last = approach(random, scene.dimension, off, near.x);
+  near.x = rounded(near, place.claim().precision).x;
   if (!last || flaw_of(near, scene)) return std::nullopt;
   if (random.one_in(4)) bisect(place, near, *last);
   return near;

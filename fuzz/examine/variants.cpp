@@ -14,12 +14,16 @@ using namespace cases;
 
 namespace {
 
-double with_bit_flipped(Random& random, double x) {
+// A bit of the fraction.
+double with_bit_flipped(Random& random, double x, NumberFormat precision) {
+  if (precision == NumberFormat::binary32)
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(static_cast<float>(x)) ^
+                                (std::uint32_t{1} << random.below(23)));
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ (std::uint64_t{1} << random.below(52)));
 }
 
 // One move; the result may be an invalid query.
-Query one_move(Random& random, const Scene& scene, Query query) {
+Query one_move(Random& random, const Scene& scene, Query query, NumberFormat precision) {
   const auto dimension = static_cast<std::uint64_t>(scene.dimension);
   Vec& a = random.one_in(2) ? query.x : query.v;
   const std::uint64_t i = random.below(dimension), k = random.below(dimension);
@@ -28,12 +32,12 @@ Query one_move(Random& random, const Scene& scene, Query query) {
     case 1:
     case 2:
     case 3:
-      a[i] = moved(a[i], drawn_ulps(random));
+      a[i] = moved(a[i], drawn_ulps(random), precision);
       break;
     case 4:
     case 5:
     case 6:
-      a[i] = with_bit_flipped(random, a[i]);
+      a[i] = with_bit_flipped(random, a[i], precision);
       break;
     case 7:
       std::swap(a[i], a[k]);
@@ -51,15 +55,15 @@ Query one_move(Random& random, const Scene& scene, Query query) {
     default:
       query.x = sum(query.x, scaled(query.v, std::ldexp(1, -static_cast<int>(random.integer(0, 40)))));
   }
-  return query;
+  return rounded(query, precision);
 }
 
 }  // namespace
 
-Query moved_query(Random& random, const Scene& scene, const Query& query) {
+Query moved_query(Random& random, const Scene& scene, const Query& query, NumberFormat precision) {
   constexpr int kTries = 8;
   for (int tries = 0; tries < kTries; ++tries) {
-    Query candidate = one_move(random, scene, query);
+    Query candidate = one_move(random, scene, query, precision);
     if (!flaw_of(candidate, scene)) return candidate;
   }
   return query;
@@ -69,7 +73,8 @@ double Variant::margin() const {
   return hardest ? hardest->margin : std::numeric_limits<double>::infinity();
 }
 
-std::optional<Query> along_semiaxis(Random& random, const Scene& scene, const Variant& here) {
+std::optional<Query> along_semiaxis(Random& random, const Place& place, const Variant& here) {
+  const Scene& scene = place.scene();
   const Answer& exact = here.exact;
   if (exact.outcome != Outcome::hit) return std::nullopt;
   const Lattice& lattice = scene.lattices[exact.obstacle.lattice];
@@ -83,6 +88,7 @@ std::optional<Query> along_semiaxis(Random& random, const Scene& scene, const Va
     query.x = sum(atom.position, scaled(axis, -random.between(1.1, 3)));
     query.from.reset();
   }
+  query = rounded(query, place.claim().precision);
   if (flaw_of(query, scene)) return std::nullopt;
   return query;
 }
@@ -96,7 +102,7 @@ Query next_query(Random& random, const Place& place, const Variant& here, int mo
     query.from = exact.obstacle;  // what comes next?
     return query;
   }
-  return moved_query(random, place.scene(), query);
+  return moved_query(random, place.scene(), query, place.claim().precision);
 }
 
 Variant seen(const Place& place, const Query& query) {
@@ -108,8 +114,7 @@ Variant seen(const Place& place, const Query& query) {
 std::vector<Variant> climb(Random random, const Query& base, const Place& place) {
   std::vector<Variant> tried;
   Variant best = seen(place, base);
-  if (const auto along = along_semiaxis(random, place.scene(), best))
-    tried.push_back(best = seen(place, *along));
+  if (const auto along = along_semiaxis(random, place, best)) tried.push_back(best = seen(place, *along));
   for (int round = 0; round < kRounds; ++round) {
     const Variant here = best;
     for (int move = 0; move < kMovesPerRound; ++move) {

@@ -13,8 +13,10 @@ namespace lorentz::fuzz {
 using question::Place;
 
 /// A query changed by one small move: a component by ulps or by one bit, components exchanged or copied, a
-/// sign, a zero, the velocity in another length, the start one lattice vector or a part of the flight on.
-Query moved_query(cases::Random& random, const Scene& scene, const Query& query);
+/// sign, a zero, the velocity in another length, the start one lattice vector or a part of the flight on. It
+/// consists of numbers of the precision.
+Query moved_query(cases::Random& random, const Scene& scene, const Query& query,
+                  NumberFormat precision = NumberFormat::binary64);
 
 struct Variant {
   Query query;
@@ -31,7 +33,7 @@ Variant seen(const Place& place, const Query& query);
 /// Where an ellipsoid is hit, in every second case: the flight nearly along one of its semiaxes, or such a
 /// flight beside it. In the metric in which it is a ball the terms of such a velocity nearly cancel. No
 /// margin would lead a climb there, so it is where the climb begins.
-std::optional<Query> along_semiaxis(cases::Random& random, const Scene& scene, const Variant& here);
+std::optional<Query> along_semiaxis(cases::Random& random, const Place& place, const Variant& here);
 
 /// What is tried as move number `move` of a round: first a start near a decision (nearest_decision.hpp),
 /// then small moves, or the obstacle that was the answer taken out of the question.
@@ -43,7 +45,8 @@ inline constexpr int kRounds = 6, kMovesPerRound = 4;
 /// In each round a start near a decision and some moves of the best query so far are tried; the one with the
 /// smallest margin is the next to be moved. Returns all that was tried, in order. Costs kRounds *
 /// kMovesPerRound exact answers and narrow searches for a margin, and some hundred answers where a decision
-/// is bisected: about 2 ms in 2D and 10 ms in 3D. Ends early at a margin of 0.
+/// is bisected: about 2 ms in 2D and 10 ms in 3D. Ends early at a margin of 0. All consist of numbers of the
+/// place's precision, as the base must.
 std::vector<Variant> climb(cases::Random random, const Query& base, const Place& place);
 
 }  // namespace lorentz::fuzz

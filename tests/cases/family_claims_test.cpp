@@ -10,6 +10,7 @@
 #include <lorentz/continued_fraction.hpp>
 #include <lorentz/engine.hpp>
 #include <lorentz/geometry.hpp>
+#include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
 #include "cases/families/target.hpp"
 #include "tests/support/scenes.hpp"
@@ -42,10 +43,12 @@ bool only(const Case& one, const char* tag) {
   return one.tags.size() == 1 && has(one, tag);
 }
 
-void each(const char* family, std::uint64_t count, const std::function<void(const Case&)>& check) {
+void each(const char* family, std::uint64_t count, const std::function<void(const Case&)>& check,
+          NumberFormat precision = NumberFormat::binary64) {
   for (std::uint64_t index = 0; index < count; ++index) {
     const cases::Family* known = cases::family_named(family);  // else a target's own
-    const Case one = known ? known->make(kSeed, index) : cases::target_named(family)->make(kSeed, index);
+    const Case one = known ? known->make(kSeed, index, precision)
+                           : cases::target_named(family)->make(kSeed, index, precision);
     INFO(family << " " << index << " " << one.tags.front() << "\n" << stream(one.scene, one.query));
     check(one);
   }
@@ -624,4 +627,86 @@ TEST_CASE("Obstacles of mixtures and ellipsoids' edges: how many, how large, and
   });
   for (int dimension : {2, 3})
     for (int i = 0; i < 3; ++i) CHECK((off[dimension - 2][i] > 50) == (i < dimension));
+}
+
+// The constructions of binary64 in 24 bits: what is exact there is exact here.
+TEST_CASE("In binary32 exact tangents, surfaces, edges and ties are exact", "[cases][family_claims]") {
+  const NumberFormat precision = NumberFormat::binary32;
+  int tangent = 0, surface = 0, edge = 0, planar = 0, tie = 0;
+  each(
+      "grazing", 2000,
+      [&](const Case& one) {
+        if (!only(one, "exact-tangent")) return;
+        ++tangent;
+        REQUIRE(off_tangent(one, {}) == 0);
+      },
+      precision);
+  each(
+      "boundary-starts", 2000,
+      [&](const Case& one) {
+        if (!has(one, "on-surface")) return;
+        ++surface;
+        QVec d = exact(one.query.x);
+        for (int i = 0; i < 3; ++i) d[i] -= Q(std::round(one.query.x[i]));
+        REQUIRE(square(d) == Q(radius_of(one)) * Q(radius_of(one)));
+      },
+      precision);
+  each(
+      "corridor-edge", 2000,
+      [&](const Case& one) {
+        if (!has(one, "along") || !has(one, "on-edge")) return;
+        ++edge;
+        REQUIRE(answer_to(one).outcome == Outcome::never);
+        if (!has(one, "planar-channel")) return;
+        ++planar;
+        REQUIRE(on_edge_of_plane(one));
+      },
+      precision);
+  each(
+      "ties", 2000,
+      [&](const Case& one) {
+        if (has(one, "within-ulps")) return;
+        const Answer answer = answer_to(one);
+        if (answer.outcome != Outcome::hit) return;
+        const auto hardest = oracle::Margins(one.scene, precision).hardest_decision(one.query, answer);
+        REQUIRE(hardest);
+        REQUIRE(hardest->margin == 0);
+        ++tie;
+      },
+      precision);
+  INFO(tangent << " tangents, " << surface << " on surfaces, " << edge << " on edges, " << planar
+               << " of them of planes, " << tie << " ties");
+  CHECK(tangent > 200);
+  CHECK(surface > 200);
+  CHECK(edge > 100);
+  CHECK(planar > 20);
+  CHECK(tie > 500);
+}
+
+TEST_CASE("In binary32 near-rational directions are near by its ulps, and not by those of 53 bits",
+          "[cases][family_claims]") {
+  // v / (a b) of an integer vector in the square lattice: how far each component is from small integers times
+  // another, in ulps of 24 bits.
+  int near = 0, exact_ones = 0;
+  each(
+      "near-rational", 4000,
+      [&](const Case& one) {
+        const auto& u = one.scene.lattices[0].vectors;
+        if (one.scene.dimension != 2 || u[0] != Vec{1, 0, 0} || u[1] != Vec{0, 1, 0}) return;
+        if (!has(one, "ulps-off-rational")) return;
+        const Vec& v = one.query.v;
+        ++near;
+        int off = 0;
+        for (int i = 0; i < 2; ++i) {
+          const double whole = std::round(v[i]);
+          REQUIRE(std::fabs(v[i] - whole) <= 3 * ulp(whole, NumberFormat::binary32));
+          off += v[i] != whole;
+          if (v[i] != whole) REQUIRE(std::fabs(v[i] - whole) > 1e6 * ulp(whole, NumberFormat::binary64));
+        }
+        exact_ones += off == 0;
+      },
+      NumberFormat::binary32);
+  INFO(near << " near, of which " << exact_ones << " are rational");
+  CHECK(near > 100);
+  CHECK(exact_ones < near / 4);
 }

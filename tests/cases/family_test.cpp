@@ -16,6 +16,7 @@
 #include <lorentz/scene_check.hpp>
 #include "cases/bad_queries.hpp"
 #include "cases/families/target.hpp"
+#include "cases/free_start.hpp"
 #include "cases/integer_vectors.hpp"
 #include "cases/ulps.hpp"
 #include "tests/support/support.hpp"
@@ -24,6 +25,7 @@ using namespace lorentz;
 using namespace lorentz::test;
 using cases::Case;
 using cases::Family;
+using cases::Source;
 
 namespace {
 
@@ -85,6 +87,14 @@ TEST_CASE("Binary64 values by their order: both zeros are one, and the largest i
   CHECK(cases::moved(-1, 1) == std::nextafter(-1, 0));
   CHECK(cases::moved(kLargest, 1) == kLargest);
   CHECK(cases::moved(-kLargest, -1) == -kLargest);
+  const NumberFormat binary32 = NumberFormat::binary32;
+  CHECK(cases::moved(0.0, -3, binary32) == -3 * 0x1p-149);
+  CHECK(cases::moved(0x1p-149, -2, binary32) == -0x1p-149);
+  CHECK(cases::moved(1, 1, binary32) == 1 + 0x1p-23);
+  CHECK(cases::moved(1 + 0x1p-40, -1, binary32) == 1 - 0x1p-24);  // rounded first
+  CHECK(cases::moved(0x1.fffffep127, 1, binary32) == 0x1.fffffep127);
+  CHECK(cases::middle(-4 * 0x1p-149, 0, binary32) == -2 * 0x1p-149);
+  CHECK(cases::middle(-1, 1, binary32) == 0);
   CHECK(cases::middle(-1, 1) == 0);
 }
 
@@ -136,21 +146,22 @@ TEST_CASE("A case depends on seed, family and index: not on the order, the threa
 
 TEST_CASE("Cases are without flaws, their tags explained, and every explained tag occurs",
           "[cases][family]") {
-  INFO("seed 4");
+  const auto precision = GENERATE(NumberFormat::binary64, NumberFormat::binary32);
+  INFO("seed 4, " << name_of(precision));
   std::set<std::string_view> names;
   for (const Family& family : cases::families()) {
     INFO(family.name());
     CHECK(names.insert(family.name()).second);
     CHECK(cases::family_named(family.name()) == &family);
-    CHECK_FALSE(family.description().empty());
+    CHECK_FALSE(family.description(precision).empty());
     std::map<std::string_view, long> met;
-    for (const cases::Tag& tag : family.tags()) {
+    for (const cases::Tag& tag : family.tags(precision)) {
       CHECK(met.emplace(tag.name, 0).second);
       CHECK(tag.note.size() > 10);  // 17 seen at least
     }
     std::string last;
     for (std::uint64_t index = 0; index < kCount; ++index) {
-      const Case one = family.make(kSeed, index);
+      const Case one = family.make(kSeed, index, precision);
       INFO("index " << index << " " << text_of(one));
       const std::string scene = scene_line(one.scene);
       if (scene != last) {
@@ -159,6 +170,8 @@ TEST_CASE("Cases are without flaws, their tags explained, and every explained ta
         last = scene;
       }
       REQUIRE_FALSE(flaw_of(one.query, one.scene));
+      REQUIRE(consists_of(one.scene, precision));
+      REQUIRE(consists_of(one.query, precision));
       if (one.scene.dimension == 2) REQUIRE((one.query.x[2] == 0 && one.query.v[2] == 0));
       for (const std::string& tag : one.tags)  // "tiny-2d"
         if (tag.ends_with("-2d") || tag.ends_with("-3d"))
@@ -179,16 +192,61 @@ TEST_CASE("Cases are without flaws, their tags explained, and every explained ta
   CHECK(cases::family_named("no such family") == nullptr);
 }
 
-TEST_CASE("Cases share a scene in rows of 32, and no query comes twice", "[cases][family]") {
+// Also of the families of campaigns, which are not among families().
+TEST_CASE("In binary32 every target's cases are sound, of such numbers, and the same in any order",
+          "[cases][family]") {
   INFO("seed 4");
+  constexpr std::uint64_t kFew = 320;
+  const NumberFormat precision = NumberFormat::binary32;
+  std::vector<std::string> first;
+  for (const cases::Target& target : cases::targets())
+    for (std::uint64_t index = 0; index < kFew; ++index) {
+      const Case one = target.make(kSeed, index, precision);
+      INFO(target.name() << " " << index << " " << text_of(one));
+      REQUIRE(consists_of(one.scene, precision));
+      REQUIRE(consists_of(one.query, precision));
+      REQUIRE_FALSE(flaw_of(one.scene));
+      REQUIRE_FALSE(oracle::dependence_in(one.scene));
+      REQUIRE_FALSE(flaw_of(one.query, one.scene));
+      first.push_back(text_of(one));
+    }
+  for (std::size_t target = cases::targets().size(); target-- > 0;)
+    for (std::uint64_t index = kFew; index-- > 0;)
+      REQUIRE(text_of(cases::targets()[target].make(kSeed, index, precision)) ==
+              first[target * kFew + index]);
+}
+
+TEST_CASE("In binary32 a start that rounding puts into an obstacle is drawn again", "[cases][family]") {
+  INFO("seed 4");
+  // Starts 10^-9 radii outside a disc: rounded, about half of them are inside.
+  const Family skin("skin-of-a-disc", "a test's", {{"skin", "outside by 10^-9 radii"}}, [](Source& source) {
+    const double r = 0.25;
+    const Vec n = source.random.direction(2);
+    return Case{unit_scene(2, r), {{n[0] * r * (1 + 1e-9), n[1] * r * (1 + 1e-9), 0}, n, {}}, {"skin"}};
+  });
+  const NumberFormat precision = NumberFormat::binary32;
+  long rounded_in = 0;
+  for (std::uint64_t index = 0; index < 1000; ++index) {
+    const Case wide = skin.make(kSeed, index), narrow = skin.make(kSeed, index, precision);
+    REQUIRE_FALSE(cases::starts_inside(wide.scene, wide.query));
+    rounded_in += cases::starts_inside(rounded(wide.scene, precision), rounded(wide.query, precision));
+    INFO(index << " " << text_of(narrow));
+    REQUIRE_FALSE(cases::starts_inside(narrow.scene, narrow.query));
+  }
+  CHECK(rounded_in > 300);
+}
+
+TEST_CASE("Cases share a scene in rows of 32, and no query comes twice", "[cases][family]") {
+  const auto precision = GENERATE(NumberFormat::binary64, NumberFormat::binary32);
+  INFO("seed 4, " << name_of(precision));
   for (const Family& family : cases::families()) {
     INFO(family.name());
     std::set<std::string> scenes, cases;
     for (std::uint64_t index = 0; index < kCount; ++index) {
-      const Case one = family.make(kSeed, index);
+      const Case one = family.make(kSeed, index, precision);
       if (family.name() == "published-faults" && index < cases::kCasesPerScene) continue;
       if (index % cases::kCasesPerScene == 0) {
-        const Case last = family.make(kSeed, index + cases::kCasesPerScene - 1);
+        const Case last = family.make(kSeed, index + cases::kCasesPerScene - 1, precision);
         CHECK(scene_line(one.scene) == scene_line(last.scene));
         scenes.insert(scene_line(one.scene));
       }

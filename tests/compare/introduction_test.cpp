@@ -41,13 +41,14 @@ TEST_CASE("An introduction is read, whatever is left out", "[compare][introducti
   REQUIRE(whole);
   CHECK(whole->name == "Ball");
   CHECK(whole->version == "1.2");
-  CHECK(whole->claim == Claim{NumberFormat::binary32, 1e-4});
+  CHECK(whole->precision == NumberFormat::binary32);
+  CHECK(whole->time_tolerance == 1e-4);
   CHECK(whole->dimensions == std::vector{2, 3});
   const auto empty = introduction_in(R"( { "engine" : {"time_tolerance":null}} )");
   REQUIRE(empty);
-  CHECK(empty->claim == Claim());
+  CHECK_FALSE((empty->precision || empty->time_tolerance));
   CHECK(empty->dimensions.empty());
-  CHECK(introduction_in(R"({"engine":{"time_tolerance":"inf"}})")->claim.time_tolerance ==
+  CHECK(introduction_in(R"({"engine":{"time_tolerance":"inf"}})")->time_tolerance ==
         std::numeric_limits<double>::infinity());
   for (const char* other : {"", "hello", "{}", R"({"id":1,"outcome":"never"})", R"({"engines":{}})"})
     CHECK_FALSE(introduction_in(other));

@@ -598,7 +598,7 @@ TEST_CASE("A climb is repeatable and comes to smaller margins, its variants are 
     // Each round goes on from the best before it.
     cases::Random random(1, "climb", index);
     fuzz::Variant best = fuzz::seen(place, base.query);
-    REQUIRE_FALSE(fuzz::along_semiaxis(random, base.scene, best));  // it is balls
+    REQUIRE_FALSE(fuzz::along_semiaxis(random, place, best));  // it is balls
     improved += least < best.margin();
     at_the_edge += least < 4;
     for (std::size_t i = 0; i < variants.size();) {

@@ -530,3 +530,41 @@ TEST_CASE("Bad options are refused before any work, with what would do", "[fuzz]
   folder.lorentz("fuzz -t grazing --count 1 --store " + folder.file("store"));
   refused("show 1/grazing/5 --store " + folder.file("store"), "no finding is called \"1/grazing/5\"");
 }
+
+// An engine whose numbers are all binary32, at its door and in its times; else it is exact.
+TEST_CASE("fuzz: an engine in float is right in binary32, and a store keeps to one claim", "[fuzz]") {
+  const Folder folder;
+  const std::string script = folder.write(
+      "single.py",
+      "import json, math, struct, subprocess, sys\n"
+      "def single(a):\n"
+      "    if isinstance(a, list): return [single(one) for one in a]\n"
+      "    if isinstance(a, dict): return {key: single(one) for key, one in a.items()}\n"
+      "    if not isinstance(a, float): return a\n"
+      "    try: return struct.unpack('f', struct.pack('f', a))[0]\n"
+      "    except OverflowError: return math.copysign(3.4028234663852886e38, a)\n"
+      "pipe = subprocess.PIPE\n"
+      "child = subprocess.Popen([sys.argv[1], 'first-hit', '--engine', 'oracle'], stdin=pipe, stdout=pipe, "
+      "text=True)\n"
+      "for line in sys.stdin:\n"
+      "    asked = single(json.loads(line))\n"
+      "    child.stdin.write(json.dumps(asked) + '\\n')\n"
+      "    child.stdin.flush()\n"
+      "    if 'scene' in asked: continue\n"
+      "    print(json.dumps(single(json.loads(child.stdout.readline()))), flush=True)\n");
+  const std::string fuzz = "fuzz --engine 'cmd:" LORENTZ_PYTHON " " + script +
+                           " " LORENTZ_PROGRAM
+                           "' --target grazing --count 12 --mutate 6 --reword 0 --keep 1 --json --store ";
+  const std::string narrow = folder.file("narrow");
+  const Run right = folder.lorentz(fuzz + narrow + " --precision binary32 --times");
+  INFO(right.out << right.err);
+  CHECK(right.status == 0);
+  CHECK(contains(right.out, "\"precision\":\"binary32\",\"time_tolerance\":null"));
+  const Run other = folder.lorentz(fuzz + narrow + " --times");
+  CHECK(other.status == 2);
+  CHECK(contains(other.err,
+                 "its campaign 1 is judged in binary32, times by ulps; go on with --precision binary32"));
+  const std::string exported = folder.lorentz("fuzz export --store " + narrow).out;
+  CHECK(contains(exported, "\"precision\":\"binary32\""));
+  CHECK(folder.lorentz(fuzz + folder.file("wide") + " --first").status == 1);
+}

@@ -201,6 +201,63 @@ TEST_CASE("golden check says by how much an answer departs, and what all sets co
   CHECK(told == static_cast<std::size_t>(wrong));
 }
 
+// An engine that computes exactly and rounds its times to binary32.
+TEST_CASE("golden check: a set in binary32 is judged in binary32, unless told otherwise",
+          "[golden][golden_check]") {
+  const Folder folder;
+  const std::string single =
+      engine(folder,
+             "if 'time' in a: import struct; a['time'] = struct.unpack('f', struct.pack('f', a['time']))[0]");
+  const std::string check = "golden check --times --first 60 -e " + single + " ";
+  const Run own = folder.lorentz(check + "generic-3d-binary32 --json");
+  INFO(own.out << own.err);
+  CHECK(own.status == 0);
+  CHECK(contains(own.out, "\"records\":60,\"agree\":60,\"ill_posed\":0,\"wrong\":0,\"wrong_time\":0,"));
+  CHECK(contains(own.out, "\"precision\":\"binary32\",\"time_tolerance\":null"));
+  const Run told = folder.lorentz(check + "generic-3d-binary32 --precision binary64");
+  INFO(told.out << told.err);
+  CHECK(told.status == 1);
+  CHECK(contains(told.out, "a wrong time of the right obstacle"));
+  CHECK(contains(told.out, " --precision binary64 --id "));
+  // Not the record's, which are of 24 bits: all of these are 2^20 ulps of 53 bits at least.
+  CHECK(contains(told.out, "margin of the case: 1.049e+06 ulps; "));
+  const Run both = folder.lorentz(check + "generic-3d-binary32 generic-3d --json");
+  CHECK(both.status == 1);
+  CHECK(contains(both.out, "\"precision\":null,\"time_tolerance\":null"));
+  // Another name does not hide what a set is of.
+  std::string text;
+  {
+    std::ifstream in(kCommitted + "generic-3d-binary32.ndjson");
+    text.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  folder.write("mine.ndjson", replaced(text, "generic-3d-binary32", "mine"));
+  CHECK(contains(folder.lorentz("golden check -e oracle " + folder.file("mine.ndjson")).out,
+                 "mine, in binary32"));
+  CHECK(contains(folder.lorentz("golden explain " + first_id("generic-3d-binary32", "\"hit\"")).out,
+                 "An ulp here is one of binary32, of 24 bits."));
+}
+
+TEST_CASE("golden verify: numbers that the set's precision does not have, and margins of another",
+          "[golden][golden_check]") {
+  const Folder folder;
+  const std::string header = R"("count":)";
+  beginning_of_set(folder, "generic-2d", 30);
+  const std::string wide = folder.read("generic-2d.ndjson");
+  const Run run =
+      folder.lorentz("golden verify " +
+                     folder.write("w.ndjson", replaced(wide, header, R"("precision":"binary32",)" + header)));
+  INFO(run.out << run.err);
+  CHECK(run.status == 1);
+  CHECK(contains(run.err, "its numbers are not of binary32"));
+  beginning_of_set(folder, "near-rational-binary32", 30);
+  const std::string narrow = folder.read("near-rational-binary32.ndjson");
+  const Run other = folder.lorentz(
+      "golden verify " + folder.write("n.ndjson", replaced(narrow, R"("precision":"binary32",)", "")));
+  INFO(other.out << other.err);
+  CHECK(other.status == 1);
+  CHECK(contains(other.err, "its margin is another one"));
+}
+
 TEST_CASE("golden: a folder stands for its sets, the beginning of an id for the id",
           "[golden][golden_check]") {
   const Folder folder;

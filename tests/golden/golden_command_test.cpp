@@ -87,6 +87,15 @@ TEST_CASE("golden make: the committed sets are what it makes", "[golden][golden_
   CHECK(folder.lorentz("golden make --set ties --jobs 2 -o " + folder.file("ties")).status == 0);
   CHECK((folder.read("ties") == committed(folder, "ties")));
   CHECK((folder.lorentz("golden make --set bad-queries").out == committed(folder, "bad-queries")));
+  for (const golden::Set& set : golden::sets()) {
+    if (set.precision == NumberFormat::binary64 || !set.is_committed) continue;
+    INFO(set.name);
+    // By the command in its header, whatever the number of threads.
+    const std::string text = committed(folder, set.name);
+    const std::string command = between(text, "\"generator\":\"lorentz ", "\"");
+    CHECK(contains(command, "--precision binary32"));
+    CHECK((folder.lorentz(command + " --jobs 2").out == text));
+  }
   CHECK(contains(folder.lorentz("golden make --set bad-queries --count 1000").err, "there are 115 records"));
 }
 
@@ -144,6 +153,10 @@ TEST_CASE("golden make: bad usage, and folders that cannot be written", "[golden
     refused(std::string("--set ties --seed ") + seed, "--seed");
   for (const char* jobs : {"0", "-1", "5000"}) refused(std::string("--set ties --jobs ") + jobs, "--jobs");
   refused("--set ties --all " + folder.file("all"), "--all");
+  refused("--precision binary32 --all " + folder.file("all"), "--all");
+  refused("--set bad-queries --precision binary32", "the set bad-queries is of binary64 only");
+  refused("--set ties-binary32 --precision binary64", "the set ties-binary32 is of binary32 only");
+  refused("--set ties --precision binary16", "--precision");
   CHECK_FALSE(fs::exists(folder.file("all")));
   for (const char* place : {"/no/such/folder/set", "/proc/set"}) {
     const Run run = folder.lorentz(std::string("golden make --set ties --count 32 -o ") + place);
@@ -162,8 +175,11 @@ TEST_CASE("golden list: every set with its records, also as JSON", "[golden][gol
   CHECK(json.status == 0);
   for (const golden::Set& set : golden::sets()) {
     CHECK(contains(table.out, set.name + " "));
-    CHECK(contains(json.out, "{\"name\":\"" + set.name +
-                                 "\",\"committed\":" + (set.name == "bad-queries" ? "115," : "640,")));
+    CHECK(contains(json.out, "{\"name\":\"" + set.name + "\",\"committed\":" +
+                                 (set.name == "bad-queries"                 ? "115,"
+                                  : set.precision == NumberFormat::binary64 ? "640,"
+                                  : set.is_committed                        ? "200,"
+                                                                            : "0,")));
   }
   CHECK(json.out.starts_with("{\"sets\":["));
   CHECK(json.out.ends_with("]}\n"));

@@ -112,7 +112,8 @@ ACCEPTED = {
                       ('"margin"', '"m\\u0061rgin"'), ('"expect":{', '"expect":{"other":[],'),
                       ('"v":', '"note":"\\ud83d\\ude00","v":'), ('"windows":', '"rows":[],"windows":')) +
             [golden("hit", '"scene":{', '"scene":{"more":1,', "scene"),
-             golden("hit", '{"golden"', '{"more":1,"golden"', "header")],
+             golden("hit", '{"golden"', '{"more":1,"golden"', "header"),
+             golden("hit", '"count":1', '"count":1,"precision":"binary64"', "header")],
     "escapes": [golden("hit", '"margin"', '"more":{"%s":1,"%s":2},"margin"' % pair) for pair in NEAR] +
                [golden("hit", '"margin"', '"more":"%s","margin"' % "".join(map(chr, UTF_8)))],
     "nested": in_record("hit", ('"margin"', '"deep":' + "[" * DEEP + "]" * DEEP + ',"margin"')),
@@ -183,7 +184,9 @@ REFUSED = {
                       ('["radius-1e-1","crystal"]', '["new"]'), ('["radius-1e-1","crystal"]', "[1]")) +
             [golden("hit", '"tags":{"crystal":"what it means"', '"tags":{"crystal":3', "header"),
              golden("hit", '"name":"n"', '"name":3', "header"), golden("hit", ',"count":1', "", "header"),
-             golden("hit", '"format":1,', "", "header")],
+             golden("hit", '"format":1,', "", "header")] +
+            [golden("hit", '"count":1', f'"count":1,"precision":{other}', "header")
+             for other in ('"binary16"', '"float"', '""', "32", "null", '["binary32"]')],
     "texts": in_record("hit", ('"margin"', '"bad":"\\ud83d","margin"'),
                        ('"margin"', '"bad":"\\ude00","margin"'),
                        ('"margin"', '"bad":"\\ude00\\ud83d","margin"'), ('"margin"', '"\\udc00":1,"margin"'),
