@@ -25,7 +25,8 @@ void ClaimOptions::ask(const std::vector<question::EngineInfo>& engines) {
 }
 
 Claim ClaimOptions::claim(NumberFormat otherwise) const {
-  Claim claim{precision ? number_format_named(*precision) : said_precision_.value_or(otherwise), said_tolerance_};
+  Claim claim{precision ? number_format_named(*precision) : said_precision_.value_or(otherwise),
+              said_tolerance_};
   if (!time_tolerance) return claim;
   constexpr double kNotJudged = std::numeric_limits<double>::infinity();
   claim.time_tolerance = *time_tolerance == "inf" || *time_tolerance == "Inf"

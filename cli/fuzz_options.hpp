@@ -30,7 +30,7 @@ struct FuzzOptions {
 std::vector<Option> rows_of(FuzzOptions& options);
 
 /// What the options say. Each throws InputError, naming the option, if they say nothing.
-fuzz::Plan plan_of(const FuzzOptions& options);
+fuzz::Plan plan_of(FuzzOptions options);
 fuzz::Bounds bounds_of(const FuzzOptions& options);
 fuzz::CampaignManifest manifest_of(const fuzz::Plan& plan, const std::string& engine);
 

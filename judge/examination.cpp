@@ -127,7 +127,7 @@ void Examination::take_over(const Examination& other) {
   if (rows_.back().last_failure.empty()) rows_.back().last_failure = other.rows_.back().last_failure;
   if (its.queries > 0) its.speed.ns_per_query = ns / static_cast<double>(its.queries);
   findings_.add(other.findings_);
-  calls_.add(other.calls_);
+  for (std::size_t i = 0; i < curves_.size(); ++i) curves_[i].add(other.curves_[i]);
   failed_ |= other.failed();
 }
 
@@ -170,14 +170,16 @@ void Examination::take(const Question& question, const Reply& reply, ExaminedRow
     row.tally.count(judgement);
   question.place->note(judgement.verdict == Verdict::unsupported);
   if (diagnosis) findings_.add({question, reply.answer, judgement, *diagnosis, last_words_}, row.name);
-  if (const auto off = radii_off(question, reply.answer); judgement.ulps && off)
-    row.max_radii = std::max(row.max_radii.value_or(0), *off);
+  const auto off = judgement.ulps ? radii_off(question, reply.answer) : std::nullopt;
+  if (off) row.max_radii = std::max(row.max_radii.value_or(0), *off);
   if (!question.is_query() || row.tally.queries > kCompared) return;
   const Features features = features_of(
       question, names_obstacle(question.exact) ? std::optional(question.exact.obstacle) : std::nullopt);
   if (!diagnosis && judgement.verdict == Verdict::agree) findings_.add_right(features);
   const bool is_about_another = diagnosis && !judgement.wrong_time && diagnosis->by_radii;
-  calls_.add(is_about_another ? diagnosis->by_radii : features.depth, judgement.verdict);
+  const double call = is_about_another ? *diagnosis->by_radii : features.depth;
+  const double sizes[kMeasures] = {call, features.distance, features.flight, features.start, features.radius};
+  for (std::size_t i = 0; i < curves_.size(); ++i) curves_[i].add(sizes[i], judgement.verdict, off);
 }
 
 std::vector<Finding> Examination::findings() const {

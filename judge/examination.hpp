@@ -91,12 +91,14 @@ class Examination {
   /// As Findings::all; what was unsupported was not asked.
   std::vector<Finding> findings() const;
   /// Of the first questions of each row, so many that rows weigh alike.
-  const Calls& calls() const { return calls_; }
+  const Curves& curves() const { return curves_; }
 
   /// Another program broke, or did what it should not, at least once.
   bool failed() const { return failed_ || answerer_->failed(); }
   bool is_over() const { return is_enough(); }
   void finish() { answerer_->finish(); }
+  /// Once it has finished.
+  std::optional<question::OwnTime> own_time() const { return answerer_->own_time(); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -123,7 +125,7 @@ class Examination {
   std::string last_fault_, last_words_;  // last_words_: while the last questions were asked
   std::vector<ExaminedRow> rows_;
   Findings findings_;
-  Calls calls_;
+  Curves curves_;
 };
 
 }  // namespace lorentz::judge

@@ -310,6 +310,16 @@ void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& r
              t.speed.ns_per_query > 0 ? json::finite(t.speed.ns_per_query) : std::nullopt);
 }
 
+constexpr Measure kOtherMeasures[] = {Measure::distance, Measure::flight, Measure::start, Measure::radius};
+
+auto decades_of(const Calls& calls) {
+  return json::objects(calls.by_decade(), [](json::Members& one, const auto& decade) {
+    const auto& [exponent, call] = decade;
+    one.add("decade", exponent, "right", call.right, "ill_posed", call.ill_posed, "wrong", call.wrong,
+            "undecided", call.undecided, "radii_off", call.radii_off);
+  });
+}
+
 }  // namespace
 
 std::string JudgeReport::text() const {
@@ -333,8 +343,8 @@ std::string JudgeReport::text() const {
 
 std::string JudgeReport::json() const {
   const question::Tally t = total();
-  std::vector<report::FreePathCurve> curves;
-  for (const FlownScene& scene : flown) curves.push_back(scene.curve(engine.name));
+  std::vector<report::FreePathCurve> paths;
+  for (const FlownScene& scene : flown) paths.push_back(scene.curve(engine.name));
   return json::line_of([&](json::Members& page) {
     page.add("format", 1, "kind", "judge", "title", engine.name + ", judged", "manifest",
              report::manifest_of(seed, command), "engine", engine.name, "verdict", verdict(), "line", line());
@@ -349,19 +359,20 @@ std::string JudgeReport::json() const {
              "error", t.error, "missing", t.missing, "nonsense", nonsense(), "ns_per_query",
              json::finite(ns_per_query), "ns_of_reduction", json::finite(ns_of_reduction),
              "processor_ns_per_query", json::finite(processor_ns), "processor_ns_of_reduction",
-             json::finite(processor_ns_of_reduction), "start_up_seconds", json::finite(start_up));
+             json::finite(processor_ns_of_reduction), "engine_ns", json::finite(own_ns), "start_up_seconds",
+             json::finite(start_up));
     page.add("difficulties", json::objects(rows, [&](json::Members& one, const ExaminedRow& row) {
                add_row(one, row, *this);
              }));
     page.add("findings", json::objects(findings, [&](json::Members& one, const Finding& finding) {
                add_finding(one, finding, *this);
              }));
-    page.add("calls", json::objects(calls.by_decade(), [](json::Members& one, const auto& decade) {
-               const auto& [exponent, call] = decade;
-               one.add("decade", exponent, "right", call.right, "ill_posed", call.ill_posed, "wrong",
-                       call.wrong, "undecided", call.undecided);
+    page.add("calls", decades_of(curves[0]), "curves",
+             json::objects(kOtherMeasures, [this](json::Members& one, Measure measure) {
+               one.add("by", name_of(measure), "decades",
+                       decades_of(curves[static_cast<std::size_t>(measure)]));
              }));
-    page.add("free_paths", curves);
+    page.add("free_paths", paths);
   });
 }
 

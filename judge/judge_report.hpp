@@ -25,7 +25,9 @@ struct JudgeReport {
   std::string command;  ///< the shell line that was typed
   std::vector<ExaminedRow> rows;
   std::vector<Finding> findings;
-  Calls calls;
+  Curves curves;
+  std::optional<question::Introduction> introduction = {};
+  std::optional<double> own_ns = {};  ///< a query, of the engine's own calls, if it says that
   std::vector<FlownScene> flown;
   double timeout = 0;       ///< seconds of silence that are a failure of another program
   double start_up = 0;      ///< seconds that another program took to start

@@ -297,7 +297,7 @@ std::vector<NamedPlace> examine(Examination& examination, const Terms& terms, co
   run_campaign(examination, others, scope_of(places), report.seed, plan);
   report.rows = examination.rows();
   report.findings = examination.findings();
-  report.calls = examination.calls();
+  report.curves = examination.curves();
   if (!terms.stop) simplify(report.findings, examination, terms, plan.simplest, report.first_answer);
   return places;
 }
@@ -326,6 +326,7 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   report.engine = order.engine;
   report.command = order.command;
   report.claim = order.claim;
+  if (order.engine.introduce) report.introduction = order.engine.introduce();
   report.ulps = order.ulps;
   report.times = order.times;
   report.strict = order.strict;
@@ -343,6 +344,7 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   report.misbehaved = examination->failed();
   examination->on_progress({});
   examination->finish();
+  if (const auto time = examination->own_time()) report.own_ns = time->ns_per_query();
   report.was_stopped = stop;
   if (!stop && !report.is_broken()) race(report, places, terms, plan.speed);
   return report;

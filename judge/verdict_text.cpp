@@ -12,6 +12,7 @@
 #include "report/reason.hpp"
 #include "report/share.hpp"
 #include "src/exchange/json_writer.hpp"
+#include "src/problem/safe_text.hpp"
 
 namespace lorentz::judge {
 
@@ -159,13 +160,21 @@ std::string nonsense_text(const JudgeReport& report) {
 
 // ---- Three lines
 
+// "Ball 1.2 (cmd:./ball)", if it says its name.
+std::string name_text(const JudgeReport& report) {
+  if (!report.introduction || report.introduction->name.empty()) return report.engine.name;
+  const question::Introduction& its = *report.introduction;
+  return fmt::format("{}{}{} ({})", printable(its.name), its.version.empty() ? "" : " ",
+                     printable(its.version), report.engine.name);
+}
+
 // "published, of lorentz 0.1.0; judged in binary64, times to 4 ulps of the inputs"
 std::string what_text(const JudgeReport& report) {
   const auto& tolerance = report.claim.time_tolerance;
   const std::string times = !tolerance ? fmt::format("times to {} ulps of the inputs", report.ulps)
                             : std::isinf(*tolerance) ? "times not judged"
                                                      : fmt::format("times to {} of themselves", *tolerance);
-  return fmt::format("{}{}; judged in {}, {}", report.engine.name,
+  return fmt::format("{}{}; judged in {}, {}", name_text(report),
                      report.engine.is_own() ? ", of lorentz " + report::manifest_of(0, "").version : "",
                      name_of(report.claim.precision), times);
 }

@@ -167,7 +167,7 @@ TEST_CASE("Of each row the first 500 questions are compared, and a row without a
       none(question::engine_named("oracle"), {}, 4, stop);
   whole.run({"row", ""}, questions({2}, 510), kForEver);
   long calls = 0;
-  for (const auto& [decade, call] : whole.calls().by_decade())
+  for (const auto& [decade, call] : whole.curves()[0].by_decade())
     calls += static_cast<long>(call.right + call.ill_posed + call.wrong + call.undecided);
   CHECK(whole.rows()[0].tally.agree == 510);
   CHECK(calls == 500);
