@@ -97,8 +97,6 @@ class Examination {
   bool failed() const { return failed_ || answerer_->failed(); }
   bool is_over() const { return is_enough(); }
   void finish() { answerer_->finish(); }
-  /// Once it has finished.
-  std::optional<question::OwnTime> own_time() const { return answerer_->own_time(); }
 
  private:
   using Clock = std::chrono::steady_clock;

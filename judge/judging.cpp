@@ -261,6 +261,7 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
   const bool is_cut = report.engine.runs_apart() && options.enough();
   if (speeds[0].failed || is_cut) return;
   report.ns_per_query = speeds[0].ns_per_query;
+  report.own_ns = speeds[0].own_ns;
   report.ns_of_reduction = speeds[1].ns_per_query;
   report.processor_ns = speeds[0].processor_ns;
   report.processor_ns_of_reduction = speeds[1].processor_ns;
@@ -344,7 +345,6 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   report.misbehaved = examination->failed();
   examination->on_progress({});
   examination->finish();
-  if (const auto time = examination->own_time()) report.own_ns = time->ns_per_query();
   report.was_stopped = stop;
   if (!stop && !report.is_broken()) race(report, places, terms, plan.speed);
   return report;

@@ -65,7 +65,7 @@ def one_finding(finding):
 
 def ask(entry):
     report = judged(entry)
-    kept = {"name": entry["name"], **introduction_of(entry), "questions": SLOW if entry.get("slow") else QUESTIONS,
+    kept = {**introduction_of(entry), "questions": SLOW if entry.get("slow") else QUESTIONS,
             "seed": report["manifest"]["seed"], "machine": report["manifest"]["machine"],
             "engine_ns": report["engine_ns"], "rows": [one_row(row) for row in report["difficulties"]],
             "findings": [one_finding(finding) for finding in report["findings"]]}
@@ -147,7 +147,7 @@ def mode_of(entry):
 
 def table_row(entry, result):
     radii, ns, fault = largest_radii(result), result["engine_ns"], simplest(result)
-    cells = [f"[{entry['title']}]({library_of(entry)}.md) {result['version']}", mode_of(entry), entry["formula"],
+    cells = [f"[{entry['title']}]({library_of(entry)}.md) {result['version']}", mode_of(entry), entry["formula"].replace("|", "\\|"),
              per_million(sums(result, "drawn")), per_million(sums(result, "hard")), per_million(sums(result, "far")),
              f"{of_cause(result, FALSE)} / {of_cause(result, MISSED)}",
              per_million(sums(result, "hard"), "ill_posed"), "–" if radii is None else f"{radii:.1g}",
