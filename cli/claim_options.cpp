@@ -13,15 +13,18 @@ NumberFormat number_format_named(const std::string& precision) {
   return kFormats[index_of_name(precision, {"binary64", "binary32"}, "--precision")];
 }
 
-void ClaimOptions::ask(const std::vector<question::EngineInfo>& engines) {
+std::vector<std::optional<question::Introduction>> ClaimOptions::ask(
+    const std::vector<question::EngineInfo>& engines) {
+  std::vector<std::optional<question::Introduction>> all;
   claim();  // what is wrong with the options is said first
   for (const question::EngineInfo& engine : engines) {
-    const auto said = engine.introduce ? engine.introduce() : std::nullopt;
+    const auto& said = all.emplace_back(engine.introduce ? engine.introduce() : std::nullopt);
     if (!said) continue;
     if (said->precision && (!said_precision_ || bits_of(*said->precision) < bits_of(*said_precision_)))
       said_precision_ = said->precision;
     if (said->time_tolerance) said_tolerance_ = std::max(*said->time_tolerance, said_tolerance_.value_or(0));
   }
+  return all;
 }
 
 Claim ClaimOptions::claim(NumberFormat otherwise) const {

@@ -17,9 +17,9 @@ NumberFormat number_format_named(const std::string& precision);
 struct ClaimOptions {
   std::optional<std::string> precision, time_tolerance;
 
-  /// What these engines say of themselves holds where the options say nothing: of several, the coarsest. Throws
-  /// InputError.
-  void ask(const std::vector<question::EngineInfo>& engines);
+  /// What these engines say of themselves holds where the options say nothing: of several, the coarsest. Returns
+  /// what each said. Throws InputError.
+  std::vector<std::optional<question::Introduction>> ask(const std::vector<question::EngineInfo>& engines);
 
   /// `otherwise`: where neither the options nor the engines say a precision. Throws InputError.
   Claim claim(NumberFormat otherwise = NumberFormat::binary64) const;

@@ -327,7 +327,7 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   report.engine = order.engine;
   report.command = order.command;
   report.claim = order.claim;
-  if (order.engine.introduce) report.introduction = order.engine.introduce();
+  report.introduction = order.introduction;
   report.ulps = order.ulps;
   report.times = order.times;
   report.strict = order.strict;

@@ -15,6 +15,8 @@ namespace lorentz::judge {
 /// What is to be done.
 struct JudgeOrder {
   question::EngineInfo engine;
+  /// What the engine says of itself, if it was asked.
+  std::optional<question::Introduction> introduction = {};
   std::string command;         ///< that was typed, for the report
   bool quick = false;          ///< fewer flights in less time
   std::optional<double> time;  ///< seconds in all, about; nothing: the usual time

@@ -48,7 +48,7 @@ def introduction_of(entry):
 
 def judged(entry):
     run = subprocess.run([*judge_line(entry), "--json"], cwd=ROOT, capture_output=True, text=True)
-    if run.returncode not in (0, 1):
+    if run.returncode not in (0, 1, 3) or not run.stdout.startswith("{"):  # 3: it died, or was given up somewhere
         sys.exit(f"{entry['name']}: `lorentz judge` ended with {run.returncode}: {run.stderr[-500:]}")
     return json.loads(run.stdout)
 
@@ -58,7 +58,7 @@ def one_row(row):
 
 
 def one_finding(finding):
-    keys = ("cause", "title", "group", "explanation", "verdict", "count", "share_of_plain", "share_of_hard", "where",
+    keys = ("cause", "title", "group", "explanation", "verdict", "count", "last_words", "share_of_plain", "share_of_hard", "where",
             "primitive", "commands", "drawing", "scene", "query", "given", "exact")
     return {key: finding.get(key) for key in keys}
 

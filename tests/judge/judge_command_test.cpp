@@ -165,8 +165,8 @@ TEST_CASE("judge ends in its time, and at once when it is told to, whatever the 
   const Folder folder;
   const std::string pid = folder.file("pid");
   const auto hangs = [&](int at) {
-    return "'cmd:echo $$ >" + pid + "; exec " + LORENTZ_TOLERANT_ENGINE + " hangs " + std::to_string(at) +
-           "'";
+    return "'cmd:echo $$ >" + pid + "; echo started >>" + pid + ".all; exec " + LORENTZ_TOLERANT_ENGINE +
+           " hangs " + std::to_string(at) + "'";
   };
   // Each silence costs 2 s, of which there are 3.
   const Run often = folder.lorentz("judge --quick --time 3 --engine " + hangs(9));
@@ -186,10 +186,11 @@ TEST_CASE("judge ends in its time, and at once when it is told to, whatever the 
   const std::string judge = "env --default-signal=INT " LORENTZ_PROGRAM " judge --engine " + hangs(1) +
                             (lorentz::report::has_page() ? " --html " + folder.file("page.html") : "");
   for (const char* signal : {"INT", "TERM", "HUP"}) {
-    fs::remove(pid);
+    fs::remove(pid), fs::remove(pid + ".all");  // the first start is to hear what it says of itself
     const std::string script =
-        folder.write("signal.sh", judge + " & judge=$!; while ! test -s " + pid +
-                                      "; do sleep 0.05; done; kill -s " + signal + " $judge; wait $judge\n");
+        folder.write("signal.sh", judge + " & judge=$!; while ! sed -n 2p " + pid +
+                                      ".all | grep -q .; do sleep 0.05; done; kill -s " + signal +
+                                      " $judge; wait $judge\n");
     const Run run = folder.run("sh " + script);
     INFO(signal << run.out << run.err);
     CHECK(contains(run.out, "broken: "));
