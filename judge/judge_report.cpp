@@ -347,7 +347,8 @@ std::string JudgeReport::json() const {
   for (const FlownScene& scene : flown) paths.push_back(scene.curve(engine.name));
   return json::line_of([&](json::Members& page) {
     page.add("format", 1, "kind", "judge", "title", engine.name + ", judged", "manifest",
-             report::manifest_of(seed, command), "engine", engine.name, "verdict", verdict(), "line", line());
+             report::manifest_of(seed, command), "engine", engine.name, "library", library_text(*this),
+             "verdict", verdict(), "line", line());
     report::add_claim(page, claim);
     page.add("summary", [this](json::Members& object) {
       const ThreeLines its = summary();

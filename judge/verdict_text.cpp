@@ -20,6 +20,12 @@ std::string two_digits(double a) {
   return a < 9.95 || a >= 1e6 ? fmt::format("{:.2g}", a) : fmt::format("{:.0f}", a);
 }
 
+std::optional<std::string> library_text(const JudgeReport& report) {
+  if (!report.introduction || report.introduction->name.empty()) return std::nullopt;
+  const question::Introduction& its = *report.introduction;
+  return printable(its.name) + (its.version.empty() ? "" : " ") + printable(its.version);
+}
+
 namespace {
 
 std::size_t answers(const question::Tally& t) {
@@ -160,12 +166,9 @@ std::string nonsense_text(const JudgeReport& report) {
 
 // ---- Three lines
 
-// "Ball 1.2 (cmd:./ball)", if it says its name.
 std::string name_text(const JudgeReport& report) {
-  if (!report.introduction || report.introduction->name.empty()) return report.engine.name;
-  const question::Introduction& its = *report.introduction;
-  return fmt::format("{}{}{} ({})", printable(its.name), its.version.empty() ? "" : " ",
-                     printable(its.version), report.engine.name);
+  const auto library = library_text(report);
+  return library ? fmt::format("{} ({})", *library, report.engine.name) : report.engine.name;
 }
 
 // "published, of lorentz 0.1.0; judged in binary64, times to 4 ulps of the inputs"

@@ -18,6 +18,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
+LIST = HERE / "league.json"
 KEPT = ROOT / "build/league"
 PAGES = ROOT / "docs/league"
 QUESTIONS, SLOW = 1500, 150  # of each row of `lorentz judge`
@@ -256,7 +257,7 @@ def page(library, members):
                      f"`{json.dumps(finding['exact'])}`.\n\n")
             break
     text += alone(library)
-    known = first.get("known")
+    known = json.loads(LIST.read_text(encoding="utf-8"))["known"].get(library)
     return text + (f"## Is it known?\n\n{known}\n" if known else "")
 
 
@@ -312,7 +313,7 @@ def main():
     parser.add_argument("--write", action="store_true", help="write docs/league from what is kept")
     parser.add_argument("--baseline", metavar="FILE", help="an earlier docs/league/league.json")
     given = parser.parse_args()
-    entries = json.loads((HERE / "league.json").read_text(encoding="utf-8"))["engines"]
+    entries = json.loads(LIST.read_text(encoding="utf-8"))["engines"]
     unknown = set(given.names) - {entry["name"] for entry in entries}
     if unknown:
         parser.error(f"no engine of the league is called {', '.join(sorted(unknown))}; there are "

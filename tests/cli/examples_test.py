@@ -58,6 +58,7 @@ class Examples(unittest.TestCase):
         (begun / "build").symlink_to(LORENTZ.parent)
         for name in ("examples", "data"):
             (begun / name).symlink_to(SOURCE / name)
+        (begun / "mine.so").symlink_to(LORENTZ.parent / "library_engine.so")
         for name, text in FILES.items():
             (begun / name).write_text(text)
         (begun / "mine").chmod(0o755)

@@ -72,8 +72,9 @@ TEST_CASE("The time of an engine's own calls is read", "[compare][introduction]"
 TEST_CASE("An engine is judged by what it says of itself, unless an option says otherwise",
           "[compare][introduction]") {
   const Folder folder;
-  const std::string engine = engine_of(folder, said(R"("precision":"binary32","time_tolerance":0.001)"),
-                                       R"({\"engine_time\":{\"seconds\":1,\"queries\":1000}})");
+  const std::string engine = engine_of(
+      folder, said(R"("name":"Ball","version":"1.2","precision":"binary32","time_tolerance":0.001)"),
+      R"({\"engine_time\":{\"seconds\":1,\"queries\":1000}})");
   const Run own = folder.lorentz("compare --json --count 8" + engine);
   INFO(own.err);
   CHECK(own.status == 0);
@@ -88,8 +89,12 @@ TEST_CASE("An engine is judged by what it says of itself, unless an option says 
                  R"("precision":"binary32","time_tolerance":0.5,)"));
   CHECK(contains(folder.lorentz("golden check ball-3d --first 1 --json" + engine).out,
                  R"("precision":"binary32","time_tolerance":0.001,)"));
-  CHECK(contains(folder.lorentz("judge --questions 1 --json" + engine).out,
-                 R"(--precision binary32 --time-tolerance 0.001"})"));
+  const std::string judged = folder.lorentz("judge --questions 1 --json" + engine).out;
+  CHECK(contains(judged, R"(--precision binary32 --time-tolerance 0.001"})"));
+  CHECK(contains(judged, R"("library":"Ball 1.2","verdict")"));
+  CHECK(contains(judged, R"("what":"Ball 1.2 (cmd:)"));
+  CHECK(contains(judged, R"("engine_ns":1e+06,)"));
+
   CHECK(contains(
       folder.lorentz("bench --scene square --radius 0.1 --difficulty drawn --count 32 --json" + engine).out,
       R"("precision":"binary32","time_tolerance":0.001)"));

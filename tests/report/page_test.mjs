@@ -293,6 +293,10 @@ test("Rows that were not asked do not count, free paths are compared, and come b
     const summary = (chart) => page.locator(`[data-chart=${chart}] .summary`).innerText();
     assert.match(await summary("difficulties"), /^Of 2 kinds of query that it was asked 1 were answered/);
     assert.match(await summary("calls"), /^3\u202f140 answers; wrong ones only .* less than 10⁻⁹ radii/);
+    const calls = page.locator("[data-chart=calls]");
+    await calls.getByLabel("By", { exact: true }).selectOption("radii from the start to the obstacle in question");
+    assert.match(await summary("calls"), /^325 answers; wrong ones from 10⁹ to 10¹⁰\./);
+    assert.equal(await calls.locator(".plot > svg rect").count(), 4); // 3 bars, one in two colours
     assert.match(
       await summary("free-paths"),
       /farthest from them at t = 8 in cubic, r = 0.1: 19\.3\u202f% instead of 17\.3\u202f%/,

@@ -432,6 +432,19 @@ function timed() {
       wrong: i < 2 ? 10 : 0,
       undecided: 0,
     })),
+    curves: [
+      {
+        by: "radii from the start to the obstacle in question",
+        decades: [0, 5, 9].map((decade) => ({
+          decade,
+          right: 100,
+          ill_posed: 0,
+          wrong: decade === 9 ? 25 : 0,
+          undecided: 0,
+          radii_off: decade / 100,
+        })),
+      },
+    ],
     free_paths: [
       {
         scene: "cubic",

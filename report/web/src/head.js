@@ -25,7 +25,7 @@ export function head(report) {
           state.word,
         ),
       " ",
-      report.engine ? h("code", {}, report.engine) : (report.title ?? "Report"),
+      report.library ?? (report.engine ? h("code", {}, report.engine) : (report.title ?? "Report")),
     ),
     report.summary ? threeLines(report) : verdictLine(report.line || benchLine(report)),
     figures(report),

@@ -1,8 +1,9 @@
-// How close the calls were: of questions alike in number from each row, what became of those whose obstacle is
-// met or missed by so much. A tolerance shows as an edge, with faults on its left alone.
+// Where the engine begins to fail: of questions alike in number from each row, what became of those of one decade, of
+// how closely the obstacle is met or missed, of distances, or of radii. A tolerance shows as an edge.
 import * as Plot from "@observablehq/plot";
 import { chart, plot } from "../chart.js";
-import { count, percent, powerTick } from "../numbers.js";
+import { choice } from "../controls.js";
+import { count, number, percent, powerTick } from "../numbers.js";
 import { verdictOf } from "../verdicts.js";
 
 const PARTS = [
@@ -19,8 +20,9 @@ function gathered(calls) {
   const decades = new Map();
   for (const call of calls) {
     const decade = Math.max(call.decade, LOWEST);
-    const its = decades.get(decade) ?? { decade, right: 0, ill_posed: 0, wrong: 0, undecided: 0 };
+    const its = decades.get(decade) ?? { decade, right: 0, ill_posed: 0, wrong: 0, undecided: 0, off: 0 };
     for (const { key } of PARTS) its[key] += call[key];
+    its.off = Math.max(its.off, call.radii_off ?? 0);
     decades.set(decade, its);
   }
   return [...decades.values()].sort((a, b) => a.decade - b.decade);
@@ -31,12 +33,22 @@ const rangeOf = ({ decade }) =>
     ? `below ${powerTick(10 ** (LOWEST + 1))}`
     : `${powerTick(10 ** decade)} to ${powerTick(10 ** (decade + 1))}`;
 
+const CLOSE = "radii by which the line enters or misses the obstacle in question";
+
 export function calls(report) {
-  const all = gathered(report.calls ?? []);
-  if (!all.length) return null;
-  const parts = PARTS.filter(({ key }) => all.some((call) => call[key] > 0));
+  const measures = [{ by: CLOSE, decades: report.calls ?? [] }, ...(report.curves ?? [])]
+    .map(({ by, decades }) => ({ by, all: gathered(decades) }))
+    .filter(({ all }) => all.length > 0);
+  if (!measures.length) return null;
+  const by = choice(
+    "By",
+    measures.map((its) => [its.by, its.by]),
+    () => made.redraw(),
+  );
 
   function draw(width) {
+    const { all } = measures.find((its) => its.by === by.value) ?? measures[0];
+    const parts = PARTS.filter(({ key }) => all.some((call) => call[key] > 0));
     const first = all[0].decade,
       last = all.at(-1).decade;
     const domain = Array.from({ length: last - first + 1 }, (_, i) => first + i);
@@ -54,7 +66,7 @@ export function calls(report) {
       x: {
         type: "band",
         domain,
-        label: "radii by which it is met or missed",
+        label: by.value ?? CLOSE,
         labelAnchor: "center",
         tickSize: 0,
         padding: 0.12,
@@ -86,7 +98,7 @@ export function calls(report) {
         y: sy.apply(0.5),
         key: null,
         lines: [
-          `${rangeOf(call)} radii`,
+          rangeOf(call),
           `${count(totalOf(call))} answers`,
           ...parts
             .filter(({ key }) => call[key] > 0)
@@ -94,32 +106,38 @@ export function calls(report) {
               ({ key, verdict }) =>
                 `${count(call[key])} ${verdict.word} (${percent(call[key] / totalOf(call))})`,
             ),
+          ...(call.off > 0 ? [`times off by up to ${number(call.off)} radii`] : []),
         ],
       })),
       legend: parts.map(({ verdict }) => ({
         name: verdict.word,
         look: { colour: verdict.colour, symbol: verdict.symbol ?? "circle", dash: "" },
       })),
-      summary: said(all),
+      summary: said(all, by.value ?? CLOSE),
       numbers: {
-        columns: ["radii from", "right", "ill-posed", "wrong", "undecided"],
-        rows: all.map((c) => [10 ** c.decade, c.right, c.ill_posed, c.wrong, c.undecided]),
+        columns: ["from", "right", "ill-posed", "wrong", "undecided", "times off by, radii"],
+        rows: all.map((c) => [10 ** c.decade, c.right, c.ill_posed, c.wrong, c.undecided, c.off]),
       },
     };
   }
-  return chart({
+  const made = chart({
     name: "calls",
-    title: "How close the calls were",
-    note: "Each bar holds answers whose obstacle is met or missed by so much; right answers are faint. If only the bars left of an edge are coloured, the engine decides with a tolerance of that size; if colour reaches far to the right, plain cases are wrong too.",
+    title: "Where it begins to fail",
+    note: "Each bar holds the answers of one power of ten; right ones are faint. By closeness: if only the bars left of an edge are coloured, the engine decides with a tolerance of that size; if colour reaches far to the right, plain cases are wrong too. By distances: colour on the right is what large numbers cost.",
+    controls: [by.element],
     draw,
-  }).element;
+  });
+  return made.element;
 }
 
-function said(all) {
+function said(all, by) {
   const wrong = all.filter((call) => call.wrong > 0);
   const answers = all.reduce((sum, call) => sum + totalOf(call), 0);
-  if (!wrong.length) return `${count(answers)} answers; none of these is wrong, however close the call.`;
+  if (!wrong.length) return `${count(answers)} answers; none of these is wrong.`;
+  const tick = (decade) => powerTick(10 ** decade);
+  if (by !== CLOSE)
+    return `${count(answers)} answers; wrong ones from ${tick(wrong[0].decade)} to ${tick(wrong.at(-1).decade + 1)}.`;
   const edge = wrong.at(-1).decade + 1;
   const beyond = all.filter((call) => call.decade >= edge).reduce((sum, call) => sum + totalOf(call), 0);
-  return `${count(answers)} answers; wrong ones only where the obstacle is met or missed by less than ${powerTick(10 ** edge)} radii${beyond ? `, none of the ${count(beyond)} beyond` : ""}.`;
+  return `${count(answers)} answers; wrong ones only where the obstacle is met or missed by less than ${tick(edge)} radii${beyond ? `, none of the ${count(beyond)} beyond` : ""}.`;
 }
