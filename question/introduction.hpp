@@ -15,7 +15,7 @@ struct Introduction {
   std::string name = {}, version = {};
   std::optional<NumberFormat> precision = {};
   std::optional<double> time_tolerance = {};  ///< as Claim::time_tolerance
-  std::vector<int> dimensions = {};  ///< empty: not said
+  std::vector<int> dimensions = {};           ///< empty: not said
 };
 
 /// Nothing if the line does not begin with an object whose first key is "engine". Throws InputError for one that

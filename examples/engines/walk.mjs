@@ -15,7 +15,7 @@
 import fs from "node:fs";
 import readline from "node:readline";
 
-const MOST_CELLS = 20000; // beyond these: undecided
+const MOST_CELLS = 2000; // beyond these: undecided
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const add = (a, b, s = 1) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];

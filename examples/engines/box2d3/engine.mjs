@@ -21,7 +21,7 @@ walk({
   package: "box2d3-wasm",
   precision: "binary32",
   dimensions: [2],
-  cells: 2000,
+  cells: 300,
   place(c, r) {
     at.Set(c[0], c[1]);
     b2.b2Body_SetTransform(body, at, b2.b2Rot_identity);

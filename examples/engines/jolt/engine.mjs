@@ -31,6 +31,7 @@ walk({
   package: "jolt-physics",
   precision: "binary32",
   dimensions: [2, 3],
+  cells: 300,
   place(c, r) {
     placed.mShape = shapeOf(r);
     at.Set(...c);

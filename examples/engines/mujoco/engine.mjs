@@ -15,7 +15,7 @@ walk({
   version: mujoco.mj_versionString(),
   precision: "binary64",
   dimensions: [2, 3],
-  cells: 2000,
+  cells: 300,
   place(c, r) {
     centre = c;
     size = [r, 0, 0];

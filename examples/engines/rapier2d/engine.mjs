@@ -15,7 +15,7 @@ walk({
   package: "@dimforge/rapier2d-compat",
   precision: "binary32",
   dimensions: [2],
-  cells: 2000,
+  cells: 300,
   place(c, r) {
     ball.radius = r;
     centre = of(c);

@@ -16,7 +16,7 @@ walk({
   package: "@dimforge/rapier3d-compat",
   precision: "binary32",
   dimensions: [2, 3],
-  cells: 2000,
+  cells: 300,
   place(c, r) {
     ball.radius = r;
     centre = of(c);
