@@ -38,7 +38,8 @@ std::vector<Word> scenes() {
 
 std::vector<Word> sets() {
   std::vector<Word> words;
-  for (const golden::Set& set : golden::sets()) words.push_back({set.name, set.description});
+  for (const golden::Set& set : golden::sets())
+    if (set.is_committed) words.push_back({set.name, set.description});
   return words;
 }
 

@@ -25,10 +25,10 @@ class Baseline {
   std::vector<std::string> not_compared(const JudgeReport& report) const;
 
  private:
-  struct Row {
+  struct RowBefore {
     std::size_t queries = 0, failed = 0;
   };
-  std::map<std::string, Row> rows_;
+  std::map<std::string, RowBefore> rows_;
   std::set<std::pair<std::string, std::string>> faults_;  // verdict and cause
 };
 

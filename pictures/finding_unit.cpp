@@ -30,8 +30,16 @@ class Scaling {
 
 int length_exponent(const Scene& scene) {
   double largest = 0;
-  for (const Vec& u : scene.lattices[0].vectors)
-    for (const double component : u) largest = std::max(largest, std::fabs(component));
+  const auto see = [&](const Vec& vector) {
+    for (const double component : vector) largest = std::max(largest, std::fabs(component));
+  };
+  const Lattice& lattice = scene.lattices[0];
+  for (const Vec& u : lattice.vectors) see(u);
+  if (largest == 0)  // a single obstacle is as large as its scene
+    for (const Atom& atom : lattice.atoms) {
+      see({atom.radius, 0, 0});
+      for (const Vec& axis : atom.semiaxes) see(axis);
+    }
   constexpr int kOrdinary = 100;
   const int exponent = largest > 0 ? std::ilogb(largest) : 0;
   return std::abs(exponent) <= kOrdinary ? 0 : exponent;

@@ -23,10 +23,10 @@ COMPLETIONS = [
     (["compare", "-e", "classical,certified-"], ["classical,certified-batch"]),
     (["compare", "--engine", "=", "red"], ["reduction"]),  # bash makes three words of --engine=red
     (["compare", "--scene", "triangul"], ["triangular"]),
-    (["golden", "check", "graz"], ["grazing"]),
+    (["golden", "check", "graz"], ["grazing", "grazing-binary32"]),
     (["golden", "check", "-e", "reduction", "my"], ["my-set.ndjson"]),
-    (["golden", "check", "grazing", "gen"], ["generic-2d", "generic-3d"]),
-    (["golden", "make", "--set", "near-r"], ["near-rational"]),
+    (["golden", "check", "grazing", "gen"], ["generic-2d", "generic-3d", "generic-3d-binary32"]),
+    (["golden", "make", "--set", "near-r"], ["near-rational", "near-rational-binary32"]),
     (["fuzz", "--target", "long-"], ["long-flight"]),
     (["fuzz", "exp"], ["export"]),
     (["sample", "--kind", ""], ["uniform", "surface", "near-rational", "grazing"]),
