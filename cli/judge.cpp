@@ -58,7 +58,13 @@ std::optional<judge::Baseline> baseline_of(const JudgeOptions& options) {
 int status_against(const judge::Baseline& baseline, const JudgeReport& report, const JudgeOptions& options) {
   if (report.is_broken() || report.rows_given_up() > 0) return kFailed;
   const std::vector<std::string> worse = baseline.worse(report, options.times);
-  if (const auto others = baseline.not_compared(report); !others.empty())
+  const auto others = baseline.not_compared(report);
+  const auto asked = std::ranges::count_if(report.rows, [](const auto& row) { return row.asked() > 0; });
+  if (worse.empty() && asked > 0 && static_cast<std::size_t>(asked) == others.size()) {
+    say("{} asked other numbers of questions in every row: give the same --questions", *options.baseline);
+    return kBadInput;
+  }
+  if (!others.empty())
     say("{} rows asked another number of questions than in {}; only new kinds of fault are told of them: {}",
         others.size(), *options.baseline, fmt::join(others, ", "));
   for (const std::string& one : worse) say("worse than in {}: {}", *options.baseline, one);

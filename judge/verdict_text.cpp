@@ -32,6 +32,11 @@ std::size_t answers(const question::Tally& t) {
   return t.agree + t.ill_posed + t.wrong;
 }
 
+// All shares are of these.
+std::size_t judged_of(const question::Tally& t) {
+  return t.queries - t.unsupported;
+}
+
 std::string percent(std::size_t part, std::size_t whole) {
   return whole == 0 ? "0 %" : two_digits(100 * static_cast<double>(part) / static_cast<double>(whole)) + " %";
 }
@@ -57,8 +62,8 @@ std::string shares_text(const char* what, const std::vector<ExaminedRow>& rows,
                         std::size_t question::Tally::*count) {
   const question::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
   if (drawn.*count + hard.*count == 0) return "";
-  return fmt::format("; {} {} of drawn flights, {} of hard ones", what, percent(drawn.*count, drawn.queries),
-                     percent(hard.*count, hard.queries));
+  return fmt::format("; {} {} of drawn flights, {} of hard ones", what,
+                     percent(drawn.*count, judged_of(drawn)), percent(hard.*count, judged_of(hard)));
 }
 
 // "; wrong times 0.2 % (0.1 % are another quantity), by up to 0.003 radii along the ray"
@@ -74,9 +79,9 @@ std::string times_text(const JudgeReport& report) {
     return fmt::format("; times within {} ({}) on drawn flights, no wrong time", along,
                        report::ulps_text(drawn.max_ulp()));
   drawn.add(hard);
-  std::string text = fmt::format("; wrong times {}", percent(drawn.wrong_time, answers(drawn)));
+  std::string text = fmt::format("; wrong times {}", percent(drawn.wrong_time, judged_of(drawn)));
   if (drawn.other_quantity > 0)
-    text += fmt::format(" ({} are another quantity)", percent(drawn.other_quantity, answers(drawn)));
+    text += fmt::format(" ({} are another quantity)", percent(drawn.other_quantity, judged_of(drawn)));
   return along.empty() ? text : text + ", by up to " + along;
 }
 
@@ -190,16 +195,12 @@ std::string grouped(std::size_t number) {
   return text;
 }
 
-std::size_t judged_of(const question::Tally& t) {
-  return t.queries - t.unsupported;
-}
-
 std::string wrong_text(const question::Tally& t) {
   const std::size_t wrong = t.wrong + t.error;
   return wrong == 0 ? "none wrong" : percent(wrong, judged_of(t)) + " wrong";
 }
 
-// "none wrong of 46 000 drawn; hard cases: 4.7 % wrong (of 3 210); 10 % undecided"
+// "none wrong of 46 000 drawn; hard cases: 4.7 % wrong (of 3 210); of all 10 % undecided"
 std::string how_bad_text(const JudgeReport& report) {
   const question::Tally drawn = sum_of(report.rows, false), hard = sum_of(report.rows, true),
                         all = report.total();
@@ -211,7 +212,7 @@ std::string how_bad_text(const JudgeReport& report) {
   if (judged_of(hard) > 0)
     parts.push_back(fmt::format("hard cases: {} (of {})", wrong_text(hard), grouped(judged_of(hard))));
   const auto add = [&](std::size_t number, const char* what) {
-    if (number > 0) parts.push_back(percent(number, judged_of(all)) + ' ' + what);
+    if (number > 0) parts.push_back("of all " + percent(number, judged_of(all)) + ' ' + what);
   };
   add(all.missing, "without an answer");
   add(all.wrong_time, "with a wrong time");

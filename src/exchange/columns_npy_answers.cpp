@@ -10,8 +10,7 @@ NpyAnswerReader::NpyAnswerReader(const std::string& path, int dimension)
     : file_(path), header_(read_npy_header(file_)), dimension_(dimension) {
   outcome_ = field("outcome", 1), lattice_ = field("lattice", 1), atom_ = field("atom", 1);
   cell_ = field("cell", static_cast<std::size_t>(dimension)), time_ = field("time", 1);
-  if (header_.shape.size() != 1 || time_.kind != 'f' || time_.bytes != 8)
-    refuse("is not an array of answers");
+  if (header_.shape.size() != 1 || time_.kind != 'f' || time_.bytes < 4) refuse("is not an array of answers");
   row_.resize(header_.item_bytes);
 }
 
@@ -21,7 +20,7 @@ void NpyAnswerReader::refuse(const std::string& what) const {
                    "; answers in " + d +
                    " dimensions are one of shape (N,) with the fields outcome, lattice, atom, "
                    "cell (integers, the last of shape (" +
-                   d + ",)) and time (float64)");
+                   d + ",)) and time (float64 or float32)");
 }
 
 const NpyField& NpyAnswerReader::field(const char* name, std::size_t numbers) const {
@@ -52,8 +51,9 @@ bool NpyAnswerReader::next(Answer& answer, Id& id) {
   constexpr std::int64_t kMost = 1'000'000'000;
   if (outcome < 0 || outcome > static_cast<int>(Outcome::error) || lattice < 0 || atom < 0 ||
       lattice > kMost || atom > kMost)
-    throw InputError(file_.name() + ": row " + std::to_string(done_) +
-                     ": is not an answer: its outcome, lattice or atom does not exist");
+    throw InputError(file_.name() + ": row " + std::to_string(done_) + ": is not an answer: outcome " +
+                     std::to_string(outcome) + ", lattice " + std::to_string(lattice) + ", atom " +
+                     std::to_string(atom) + " is out of range");
   answer = {};
   answer.outcome = static_cast<Outcome>(outcome);
   if (answer.outcome == Outcome::hit || answer.outcome == Outcome::inside) {
@@ -61,7 +61,9 @@ bool NpyAnswerReader::next(Answer& answer, Id& id) {
     for (int k = 0; k < dimension_; ++k)
       answer.obstacle.cell[k] = Integer(integer(cell_, static_cast<std::size_t>(k)));
   }
-  const auto time = number_in<double, std::uint64_t>(row_.data() + time_.offset, must_swap(time_));
+  const char* const at = row_.data() + time_.offset;
+  const double time = time_.bytes == 8 ? number_in<double, std::uint64_t>(at, must_swap(time_))
+                                       : double{number_in<float, std::uint32_t>(at, must_swap(time_))};
   if (answer.outcome == Outcome::hit && !std::isnan(time)) answer.time = time;
   id = std::to_string(done_++);
   return true;

@@ -122,7 +122,9 @@ TEST_CASE("judge finds a correct engine right, in JSON, too", "[judge][judge_com
   INFO(run.out << run.err);
   CHECK(run.status == 0);
   CHECK(contains(run.out, R"({"format":1,"kind":"judge","title":"certified, judged","manifest":{)"));
-  CHECK(contains(run.out, R"("engine":"certified","library":null,"verdict":"right","line":"right: no wrong answer in )"));
+  CHECK(contains(
+      run.out,
+      R"("engine":"certified","library":null,"verdict":"right","line":"right: no wrong answer in )"));
   CHECK(contains(run.out, R"("wrong":0,"ill_posed":0,"wrong_time":0,"other_quantity":0,"undecided":0,)"));
   CHECK(contains(run.out, R"("difficulties":[{"name":"drawn square",)"));
   CHECK(contains(run.out, R"("findings":[],"calls":[{"decade":-)"));
