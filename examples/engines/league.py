@@ -21,7 +21,7 @@ ROOT = HERE.parent.parent
 LIST = HERE / "league.json"
 KEPT = ROOT / "build/league"
 PAGES = ROOT / "docs/league"
-QUESTIONS, SLOW = 1500, 150  # of each row of `lorentz judge`
+QUESTIONS = 1500  # of each row of `lorentz judge`, unless league.json says fewer for a slow engine
 FAR = ("golden long-flight", "golden tiny-radius")
 FALSE = ("false-hit", "behind", "leaving", "inside-not-so")
 MISSED = ("passed-over", "never-for", "inside-unseen")
@@ -37,7 +37,7 @@ def command_of(entry):
 
 def judge_line(entry):
     return ["build/lorentz", "judge", "--engine", command_of(entry), "--questions",
-            str(SLOW if entry.get("slow") else QUESTIONS), "--timeout", "20"]
+            str(entry.get("questions", QUESTIONS)), "--timeout", "20"]
 
 
 def introduction_of(entry):
@@ -66,7 +66,7 @@ def one_finding(finding):
 
 def ask(entry):
     report = judged(entry)
-    kept = {**introduction_of(entry), "questions": SLOW if entry.get("slow") else QUESTIONS,
+    kept = {**introduction_of(entry), "questions": entry.get("questions", QUESTIONS),
             "seed": report["manifest"]["seed"], "machine": report["manifest"]["machine"],
             "engine_ns": report["engine_ns"], "rows": [one_row(row) for row in report["difficulties"]],
             "findings": [one_finding(finding) for finding in report["findings"]]}
