@@ -148,7 +148,8 @@ def mode_of(entry):
 
 def table_row(entry, result):
     radii, ns, fault = largest_radii(result), result["engine_ns"], simplest(result)
-    cells = [f"[{entry['title']}]({library_of(entry)}.md) {result['version']}", mode_of(entry), entry["formula"].replace("|", "\\|"),
+    answered = " / ".join(two_digits(sums(result, kind)["answered"]) for kind in ("drawn", "hard", "far"))
+    cells = [f"[{entry['title']}]({library_of(entry)}.md) {result['version']}", mode_of(entry), entry["formula"].replace("|", "\\|"), answered,
              per_million(sums(result, "drawn")), per_million(sums(result, "hard")), per_million(sums(result, "far")),
              f"{of_cause(result, FALSE)} / {of_cause(result, MISSED)}",
              per_million(sums(result, "hard"), "ill_posed"), "–" if radii is None else f"{radii:.1g}",
@@ -157,13 +158,13 @@ def table_row(entry, result):
 
 
 def table(results):
-    head = ("| library | numbers, coordinates | formula | drawn: wrong | hard: wrong | far: wrong | hits what it misses / "
+    head = ("| library | numbers, coordinates | formula | answers: drawn / hard / far | drawn: wrong | hard: wrong | far: wrong | hits what it misses / "
             "misses what it hits | hard: ill-posed | largest error, radii | ns a query | worst |\n")
-    return head + "|---" * 11 + "|\n" + "".join(table_row(entry, result) for entry, result in results)
+    return head + "|---" * 12 + "|\n" + "".join(table_row(entry, result) for entry, result in results)
 
 
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 820, 470, 70, 20, 40, 60
-X, Y = (1, 6), (-6, 0)  # powers of ten: ns a query, share of hard questions
+X, Y = (2, 7), (-4, 0)  # powers of ten: ns a query, share of hard questions
 
 
 def place(ns, share):
@@ -182,7 +183,7 @@ def axes():
     for power in range(X[0], X[1] + 1):
         x, _ = place(10.0 ** power, 1)
         out += [f'<path d="M{x:.1f} {TOP}V{HEIGHT - BOTTOM}" stroke="#ddd"/>',
-                text_at(x, HEIGHT - BOTTOM + 18, ("10 ns", "100 ns", "1 µs", "10 µs", "100 µs", "1 ms")[power - 1])]
+                text_at(x, HEIGHT - BOTTOM + 18, ("100 ns", "1 µs", "10 µs", "100 µs", "1 ms", "10 ms")[power - X[0]])]
     for power in range(Y[0], Y[1] + 1):
         _, y = place(10.0, 10.0 ** power)
         label = "none" if power == Y[0] else f"{100 * 10.0 ** power:g} %"
@@ -191,16 +192,28 @@ def axes():
             text_at(LEFT, TOP - 16, "hard questions answered wrongly", "start")]
 
 
+def box_of(name, x, y, side):
+    """Where a label would be: right, left, above or below of its point."""
+    width, height = 6.4 * len(name), 12
+    left = {"right": x + 7, "left": x - 7 - width}.get(side, x - width / 2)
+    top = {"above": y - 7 - height, "below": y + 7}.get(side, y - height / 2)
+    return left, top, left + width, top + height
+
+
+def overlap(one, other):
+    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
+
+
 def labels(points):
-    """Each name beside its point, moved down where two would overlap."""
-    taken, out = [], []
-    for x, y, name, colour in sorted(points, key=lambda point: (point[1], point[0])):
-        at = y + 4
-        while any(abs(at - other) < 12 and abs(x - left) < 110 for left, other in taken):
-            at += 12
-        taken.append((x, at))
-        side = (x - 8, "end") if x > WIDTH - 150 else (x + 8, "start")
-        out += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{colour}"/>', text_at(side[0], at, name, side[1])]
+    """Each name beside its point where there is room, else further below."""
+    taken, out = [(x - 4, y - 4, x + 4, y + 4) for x, y, _, _ in points], []
+    for x, y, name, colour in sorted(points):
+        boxes = [box_of(name, x, y + down, side) for down in (0, 14, -14, 28, -28, 42)
+                 for side in ("right", "left", "above", "below")]
+        free = [box for box in boxes if LEFT < box[0] and box[2] < WIDTH and not any(overlap(box, t) for t in taken)]
+        box = (free or boxes)[0]
+        taken.append(box)
+        out += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{colour}"/>', text_at(box[0], box[3] - 2, name, "start")]
     return out
 
 
@@ -230,9 +243,13 @@ def alone(library):
     return ""
 
 
+def times(count):
+    return "once" if count == 1 else f"{count} times"
+
+
 def finding_text(entry, finding):
     verdict = {"wrong": "", "wrong-time": " (times)", "ill-posed": " (rounding explains it)"}.get(finding["verdict"], "")
-    return (f"- {entry['name']}: {finding['explanation']}{verdict}: {finding['count']} times; "
+    return (f"- {entry['name']}: {finding['explanation']}{verdict}: {times(finding['count'])}; "
             f"{100 * finding['share_of_plain']:.2g} % of drawn questions, {100 * finding['share_of_hard']:.2g} % of the others\n")
 
 
