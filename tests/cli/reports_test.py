@@ -21,12 +21,17 @@ def lorentz(*arguments, status=0, text=None):
     return done.stdout
 
 
+def number(cell):
+    """Of a table: "-" is 0, and "> 2^20", beyond which ulps are not told, is infinite."""
+    return 0 if cell == "-" else float("inf") if cell.startswith(">") else float(cell)
+
+
 def columns(table):
     """{row: {heading: number}} of a table whose cells do not hold two blanks."""
     lines = table.splitlines()
     heads = re.split(r"  +", lines[0])
     rows = [re.split(r"  +", line) for line in lines[2:]]
-    return {row[0]: dict(zip(heads[1:], (0 if cell == "-" else float(cell) for cell in row[1:]))) for row in rows if len(row) == len(heads)}
+    return {row[0]: dict(zip(heads[1:], (number(cell) for cell in row[1:]))) for row in rows if len(row) == len(heads)}
 
 
 class Reports(unittest.TestCase):
