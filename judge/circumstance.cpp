@@ -116,7 +116,8 @@ std::optional<Circumstance> circumstance_of(const std::vector<Features>& failing
     // Of so many right answers a share that was not seen may still be this large.
     const double possible = std::max(share, 3 / static_cast<double>(right.size()));
     if (share > kCommon || std::pow(possible, failing.size()) > kByChance) continue;
-    if (!rarest || share < rarest->share) rarest = Circumstance{predicate.text, share, predicate.is_of_depth};
+    if (!rarest || share < rarest->share)
+      rarest = Circumstance{predicate.text, share, predicate.is_of_depth, predicate.holds};
   }
   return rarest;
 }

@@ -1,6 +1,7 @@
 // What sets the questions apart that an engine fails on.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ struct Circumstance {
   std::string text;          ///< a clause after "only "
   double share = 0;          ///< of the right answers: so many have it, too
   bool is_of_depth = false;  ///< that the obstacle is only just entered
+  std::function<bool(const Features&)> holds = [](const Features&) { return true; };
 };
 
 /// Something that is true of all the failing questions and of at most half of the right ones, and that would

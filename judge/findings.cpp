@@ -46,6 +46,10 @@ std::optional<ObstacleId> obstacle_in_question(const Example& example) {
   return std::nullopt;
 }
 
+Features features_in(const Example& example) {
+  return features_of(example.question, obstacle_in_question(example));
+}
+
 std::string Finding::summary() const {
   const std::string text = sentence_of(cause(), by_radii);
   // A grazing one says that of itself.
@@ -69,7 +73,7 @@ void Findings::add(const Example& example, const std::string& row) {
   if (example.diagnosis.by_radii)
     its.by_radii = std::max(its.by_radii.value_or(0), *example.diagnosis.by_radii);
   if (example.question.is_query() && its.features.size() < kMostFeatures)
-    its.features.push_back(features_of(example.question, obstacle_in_question(example)));
+    its.features.push_back(features_in(example));
   if (complexity_of(example.question) >= complexity_of(its.simplest.question)) return;
   its.simplest = example;
   its.where = example.question.where;

@@ -24,6 +24,9 @@ struct Example {
 /// none of these is an obstacle.
 std::optional<ObstacleId> obstacle_in_question(const Example& example);
 
+/// Of its question, about the obstacle that the diagnosis is about.
+Features features_in(const Example& example);
+
 /// What a new start of a program made of a finding's simplest case.
 enum class Recheck {
   fails,   ///< it went wrong in the same way; of an engine that always answers the same this is known
@@ -45,6 +48,7 @@ struct Finding {
   Recheck recheck = Recheck::fails;
   /// If it fails: the number of times that a new start must be asked the simplest case until it does.
   std::size_t repetitions = 1;
+  bool was_shrunk = false;  ///< the simplest is not what was met at `where`, but simpler
 
   Cause cause() const { return simplest.diagnosis.cause; }
   Severity severity() const { return simplest.diagnosis.severity; }

@@ -166,7 +166,8 @@ std::string text_of(const Finding& finding, const JudgeReport& report, int numbe
   text += fmt::format("   {} {}: {}\n", finding.count, finding.count == 1 ? "answer" : "answers",
                       often(finding, report));
   if (finding.severity() == Severity::ill_posed) return text;
-  text += fmt::format("   the simplest, from {}:\n   {}\n   {}\n   says  {}\n   truth {}\n", finding.where,
+  text += fmt::format("   the simplest, {} {}:\n   {}\n   {}\n   says  {}\n   truth {}\n",
+                      finding.was_shrunk ? "shrunk from" : "from", finding.where,
                       report::scene_line(example.question.place->scene()), readable_query(example),
                       json::text_of(json_of(example.given, dimension)),
                       json::text_of(json_of(exact_of(example), dimension)));
@@ -207,7 +208,8 @@ void add_finding(json::Members& object, const Finding& finding, const JudgeRepor
   const Components dimension = components_of(example);
   object.add("cause", name_of(finding.cause()), "explanation", finding.explanation(), "count", finding.count,
              "share_of_plain", finding.share_of_plain, "share_of_hard", finding.share_of_hard, "often",
-             often(finding, report), "where", finding.where, "verdict", name_of(finding.severity()));
+             often(finding, report), "where", finding.where, "shrunk", finding.was_shrunk, "verdict",
+             name_of(finding.severity()));
   object.add("scene", example.question.place->scene(), "query", json::Raw{'{' + members_of(example) + '}'},
              "given", json_of(example.given, dimension), "exact", json_of(exact_of(example), dimension));
   const auto primitive = primitive_for(example);

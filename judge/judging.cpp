@@ -185,7 +185,16 @@ struct Terms {
 void find_simplest(std::vector<Finding>& findings, Examination& examination, double seconds) {
   examination.limit(seconds);  // also if the questions took longer than they should
   Shares shares(seconds, findings.size());
-  for (Finding& finding : findings) finding.simplest = simplest(finding, examination, shares.next());
+  for (Finding& finding : findings) {
+    const Query met = finding.simplest.question.query;
+    finding.simplest = simplest(finding, examination, shares.next());
+    const Query& left = finding.simplest.question.query;
+    finding.was_shrunk = left.x != met.x || left.v != met.v || left.from != met.from;
+    // A circumstance that the simpler case is without was none.
+    if (finding.circumstance && finding.simplest.question.is_query() &&
+        !finding.circumstance->holds(features_in(finding.simplest)))
+      finding.circumstance.reset();
+  }
 }
 
 // Does another program go wrong with a simplest case by itself? Besides its share of the time a new start of

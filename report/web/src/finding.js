@@ -78,7 +78,7 @@ export function findingCard(finding, i, total) {
 function facts(finding, i, total) {
   return [
     `${i + 1} of ${total}`,
-    finding.where,
+    finding.shrunk ? `shrunk from ${finding.where}` : finding.where,
     finding.count > 1 ? `${count(finding.count)} like this` : null,
     isNumber(finding.by_radii) ? `off by ${number(Math.abs(finding.by_radii))} ${radiiOf(finding)}` : null,
     isNumber(finding.by_ulps) ? `off by ${ulps(Math.abs(finding.by_ulps))}` : null,
