@@ -1,5 +1,5 @@
 // A case: a scene, a query, and what is hard about them. A case follows from (seed, family, index, precision)
-// and nothing else: it is the same whoever asks, in whatever order, on whatever thread.
+// and nothing else: neither the order of asking nor the thread changes it.
 #pragma once
 
 #include <string>

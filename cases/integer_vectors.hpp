@@ -74,7 +74,7 @@ std::vector<IntegerRatio> convergents_of_root(std::int64_t n, std::int64_t h, in
 
 /// The start x from which the flight along the primitive v passes the origin at the closest point after
 /// the distance `along` or a little more, with v x (0 - x) = `turns` 2^-exponent `across` exactly. `across`
-/// must be at right angles to v (2D: a multiple of (0, 0, 1)). Nothing if no vector of numbers of so many bits
+/// must be at right angles to v (2D: a multiple of (0, 0, 1)). Nothing if no vector of numbers of that precision
 /// near there does that.
 std::optional<Vec> start_beside(const IntVec& v, const IntVec& across, std::int64_t turns, int exponent,
                                 double along, int bits);

@@ -14,8 +14,8 @@ constexpr int missing_bits(NumberFormat precision) {
   return bits_of(NumberFormat::binary64) - bits_of(precision);
 }
 
-/// x, rounded to the precision, and moved by so many ulps, through 0 and the subnormals too; it stops at the
-/// largest finite value.
+/// Rounds x to the precision and moves it by `ulps`, through 0 and the subnormals too, at most to the largest finite
+/// value.
 double moved(double x, std::int64_t ulps, NumberFormat precision = NumberFormat::binary64);
 
 /// Midway between two numbers of the precision in their order, through 0 and the subnormals too.

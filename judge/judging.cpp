@@ -186,10 +186,11 @@ void find_simplest(std::vector<Finding>& findings, Examination& examination, dou
   examination.limit(seconds);  // also if the questions took longer than they should
   Shares shares(seconds, findings.size());
   for (Finding& finding : findings) {
-    const Query met = finding.simplest.question.query;
+    const Question met = finding.simplest.question;
     finding.simplest = simplest(finding, examination, shares.next());
-    const Query& left = finding.simplest.question.query;
-    finding.was_shrunk = left.x != met.x || left.v != met.v || left.from != met.from;
+    const Question& left = finding.simplest.question;
+    finding.was_shrunk = left.place->scene() != met.place->scene() || left.query.x != met.query.x ||
+                         left.query.v != met.query.v || left.query.from != met.query.from;
     // A circumstance that the simpler case is without was none.
     if (finding.circumstance && finding.simplest.question.is_query() &&
         !finding.circumstance->holds(features_in(finding.simplest)))

@@ -22,6 +22,8 @@ namespace lorentz::question {
 /// What every answer of an answerer is to have, and how long one waits for it.
 struct AnswererOptions {
   static constexpr double kDefaultTimeout = 60;
+  /// Failures without an answer in between after which an engine that runs apart is given up.
+  static constexpr int kMostFailuresInRow = 5;
 
   oracle::Request request;
   double timeout = kDefaultTimeout;  ///< seconds without an answer while some are due, of another program

@@ -478,8 +478,9 @@ void CommandEngine::run_failed(const std::string& what) {
   Answer answer = Answer::error("cmd " + all);
   deliver_first(answer, run->instead.empty() ? Origin::fault : Origin::bad_line);
   if (limit_ != kNoLimit) limit_ = 1;
-  if (++failures_in_row_ < kMaxFailuresInRow) return;
-  tell(fmt::format("is given up after {} failures in a row without an answer", kMaxFailuresInRow));
+  if (++failures_in_row_ < AnswererOptions::kMostFailuresInRow) return;
+  tell(fmt::format("is given up after {} failures in a row without an answer",
+                   AnswererOptions::kMostFailuresInRow));
   given_up_in_ = recent_.back().scene;
   give_up();
 }
@@ -490,11 +491,12 @@ void CommandEngine::give_up() {
   while (!open_.empty()) {
     if (open_.front().scene != given_up_in_ && ever_answered_) {
       given_up_in_.reset();
-      failures_in_row_ = kMaxFailuresInRow - 1;
+      failures_in_row_ = AnswererOptions::kMostFailuresInRow - 1;
       return;
     }
-    Answer answer = Answer::error(fmt::format(
-        "cmd was given up after {} failures in a row; this query was not asked", kMaxFailuresInRow));
+    Answer answer =
+        Answer::error(fmt::format("cmd was given up after {} failures in a row; this query was not asked",
+                                  AnswererOptions::kMostFailuresInRow));
     deliver_first(answer, Origin::not_asked);
   }
 }

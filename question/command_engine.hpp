@@ -30,8 +30,6 @@ class CommandEngine final : public Answerer {
  public:
   /// Queries on their way at most.
   static constexpr std::size_t kWindow = 4096;
-  /// Failures without an answer in between after which it is given up.
-  static constexpr int kMaxFailuresInRow = 5;
 
   CommandEngine(std::string command, const AnswererOptions& options);
 

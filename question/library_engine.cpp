@@ -38,7 +38,7 @@ void LibraryEngine::enter(const Scene&) {
   why_not_.reset();
   if (!given_up_ || !ever_answered_) return;
   given_up_ = false;  // what it failed on may have been the scene: one more start
-  failures_in_row_ = kMostFailuresInRow - 1;
+  failures_in_row_ = AnswererOptions::kMostFailuresInRow - 1;
 }
 
 void LibraryEngine::ask(const Id& id, const Query& query) {
@@ -277,9 +277,9 @@ void LibraryEngine::blame_first(const std::string& what) {
   block_ = kFirstBlock;
   complain(what);
   deliver_first(Answer::error("lib " + what), Origin::fault);
-  if (++failures_in_row_ < kMostFailuresInRow) return;
-  complaints_.tell(
-      fmt::format("is given up after {} failures in a row without an answer", kMostFailuresInRow));
+  if (++failures_in_row_ < AnswererOptions::kMostFailuresInRow) return;
+  complaints_.tell(fmt::format("is given up after {} failures in a row without an answer",
+                               AnswererOptions::kMostFailuresInRow));
   given_up_ = true;
 }
 
@@ -287,7 +287,7 @@ void LibraryEngine::give_up_all() {
   while (!waiting_.empty())
     deliver_first(
         Answer::error(fmt::format("lib was given up after {} failures in a row; this query was not asked",
-                                  kMostFailuresInRow)),
+                                  AnswererOptions::kMostFailuresInRow)),
         Origin::not_asked);
 }
 

@@ -19,9 +19,6 @@ namespace lorentz::question {
 /// first after it was loaded. The first row that it had not answered is tried so, after those before it.
 class LibraryEngine final : public Answerer {
  public:
-  /// Failures without an answer in between after which it is given up.
-  static constexpr int kMostFailuresInRow = 5;
-
   LibraryEngine(std::string file, const AnswererOptions& options);
 
   void ask(const Id& id, const Query& query) override;

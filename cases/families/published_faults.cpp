@@ -23,7 +23,7 @@ struct FaultExample {
   Vec x, v;
   bool leaving;
   const char* tag;
-  std::int64_t ulps_off = 0;  // x moved by so many to the left and upwards, off the disc
+  std::int64_t ulps_off = 0;  // by which x is moved to the left and upwards, off the disc
 };
 
 const FaultExample kExamples[] = {

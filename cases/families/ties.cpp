@@ -77,7 +77,7 @@ Case make_shared_point(Source& source, int dimension) {
     atoms.push_back(ball(scaled(to_vec(one.v), std::ldexp(1, exponent)),
                          std::ldexp(static_cast<double>(one.length), exponent)));
   }
-  // x and v are to be exact: whole numbers of so many bits, and of as many in the multiple of v that x is.
+  // x is a multiple of v and must be exact: the bits of both factors fit into one significand.
   const bool is_wide = source.precision == NumberFormat::binary64;
   const int velocity_bits = is_wide ? 20 : 12, multiple_bits = is_wide ? 16 : 12;
   const Vec middle = sum(atoms[0].position, atoms[1].position);

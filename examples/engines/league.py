@@ -15,6 +15,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import textwrap
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -243,14 +244,12 @@ def alone(library):
     return ""
 
 
-def times(count):
-    return "once" if count == 1 else f"{count} times"
+FINDINGS = "| engine | what goes wrong | times | of drawn questions | of the others |\n|---|---|---|---|---|\n"
 
 
-def finding_text(entry, finding):
-    verdict = {"wrong": "", "wrong-time": " (times)", "ill-posed": " (rounding explains it)"}.get(finding["verdict"], "")
-    return (f"- {entry['name']}: {finding['explanation']}{verdict}: {times(finding['count'])}; "
-            f"{100 * finding['share_of_plain']:.2g} % of drawn questions, {100 * finding['share_of_hard']:.2g} % of the others\n")
+def finding_row(entry, finding):
+    shares = [f"{100 * finding[key]:.2g} %" for key in ("share_of_plain", "share_of_hard")]
+    return f"| {' | '.join([entry['name'], finding['title'], str(finding['count']), *shares])} |\n"
 
 
 def page(library, members):
@@ -261,21 +260,21 @@ def page(library, members):
     text += "To ask the same again:\n\n```\n" + "".join(
         " ".join(part if re.fullmatch(r"[\w/.:-]+", part) else f"'{part}'" for part in judge_line(entry)) + "\n"
         for entry, _ in members) + "```\n\n## What goes wrong\n\n"
-    lines = [finding_text(entry, finding) for entry, result in members for finding in result["findings"]
-             if finding["verdict"] != "ill-posed"]
-    text += ("".join(lines) or "Nothing.\n") + "\n"
+    rows = [finding_row(entry, finding) for entry, result in members for finding in result["findings"]
+            if finding["verdict"] != "ill-posed"]
+    text += (FINDINGS + "".join(rows) if rows else "Nothing.\n") + "\n"
     for entry, result in members:
         finding = simplest(result)
         if finding and finding["drawing"]:
             (PAGES / f"{library}.svg").write_text(finding["drawing"] + "\n", encoding="utf-8")
-            text += (f"The simplest of {entry['name']}: {finding['explanation']}.\n\n![The flight, and what is named]"
+            text += (f"The simplest of {entry['name']} ({finding['title']}):\n\n![The flight, and what is named]"
                      f"({library}.svg)\n\n```\n{json.dumps({'scene': finding['scene']})}\n"
                      f"{json.dumps(finding['query'])}\n```\n\nIt says `{json.dumps(finding['given'])}`; exact is "
                      f"`{json.dumps(finding['exact'])}`.\n\n")
             break
     text += alone(library)
     known = json.loads(LIST.read_text(encoding="utf-8"))["known"].get(library)
-    return text + (f"## Is it known?\n\n{known}\n" if known else "")
+    return text + (f"## Is it known?\n\n{textwrap.fill(known, 118, break_long_words=False)}\n" if known else "")
 
 
 BEGIN, END = "<!-- league: begin -->\n", "<!-- league: end -->\n"
