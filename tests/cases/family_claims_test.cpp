@@ -710,3 +710,21 @@ TEST_CASE("In binary32 near-rational directions are near by its ulps, and not by
   CHECK(near > 100);
   CHECK(exact_ones < near / 4);
 }
+
+TEST_CASE("In binary32 a huge quotient is seldom rounded to a rational direction", "[cases][family_claims]") {
+  int all = 0, rational = 0;
+  each(
+      "near-rational", 4000,
+      [&](const Case& one) {
+        const auto& u = one.scene.lattices[0].vectors;
+        if (one.scene.dimension != 2 || u[0] != Vec{1, 0, 0} || u[1] != Vec{0, 1, 0}) return;
+        if (!has(one, "huge-quotient")) return;
+        ++all;
+        rational +=
+            one.query.v[0] == std::round(one.query.v[0]) && one.query.v[1] == std::round(one.query.v[1]);
+      },
+      NumberFormat::binary32);
+  INFO(rational << " of " << all << " are rational");
+  CHECK(all > 100);
+  CHECK(rational < all / 4);
+}
