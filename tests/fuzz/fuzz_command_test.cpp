@@ -568,3 +568,28 @@ TEST_CASE("fuzz: an engine in float is right in binary32, and a store keeps to o
   CHECK(contains(exported, "\"precision\":\"binary32\""));
   CHECK(folder.lorentz(fuzz + folder.file("wide") + " --first").status == 1);
 }
+
+TEST_CASE("fuzz --time-tolerance: times within it are right", "[fuzz]") {
+  const Folder folder;
+  // All times are a thousandth too late.
+  const std::string script = folder.write(
+      "late.py",
+      "import json, subprocess, sys\n"
+      "pipe = subprocess.PIPE\n"
+      "child = subprocess.Popen([sys.argv[1], 'first-hit'], stdin=pipe, stdout=pipe, text=True)\n"
+      "for line in sys.stdin:\n"
+      "    child.stdin.write(line)\n"
+      "    child.stdin.flush()\n"
+      "    if 'scene' in json.loads(line): continue\n"
+      "    answer = json.loads(child.stdout.readline())\n"
+      "    if isinstance(answer.get('time'), float): answer['time'] *= 1.001\n"
+      "    print(json.dumps(answer), flush=True)\n");
+  const std::string fuzz = "fuzz --engine 'cmd:" LORENTZ_PYTHON " " + script +
+                           " " LORENTZ_PROGRAM
+                           "' --target generic-2d --count 6 --mutate 0 --reword 0 --times --json --store ";
+  const Run within = folder.lorentz(fuzz + folder.file("within") + " --time-tolerance 0.01");
+  INFO(within.out << within.err);
+  CHECK(within.status == 0);
+  CHECK(contains(within.out, "\"time_tolerance\":0.01"));
+  CHECK(folder.lorentz(fuzz + folder.file("beyond") + " --time-tolerance 0.0001 --first").status == 1);
+}
