@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "fuzz/examine/tie.hpp"
-#include "src/problem/scene_geometry.hpp"
+#include "question/radii.hpp"
 
 namespace lorentz::judge {
 namespace {
@@ -102,7 +102,7 @@ const CauseWords& words_for(Cause cause) {
 // Of the right obstacle.
 Diagnosis of_wrong_time(const Question& question, const Answer& given, bool other_quantity) {
   return {other_quantity ? Cause::other_quantity : Cause::wrong_time, Severity::wrong_time,
-          radii_off(question, given)};
+          question::radii_off(question, given)};
 }
 
 }  // namespace
@@ -122,23 +122,6 @@ std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& gi
   if (!question.is_query()) return Diagnosis{Cause::answered_nonsense, Severity::nonsense};
   const Fault fault = of_another_answer(question, given, judgement.obstacle);
   return Diagnosis{fault.cause, wrong ? Severity::wrong : Severity::ill_posed, fault.by_radii};
-}
-
-double smallest_semiaxis(const Atom& atom, int dimension) {
-  return atom.is_ball() ? atom.radius
-                        : principal_semiaxes(atom, dimension)[static_cast<std::size_t>(dimension) - 1];
-}
-
-std::optional<double> radii_off(const Question& question, const Answer& given) {
-  const Answer& exact = question.exact;
-  if (!exact.time || !given.time || !std::isfinite(*exact.time) || !std::isfinite(*given.time))
-    return std::nullopt;
-  const Scene& scene = question.place->scene();
-  const Atom& atom = scene.lattices[static_cast<std::size_t>(exact.obstacle.lattice)]
-                         .atoms[static_cast<std::size_t>(exact.obstacle.atom)];
-  const Vec& v = question.query.v;
-  return std::fabs(*given.time - *exact.time) / smallest_semiaxis(atom, scene.dimension) *
-         std::hypot(v[0], v[1], v[2]);
 }
 
 Blame Diagnosis::blame() const {

@@ -58,13 +58,6 @@ struct Diagnosis {
   Blame blame() const;
 };
 
-/// A ball's radius, or the smallest of an ellipsoid's principal semiaxes.
-double smallest_semiaxis(const Atom& atom, int dimension);
-
-/// |t' - t| |v| / r: so far along the ray the time of the right obstacle is off, in its radii (of an ellipsoid its
-/// smallest semiaxis). Nothing if the two answers have no two finite times.
-std::optional<double> radii_off(const Question& question, const Answer& given);
-
 bool names_obstacle(const Answer& answer);
 
 /// Of an answer that departs from the exact one, or has a wrong time, or is an error, or missing; else

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "question/engines.hpp"
+#include "question/radii.hpp"
 
 namespace lorentz::judge {
 namespace {
@@ -170,7 +171,7 @@ void Examination::take(const Question& question, const Reply& reply, ExaminedRow
     row.tally.count(judgement);
   question.place->note(judgement.verdict == Verdict::unsupported);
   if (diagnosis) findings_.add({question, reply.answer, judgement, *diagnosis, last_words_}, row.name);
-  const auto off = judgement.ulps ? radii_off(question, reply.answer) : std::nullopt;
+  const auto off = judgement.ulps ? question::radii_off(question, reply.answer) : std::nullopt;
   if (off) row.max_radii = std::max(row.max_radii.value_or(0), *off);
   if (!question.is_query() || row.tally.queries > kCompared) return;
   const Features features = features_of(

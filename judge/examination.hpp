@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "judge/calls.hpp"
 #include "judge/findings.hpp"
+#include "judge/measures.hpp"
 #include "question/answerer.hpp"
 #include "question/engines.hpp"
 #include "question/examine.hpp"

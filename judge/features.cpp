@@ -6,8 +6,12 @@
 
 #include <lorentz/geometry.hpp>
 #include "judge/diagnosis.hpp"
+#include "question/radii.hpp"
 
 namespace lorentz::judge {
+
+using question::smallest_semiaxis;
+
 namespace {
 
 double shortest_vector(const Scene& scene) {

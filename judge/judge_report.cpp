@@ -314,14 +314,6 @@ void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& r
 
 constexpr Measure kOtherMeasures[] = {Measure::distance, Measure::flight, Measure::start, Measure::radius};
 
-auto decades_of(const Calls& calls) {
-  return json::objects(calls.by_decade(), [](json::Members& one, const auto& decade) {
-    const auto& [exponent, call] = decade;
-    one.add("decade", exponent, "right", call.right, "ill_posed", call.ill_posed, "wrong", call.wrong,
-            "undecided", call.undecided, "radii_off", call.radii_off);
-  });
-}
-
 }  // namespace
 
 std::string JudgeReport::text() const {
@@ -370,10 +362,9 @@ std::string JudgeReport::json() const {
     page.add("findings", json::objects(findings, [&](json::Members& one, const Finding& finding) {
                add_finding(one, finding, *this);
              }));
-    page.add("calls", decades_of(curves[0]), "curves",
+    page.add("calls", curves[0], "curves",
              json::objects(kOtherMeasures, [this](json::Members& one, Measure measure) {
-               one.add("by", name_of(measure), "decades",
-                       decades_of(curves[static_cast<std::size_t>(measure)]));
+               one.add("by", name_of(measure), "decades", curves[static_cast<std::size_t>(measure)]);
              }));
     page.add("free_paths", paths);
   });

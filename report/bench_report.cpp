@@ -99,6 +99,7 @@ class Summary {
     has_times_ |= cell.ulps.exact > 0 || !cell.ulps.counts.empty();
     max_ulp_ = std::max(max_ulp_, cell.ulps.max);
     max_condition_ = std::max(max_condition_, cell.conditions.max);
+    calls_.add(cell.calls);
   }
 
   std::string conclusion(const std::string& name) const {
@@ -111,7 +112,7 @@ class Summary {
                                       {unsupported_, "unsupported"},
                                       {failed_, "without an answer"}})
       if (count > 0) text += fmt::format("; {} {}", count, what);
-    text += '\n';
+    text += '\n' + edge_text();
     if (wrong_time_ > 0)
       text +=
           fmt::format("  {} wrong {} of right obstacles\n", wrong_time_, wrong_time_ == 1 ? "time" : "times");
@@ -125,6 +126,19 @@ class Summary {
   }
 
  private:
+  // Where it begins to fail.
+  std::string edge_text() const {
+    std::optional<int> last;
+    for (const auto& [decade, call] : calls_.by_decade())
+      if (call.wrong > 0) last = decade;
+    if (!last) return "";
+    std::size_t beyond = 0;
+    for (const auto& [decade, call] : calls_.by_decade()) beyond += decade > *last ? call.total() : 0;
+    return fmt::format(
+        "  wrong only where the obstacle is met or missed by less than 1e{:+03} radii, not in {} beyond\n",
+        *last + 1, beyond);
+  }
+
   std::string wrong_text() const {
     const std::size_t answers = queries_ - undecided_ - unsupported_ - failed_;
     if (answers == 0) return "no answer to judge";
@@ -141,6 +155,7 @@ class Summary {
   bool has_times_ = false;
   std::optional<double> fastest_;
   double slowest_ = 0, max_ulp_ = 0, max_condition_ = 0;
+  Calls calls_;
 };
 
 }  // namespace

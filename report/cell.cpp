@@ -33,7 +33,8 @@ void append_json(std::string& out, const Cell& cell) {
                measured(cell.mean_path), "undecided", measured(cell.undecided), "ill_posed",
                measured(cell.ill_posed), "wrong", measured(cell.wrong), "wrong_time",
                measured(cell.wrong_time), "error", measured(cell.error), "missing", measured(cell.missing),
-               "ulps", measured(cell.ulps), "conditions", measured(cell.conditions), "worst",
+               "ulps", measured(cell.ulps), "conditions", measured(cell.conditions), "calls",
+               measured(cell.calls), "worst",
                cell.worst && !cell.skipped
                    ? std::optional([&](json::Members& worst) { add_worst(worst, *cell.worst); })
                    : std::nullopt);
@@ -115,6 +116,7 @@ void read_measured(json::Object& object, Cell& cell) {
   cell.missing = count(object, "missing");
   cell.ulps = histogram(object["ulps"].object());
   cell.conditions = histogram(object["conditions"].object());
+  cell.calls = calls_of(object["calls"].array());
   if (json::Value value = object["worst"]; !value.is_null()) cell.worst = worst(value.object());
 }
 
@@ -158,6 +160,20 @@ bool fits(const Histogram& h, std::size_t most) {
                            : std::ilogb(h.max) == h.first + static_cast<int>(h.counts.size()) - 1);
 }
 
+// No more of each verdict than the cell has.
+bool fits(const Calls& calls, const Cell& cell) {
+  Call all;
+  for (const auto& [decade, call] : calls.by_decade()) {
+    if (call.total() == 0 || !(call.radii_off >= 0)) return false;
+    for (const auto part : {&Call::right, &Call::ill_posed, &Call::wrong, &Call::undecided}) {
+      if (call.*part > cell.queries) return false;
+      all.*part += call.*part;
+    }
+  }
+  return all.ill_posed <= cell.ill_posed.count && all.wrong <= cell.wrong.count &&
+         all.undecided <= cell.undecided.count && all.total() <= cell.queries;
+}
+
 bool is_verdict(const std::string& text) {
   return text == "wrong" || text == "ill-posed" || text == "wrong-time" || text == "agree";
 }
@@ -183,6 +199,7 @@ std::string flaw_of(const Cell& cell, std::size_t most) {
   if (!(cell.instructions.value_or(0) >= 0) || !(cell.mean_path >= 0)) return "has a number below zero";
   if (!fits(cell.ulps, n) || !fits(cell.conditions, n))
     return "has a histogram that is not one of its answers";
+  if (!fits(cell.calls, cell)) return "has calls that are not those of its answers";
   if (cell.worst && (!is_verdict(cell.worst->verdict) || !(cell.worst->ulps.value_or(0) >= 0)))
     return "has a worst input without a verdict";
   return "";

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "report/calls.hpp"
 #include "report/histogram.hpp"
 #include "report/share.hpp"
 
@@ -44,6 +45,7 @@ struct Cell {
   std::size_t unsupported = 0, error = 0, missing = 0;
   Histogram ulps;        ///< errors of the times of right hits, in ulps
   Histogram conditions;  ///< the same in units of the condition (lorentz/margin.hpp)
+  Calls calls;           ///< by how many radii the line enters or misses the obstacle in question
   std::optional<Worst> worst;
 
   friend bool operator==(const Cell&, const Cell&) = default;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <lorentz/query.hpp>
+#include <lorentz/scene.hpp>
 
 namespace lorentz::report {
 

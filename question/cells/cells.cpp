@@ -11,6 +11,7 @@
 #include "files/scene_file.hpp"
 #include "question/examine.hpp"
 #include "question/race.hpp"
+#include "question/radii.hpp"
 #include "report/claim_words.hpp"
 #include "report/query_text.hpp"
 #include "starts/free_starts.hpp"
@@ -78,12 +79,22 @@ double mean_path(std::span<const Question> questions) {
   return hits > 0 ? sum / static_cast<double>(hits) : 0;
 }
 
+// By so many of its radii the line enters or misses the obstacle in question.
+std::optional<double> call_of(const Question& question, const oracle::Judgement& judgement) {
+  const bool names_one = question.exact.outcome == Outcome::hit;
+  if (!judgement.obstacle && !names_one) return std::nullopt;
+  const ObstacleId& obstacle = judgement.obstacle ? *judgement.obstacle : question.exact.obstacle;
+  return question.place->margins().approach(question.query, obstacle).gap;
+}
+
 // Of the answers of one engine what a tally does not keep.
 class Errors {
  public:
   void add(const Judged& judged) {
-    const oracle::Judgement& judgement = judged.judgement;
-    const double condition = judged.question.condition;
+    const auto& [question, reply, judgement] = judged;
+    calls_.add(call_of(question, judgement), judgement.verdict,
+               judgement.ulps ? radii_off(question, reply.answer) : std::nullopt);
+    const double condition = question.condition;
     const double ulps = judgement.ulps.value_or(0);
     if (judgement.ulps && condition > 0 && std::isfinite(ulps / condition))
       in_conditions_.push_back(ulps / condition);
@@ -93,11 +104,12 @@ class Errors {
                                                                        : 0;
     const double size = rank > 1 ? judgement.departs : ulps;
     if (rank < rank_ || (rank == rank_ && !(size > size_)) || rank == 0) return;
-    rank_ = rank, size_ = size, question_ = judged.question;
+    rank_ = rank, size_ = size, question_ = question;
     worst_ = judgement;
   }
 
   const std::vector<double>& in_conditions() const { return in_conditions_; }
+  const report::Calls& calls() const { return calls_; }
 
   std::optional<report::Worst> worst(const BenchGroup& group, const std::string& engine) const {
     if (rank_ == 0) return std::nullopt;
@@ -127,6 +139,7 @@ class Errors {
   }
 
   std::vector<double> in_conditions_;
+  report::Calls calls_;
   int rank_ = 0;  // of the worst so far: 0 none, 1 right, 2 ill-posed, 3 wrong
   double size_ = -1;
   Question question_;
@@ -168,6 +181,7 @@ void examine_into(report::Cell& cell, Answerer& answerer, const BenchGroup& grou
   fill(cell, tally);
   cell.mean_path = mean_path(questions);
   cell.conditions = report::histogram_of(errors.in_conditions());
+  cell.calls = errors.calls();
   cell.worst = errors.worst(group, cell.engine);
 }
 

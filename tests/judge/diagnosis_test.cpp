@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "judge/findings.hpp"
+#include "question/radii.hpp"
 
 using namespace lorentz;
 using namespace lorentz::judge;
@@ -108,7 +109,7 @@ TEST_CASE("A time is off by so many radii along the ray, of an ellipsoid by its 
     const Question question{place, query, place->oracle().first_hit(query), "here", ""};
     REQUIRE(question.exact.outcome == Outcome::hit);
     const Answer given = Answer::hit(question.exact.obstacle, *question.exact.time + later);
-    return std::pair(radii_off(question, given), diagnosed(question, given));
+    return std::pair(question::radii_off(question, given), diagnosed(question, given));
   };
   const auto [ball, diagnosis] = off(unit_scene(2, 0.25), {4, 0, 0}, 0.0625);
   CHECK(ball == Approx(1));
@@ -121,8 +122,8 @@ TEST_CASE("A time is off by so many radii along the ray, of an ellipsoid by its 
   Scene slender = unit_scene(2, 0.25);
   // Sheared: the smallest semiaxis is no column's length.
   slender.lattices[0].atoms[0] = Atom{{}, 0, {{0.25, 0, 0}, {0.25, 0.0625, 0}}};
-  const double expected = 0.0625 / smallest_semiaxis(slender.lattices[0].atoms[0], 2);
-  CHECK(smallest_semiaxis(slender.lattices[0].atoms[0], 2) == Approx(0.0438).epsilon(0.01));
+  const double expected = 0.0625 / question::smallest_semiaxis(slender.lattices[0].atoms[0], 2);
+  CHECK(question::smallest_semiaxis(slender.lattices[0].atoms[0], 2) == Approx(0.0438).epsilon(0.01));
   CHECK(off(slender, {1, 0, 0}, 0.0625).first == Approx(expected));
   CHECK_FALSE(off(unit_scene(2, 0.25), {4, 0, 0}, INFINITY).first);
 }

@@ -1,10 +1,8 @@
-// What an engine's free paths are compared with, and how close its calls were.
+// What an engine's free paths are compared with.
 #include "judge/free_paths.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
-
-#include "judge/calls.hpp"
 
 using namespace lorentz;
 using namespace lorentz::judge;
@@ -47,21 +45,4 @@ TEST_CASE("What an engine does not decide is in neither distribution", "[judge][
   CHECK(paths.points().empty());
   paths.add(flight(3), Answer::hit({}, 3));
   CHECK(paths.mean() == 3);
-}
-
-TEST_CASE("Calls are counted by decade and verdict", "[judge][calls]") {
-  using oracle::Verdict;
-  Calls calls, more;
-  calls.add(3e-10, Verdict::wrong);
-  calls.add(-2e-10, Verdict::agree);
-  calls.add(1e-3, Verdict::undecided);
-  more.add(9.9e-10, Verdict::ill_posed);
-  for (const auto& [radii, verdict] :
-       {std::pair{std::optional<double>(), Verdict::wrong}, {0.0, Verdict::wrong}, {0.5, Verdict::error}})
-    calls.add(radii, verdict);
-  calls.add(more);
-  REQUIRE(calls.by_decade().size() == 2);
-  const Call& close = calls.by_decade().at(-10);
-  CHECK(close.wrong + close.right * 10 + close.ill_posed * 100 + close.undecided * 1000 == 111);
-  CHECK(calls.by_decade().at(-3).undecided == 1);
 }

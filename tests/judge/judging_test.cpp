@@ -106,7 +106,7 @@ std::string text_of(const Finding& finding) {
   return text;
 }
 
-std::string text_of(const Calls& calls) {
+std::string text_of(const report::Calls& calls) {
   std::string text;
   for (const auto& [decade, call] : calls.by_decade())
     text += std::to_string(decade) + ": " + std::to_string(call.right) + ' ' +

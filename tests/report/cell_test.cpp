@@ -79,6 +79,28 @@ TEST_CASE("Power laws: intervals hold the exponent 95 times in 100", "[report][p
   }
 }
 
+TEST_CASE("Calls are counted by decade and verdict", "[report][calls]") {
+  using lorentz::oracle::Verdict;
+  Calls calls, more;
+  calls.add(3e-10, Verdict::wrong);
+  calls.add(-2e-10, Verdict::agree);
+  calls.add(1e-3, Verdict::undecided);
+  more.add(9.9e-10, Verdict::ill_posed);
+  for (const auto& [radii, verdict] :
+       {std::pair{std::optional<double>(), Verdict::wrong}, {0.0, Verdict::wrong}, {0.5, Verdict::error}})
+    calls.add(radii, verdict);
+  calls.add(more);
+  REQUIRE(calls.by_decade().size() == 2);
+  const Call& close = calls.by_decade().at(-10);
+  CHECK(close.wrong + close.right * 10 + close.ill_posed * 100 + close.undecided * 1000 == 111);
+  CHECK(calls.by_decade().at(-3).undecided == 1);
+  std::string text;
+  append_json(text, calls);
+  json::Document document;
+  document.open(text);
+  CHECK(calls_of(document.value().array()) == calls);
+}
+
 TEST_CASE("What a store keeps of cells reads back as the same cells, or is refused", "[report][cell]") {
   Cell cell;
   cell.scene = "a \"scene\"", cell.radius = 0.1, cell.dimension = 2;
@@ -95,6 +117,8 @@ TEST_CASE("What a store keeps of cells reads back as the same cells, or is refus
   cell.missing = 7;
   cell.ulps = histogram_of({0, 1, 1e9});
   cell.conditions = histogram_of({0.1});
+  cell.calls.add(3e-10, lorentz::oracle::Verdict::wrong);
+  cell.calls.add(0.5, lorentz::oracle::Verdict::agree, 1e-9);
   cell.conditions.p99 = 0.0625;  // which of few is the largest, too
   Query query{{0.75, 0, 0}, {1, -0x1p-30, 0}, ObstacleId{0, 0, {Integer(1), Integer(-2), Integer(0)}}};
   cell.worst = Worst{"wrong", {}, hexadecimal_query(query, 2), "echo '\n"};
@@ -160,6 +184,10 @@ TEST_CASE("A cell that no engine can have come to has a flaw", "[report][cell]")
       [](Cell& c) { c.ulps.max = 1e8; },
       [](Cell& c) { c.ulps.p99 = -1; },
       [](Cell& c) { c.conditions.mean = 1; },
+      [](Cell& c) { c.calls.add(-3, Call{.wrong = 4}); },
+      [](Cell& c) { c.calls.add(-3, Call{.right = 48, .wrong = 3}); },
+      [](Cell& c) { c.calls.add(-3, Call{.right = ~std::size_t{0}}); },
+      [](Cell& c) { c.calls.add(-3, Call{}); },
       [](Cell& c) {
         c.worst = Worst{"right", {}, "", ""};
       }};

@@ -81,6 +81,7 @@ const EXPECTED = {
     "speed-against-error": { dot: group(r, 1e-3).length, line: 1 },
     "time-against-radius": { dot: group(r).length, line: 5 },
     "error-histograms": { rect: 9 * bars(r) },
+    calls: { rect: 2 }, // of the first engine: all right, but for a few that are undecided
     survival: { dot: 90, line: 3 },
     "free-paths": { dot: 48, line: 2 },
   }),
@@ -96,6 +97,7 @@ const EXPECTED = {
     "speed-against-error": { dot: 5 },
     "time-against-radius": { dot: 20 },
     "error-histograms": { rect: 45 },
+    calls: { rect: 2 },
   }),
   big: (r) => ({ closeness: { dot: 1429 }, difficulties: { dot: faults(r) } }),
   small: () => ({}),
@@ -410,6 +412,9 @@ test("Choices of what is shown change the chart", async () => {
     assert.match(await chart.locator('g[aria-label="y-axis label"]').innerHTML(), /\[ulps\]/);
     await chart.getByLabel("Radius", { exact: true }).selectOption("all");
     assert.equal(await chart.locator('g[aria-label="dot"] path').count(), 25);
+    const calls = page.locator("[data-chart=calls]");
+    await calls.getByLabel("Engine", { exact: true }).selectOption("float");
+    assert.equal(await calls.locator(".plot > svg rect").count(), 3); // wrong; right, undecided
   });
 });
 

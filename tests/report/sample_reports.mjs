@@ -278,6 +278,10 @@ function cell(draw, scene, radius, difficulty, [engine, ns, wrong, slope, ulps])
     wrong_time: share(Math.round(faults / 9), queries),
     ulps: histogram(draw, queries, ulps),
     conditions: histogram(draw, queries, ulps / 3),
+    calls: [
+      { decade: -10, right: 0, ill_posed: 0, wrong: Math.min(faults, queries), undecided: 0, radii_off: 0 },
+      { decade: -1, right: 2 * queries, ill_posed: 0, wrong: 0, undecided: 4, radii_off: 1e-9 },
+    ].filter((call) => call.wrong + call.right > 0),
     worst: {
       ulps: ulps * 7,
       query: { x: ["0x1p-1", "0x1p-3"], v: ["0x1p+0", "0x1.8p-4"] },
@@ -301,6 +305,7 @@ function bench() {
     ns: null,
     ulps: null,
     conditions: null,
+    calls: null,
     worst: null,
     wrong: null,
   });

@@ -9,6 +9,7 @@ import { findingsSection } from "./findings.js";
 import { head } from "./head.js";
 import { manifestSection } from "./manifest.js";
 import { themeSwitch } from "./theme.js";
+import { callsOfCells } from "./charts/calls.js";
 import { freePaths } from "./charts/free_paths.js";
 import { histograms } from "./charts/histograms.js";
 import { speedError } from "./charts/speed_error.js";
@@ -42,7 +43,7 @@ function sections(report) {
     "speed",
     "Speed and error",
     null,
-    grid(speedError(cells, looks), timeRadius(cells, looks), histograms(cells, looks)),
+    grid(speedError(cells, looks), timeRadius(cells, looks), histograms(cells, looks), callsOfCells(cells)),
   );
   const flights = section(
     "flights",

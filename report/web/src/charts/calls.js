@@ -35,19 +35,38 @@ const rangeOf = ({ decade }) =>
 
 const CLOSE = "radii by which the line enters or misses the obstacle in question";
 
+/** Of a judged engine, by what makes its questions hard. */
 export function calls(report) {
-  const measures = [{ by: CLOSE, decades: report.calls ?? [] }, ...(report.curves ?? [])]
-    .map(({ by, decades }) => ({ by, all: gathered(decades) }))
-    .filter(({ all }) => all.length > 0);
-  if (!measures.length) return null;
-  const by = choice(
+  const measures = [{ by: CLOSE, decades: report.calls ?? [] }, ...(report.curves ?? [])];
+  return chartOf(
     "By",
-    measures.map((its) => [its.by, its.by]),
+    measures.map(({ by, decades }) => ({ name: by, by, decades })),
+  );
+}
+
+/** Of each engine of a bench, by closeness. */
+export function callsOfCells({ cells }) {
+  const engines = [...new Set(cells.map((cell) => cell.engine))];
+  const decadesOf = (engine) => cells.filter((c) => c.engine === engine).flatMap((c) => c.calls ?? []);
+  return chartOf(
+    "Engine",
+    engines.map((name) => ({ name, by: CLOSE, decades: decadesOf(name) })),
+  );
+}
+
+function chartOf(label, curves) {
+  const filled = curves
+    .map(({ name, by, decades }) => ({ name, by, all: gathered(decades) }))
+    .filter(({ all }) => all.length > 0);
+  if (!filled.length) return null;
+  const chosen = choice(
+    label,
+    filled.map(({ name }) => [name, name]),
     () => made.redraw(),
   );
 
   function draw(width) {
-    const { all } = measures.find((its) => its.by === by.value) ?? measures[0];
+    const { all, by } = filled.find(({ name }) => name === chosen.value) ?? filled[0];
     const parts = PARTS.filter(({ key }) => all.some((call) => call[key] > 0));
     const first = all[0].decade,
       last = all.at(-1).decade;
@@ -66,7 +85,7 @@ export function calls(report) {
       x: {
         type: "band",
         domain,
-        label: by.value ?? CLOSE,
+        label: by,
         labelAnchor: "center",
         tickSize: 0,
         padding: 0.12,
@@ -113,7 +132,7 @@ export function calls(report) {
         name: verdict.word,
         look: { colour: verdict.colour, symbol: verdict.symbol ?? "circle", dash: "" },
       })),
-      summary: said(all, by.value ?? CLOSE),
+      summary: said(all, by),
       numbers: {
         columns: ["from", "right", "ill-posed", "wrong", "undecided", "times off by, radii"],
         rows: all.map((c) => [10 ** c.decade, c.right, c.ill_posed, c.wrong, c.undecided, c.off]),
@@ -124,7 +143,7 @@ export function calls(report) {
     name: "calls",
     title: "Where it begins to fail",
     note: "Each bar holds the answers of one power of ten; right ones are faint. By closeness: if only the bars left of an edge are coloured, the engine decides with a tolerance of that size; if colour reaches far to the right, plain cases are wrong too. By distances: colour on the right is what large numbers cost.",
-    controls: [by.element],
+    controls: [chosen.element],
     draw,
   });
   return made.element;

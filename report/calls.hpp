@@ -1,30 +1,22 @@
 // Where an engine begins to fail: its answers by the decade of what makes a question hard.
 #pragma once
 
-#include <array>
 #include <map>
 #include <optional>
+#include <string>
 
 #include <lorentz/verdict.hpp>
+#include "src/exchange/exchange_json.hpp"
 
-namespace lorentz::judge {
-
-/// What makes a question hard.
-enum class Measure {
-  call,      ///< by how many radii the line enters or misses the obstacle in question
-  distance,  ///< from the start to the centre of the obstacle in question, in its radii
-  flight,    ///< to the obstacle that is hit, in lattice vectors
-  start,     ///< from the origin to the start, in lattice vectors
-  radius     ///< the smallest, in lattice vectors
-};
-inline constexpr int kMeasures = 5;
-
-const char* name_of(Measure measure);
+namespace lorentz::report {
 
 /// Answers from 10^decade to 10^(decade + 1).
 struct Call {
   std::size_t right = 0, ill_posed = 0, wrong = 0, undecided = 0;
   double radii_off = 0;  ///< the largest error of a time, along the ray
+
+  std::size_t total() const { return right + ill_posed + wrong + undecided; }
+  friend bool operator==(const Call&, const Call&) = default;
 };
 
 /// By decade. A tolerance shows as an edge: wrong below, right above.
@@ -34,14 +26,19 @@ class Calls {
   /// one that is passed over or named. Nothing to tell: no size, or 0, or another verdict than the four.
   void add(std::optional<double> size, oracle::Verdict verdict, std::optional<double> radii_off = {});
   void add(const Calls& others);
+  void add(int decade, const Call& call);
 
   const std::map<int, Call>& by_decade() const { return by_decade_; }
+  friend bool operator==(const Calls&, const Calls&) = default;
 
  private:
   std::map<int, Call> by_decade_;
 };
 
-/// One for each measure.
-using Curves = std::array<Calls, kMeasures>;
+/// An array of objects, one a decade, its keys as the members are called.
+void append_json(std::string& out, const Calls& calls);
 
-}  // namespace lorentz::judge
+/// What append_json wrote. Throws InputError and json::Error.
+Calls calls_of(json::Array array);
+
+}  // namespace lorentz::report
