@@ -102,6 +102,9 @@ class Margins {
   /// make. Requires an exact `hit`.
   double condition(const Query& query, const Answer& exact) const;
 
+  /// The same sum, in the time's own unit: the change of t when every input moves by an ulp. Requires an exact `hit`.
+  double time_change(const Query& query, const Answer& exact) const;
+
  private:
   struct Impl;
   std::unique_ptr<const Impl> impl_;

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <lorentz/answer.hpp>
 #include <lorentz/claim.hpp>
@@ -23,6 +24,9 @@ enum class Verdict {
 
 /// The tolerance k, in ulps of the inputs, unless told otherwise.
 inline constexpr double kDefaultUlps = 4;
+
+/// How many obstacles and stretches of the line Judge::excused looks at before it says that they are too many.
+inline constexpr long kExcusedBudget = 20'000;
 
 /// A time that is off by more than this many times what an ulp in each input makes of it is not rounded: it is
 /// another quantity, such as the time at which the line leaves the obstacle.
@@ -48,6 +52,12 @@ struct Judgement {
   std::optional<ObstacleId> obstacle = {};
 };
 
+/// An answer other than the exact one, and by how many ulps each input must move, at least, for it to be right.
+struct ExcusedAnswer {
+  Answer answer;  ///< without a time
+  double ulps = 0;
+};
+
 /// Judges answers to the queries of one scene.
 ///
 ///  1. `wrong` is an answer that no movement of each input by up to `ulps` units in its last place makes
@@ -68,6 +78,8 @@ struct Judgement {
 ///             "A tolerance of times, and what it forgives of the order"
 ///  5. Any number of threads may ask one judge.
 ///     held by "Many threads may ask one engine, oracle, walk and judge"
+///  6. excused() lists what judge() forgives, and nothing else.
+///     held by "Excused answers are those that the judge calls ill-posed"
 ///
 /// Cost: nothing to speak of where the two agree, else 100 us and more.
 class Judge {
@@ -82,6 +94,12 @@ class Judge {
   /// two agree.
   Judgement judge(const Query& query, const Answer& exact, const Answer& given,
                   double ulps = kDefaultUlps) const;
+
+  /// All answers that judge() calls ill-posed with this tolerance, by `ulps`, the least first: whoever has them can
+  /// judge without a Judge. Nothing if they are more than `most`, or endless, or too many obstacles come into
+  /// question (kExcusedBudget). The claim's time tolerance is not looked at.
+  std::optional<std::vector<ExcusedAnswer>> excused(const Query& query, const Answer& exact, double ulps,
+                                                    std::size_t most) const;
 
  private:
   struct Impl;

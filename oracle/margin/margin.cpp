@@ -219,6 +219,14 @@ bool is_binary64(const Z& a, long exponent) {
 
 struct Margins::Impl {
   PerturbedScene scene;
+
+  // Of the time, in this unit, when every input moves by an ulp.
+  double change(const Query& query, const Answer& exact, double unit) const {
+    return scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
+      return to_double(change_of_time(perturbed, exact.obstacle) / Real(unit),
+                       std::numeric_limits<double>::max());
+    });
+  }
 };
 
 Margins::Margins(const Scene& scene, NumberFormat precision)
@@ -278,11 +286,11 @@ Crossing Margins::crossing(const Query& query, const ObstacleId& obstacle) const
 }
 
 double Margins::condition(const Query& query, const Answer& exact) const {
-  return impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
-    return to_double(
-        change_of_time(perturbed, exact.obstacle) / Real(ulp(*exact.time, impl_->scene.precision())),
-        std::numeric_limits<double>::max());
-  });
+  return impl_->change(query, exact, ulp(*exact.time, impl_->scene.precision()));
+}
+
+double Margins::time_change(const Query& query, const Answer& exact) const {
+  return impl_->change(query, exact, 1);
 }
 
 }  // namespace lorentz::oracle

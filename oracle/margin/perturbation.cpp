@@ -149,6 +149,11 @@ Real Uncertain<D>::largest_change(const Real& latest) const {
 }
 
 template <std::size_t D>
+Real Uncertain<D>::largest_change_across(const Real& latest) const {
+  return longest_corner(ulps_at(latest), true) + radius_ulp_;
+}
+
+template <std::size_t D>
 Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const Centre<D>& centre1,
                      const Uncertain<D>& atom2, const Centre<D>& centre2) {
   const int order = compare_entries(centre1.s, atom1.rho2() - centre1.h2, atom1.view().velocity.v2, centre2.s,

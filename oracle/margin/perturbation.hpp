@@ -102,6 +102,8 @@ class Uncertain {
   /// A bound of the change of |distance of the line - r| and of ||x - c| - r| for all centres with |T| <=
   /// latest.
   Real largest_change(const Real& latest) const;
+  /// The same of the distance of the line alone.
+  Real largest_change_across(const Real& latest) const;
 
  private:
   /// Sum of |(B^T a)_i| ulp_i.

@@ -114,6 +114,16 @@ Object Value::object() {
 std::string_view Value::text() {
   return known(inside(*this).get_string());
 }
+std::string Value::raw() {
+  if (type() == Type::object) return std::string(object().text());
+  if (type() == Type::array) {
+    std::string text;
+    each_element(array(), [&](Value element) { text += (text.empty() ? "[" : ",") + element.raw(); });
+    return text.empty() ? "[]" : text + ']';
+  }
+  const std::string_view token = inside(*this).raw_json_token();
+  return std::string(token.substr(0, token.find_last_not_of(" \t\r\n") + 1));
+}
 std::uint64_t Value::natural() {
   return known(inside(*this).get_uint64());
 }

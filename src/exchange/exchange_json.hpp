@@ -62,6 +62,7 @@ class Value : public Handle {
   Array array();
   Object object();
   std::string_view text();  ///< of a string, unescaped; it is there as long as the document
+  std::string raw();        ///< of any type, as it stands in the document but for spaces in arrays
   std::uint64_t natural();
   std::int64_t integer();
   bool boolean();
@@ -142,9 +143,10 @@ NumbersRead read_numbers(json::Value value, const char* place);
 Integer read_integer(json::Value value, const char* key);
 
 /// An answer's members into a fresh answer; `components` becomes the number of its cell's coordinates;
-/// `keys`, if given, gets all keys. Throws InputError. False for a `golden` header.
+/// `keys`, if given, gets all keys, and `ulps` the number of that key. Throws InputError. False for a `golden` header.
 bool read_answer(json::Object object, std::string& id, Answer& answer, std::size_t& components,
-                 const OnUnknownKey& on_unknown_key = {}, std::set<std::string>* keys = nullptr);
+                 const OnUnknownKey& on_unknown_key = {}, std::set<std::string>* keys = nullptr,
+                 double* ulps = nullptr);
 
 /// A value of a scene, which is in `depth` objects and arrays. A number beyond the range of binary64 is
 /// infinite.

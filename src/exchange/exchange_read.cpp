@@ -143,11 +143,14 @@ void read_answer_field(std::string_view key, json::Value value, Id& id, Answer& 
 }  // namespace
 
 bool read_answer(json::Object object, Id& id, Answer& answer, std::size_t& components,
-                 const OnUnknownKey& on_unknown_key, std::set<std::string>* keys) {
+                 const OnUnknownKey& on_unknown_key, std::set<std::string>* keys, double* ulps) {
   AnswerFields has;
   json::each_member(object, [&](std::string_view key, json::Value value) {
     if (keys) keys->emplace(key);
-    read_answer_field(key, value, id, answer, has, on_unknown_key);
+    if (ulps && key == "ulps")
+      *ulps = read_number(value, "ulps");
+    else
+      read_answer_field(key, value, id, answer, has, on_unknown_key);
   });
   if (has.golden && !has.outcome) return false;
   if (!has.outcome) throw InputError("outcome is missing");
