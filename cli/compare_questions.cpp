@@ -4,8 +4,6 @@
 #include "cli/terminal.hpp"
 #include "files/messages.hpp"
 #include "files/scene_file.hpp"
-#include "src/exchange/columns_csv.hpp"
-#include "src/exchange/columns_npy.hpp"
 
 namespace lorentz::cli {
 
@@ -21,11 +19,7 @@ ComparedQuestions::ComparedQuestions(const CompareOptions& options, Disagreement
   // What --scene names is rounded to what the engine can take; what a stream holds is asked as it is.
   if (scene) scene = rounded_scene(*scene, claim_.precision, options.scene.value_or("square"));
   if (scene) enter(*scene);
-  if (!options.queries) return;
-  if (is_columns(*options.queries))
-    open_columns(*options.queries);
-  else
-    stream_.emplace(*options.queries, scene, options.unknown_keys());
+  if (options.queries) given_.emplace(*options.queries, scene, options.unknown_keys());
 }
 
 void ComparedQuestions::enter(const Scene& scene) {
@@ -34,19 +28,8 @@ void ComparedQuestions::enter(const Scene& scene) {
   is_new_ = true;
 }
 
-void ComparedQuestions::open_columns(const std::string& path) {
-  if (!place_) throw InputError("--queries: columns hold no scene; --scene says it");
-  const UnknownKeys policy = options_.unknown_keys();
-  if (path.ends_with(".npy"))
-    columns_ =
-        std::make_unique<NpyQueryReader>(path, dimension(), unknown_columns(npy_query_fields(), policy));
-  else
-    columns_ = std::make_unique<CsvQueryReader>(path, components(),
-                                                unknown_columns(csv_query_columns(dimension()), policy));
-}
-
 std::vector<Question> ComparedQuestions::next(std::size_t most) {
-  return columns_ ? read_columns(most) : stream_ ? read(most) : draw(most);
+  return given_ ? read(most) : draw(most);
 }
 
 // Answers are matched by id, so the queries' must be unique.
@@ -76,40 +59,11 @@ std::vector<Question> ComparedQuestions::draw(std::size_t most) {
 
 std::vector<Question> ComparedQuestions::read(std::size_t most) {
   Questions questions;
-  for (StreamItem item; questions.size() < most && stream_->next(item);) {
-    if (item.kind == StreamItem::Kind::scene) enter(item.scene);
-    if (item.kind == StreamItem::Kind::query) add(questions, item.query, item.id);
+  for (GivenQuery given; questions.size() < most && given_->next(given);) {
+    if (given.new_scene && !(place_ && place_->scene() == *given_->scene())) enter(*given_->scene());
+    if (given.query) add(questions, *given.query, given.id);
   }
   return questions;
-}
-
-std::vector<Question> ComparedQuestions::read_columns(std::size_t most) {
-  Questions questions;
-  for (QueryRows rows; questions.empty() && columns_->next(rows, most); rows.clear())
-    take_rows(rows, questions);
-  return questions;
-}
-
-void ComparedQuestions::take_rows(const QueryRows& rows, Questions& questions) {
-  if (!rows.max_time.empty())
-    throw InputError(columns_->name() + ": has limits (max_time); queries are compared without");
-  auto flaw = rows.flaws.begin();
-  for (std::size_t i = 0; i < rows.count; ++i, ++rows_) {
-    const Query query = rows.query(i, dimension());
-    const Id id = rows.id.empty() ? std::to_string(rows_) : json_quoted(rows.id[i]);
-    const bool is_unreadable = flaw != rows.flaws.end() && flaw->row == i;
-    if (is_unreadable)
-      complain(id, (flaw++)->message);
-    else if (const auto why = flaw_of(query, place_->scene()))
-      complain(id, *why);
-    else
-      add(questions, query, id);
-  }
-}
-
-void ComparedQuestions::complain(const Id& id, const std::string& why) {
-  constexpr std::size_t kMost = 20;
-  if (++bad_rows_ <= kMost) say("{}: row {}: {}", columns_->name(), id, why);
 }
 
 }  // namespace lorentz::cli

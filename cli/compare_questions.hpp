@@ -9,9 +9,8 @@
 
 #include "cli/claim_options.hpp"
 #include "cli/disagreement_file.hpp"
-#include "cli/query_stream.hpp"
+#include "cli/given_queries.hpp"
 #include "question/question.hpp"
-#include "src/exchange/columns.hpp"
 #include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
@@ -29,11 +28,6 @@ struct CompareOptions {
   UnknownKeys unknown_keys() const { return strict ? UnknownKeys::errors : UnknownKeys::warned; }
 };
 
-/// True if the name of the file says that it holds columns.
-inline bool is_columns(const std::string& path) {
-  return path.ends_with(".npy") || path.ends_with(".csv");
-}
-
 /// The questions that the options ask for, part by part, without answers.
 class ComparedQuestions {
  public:
@@ -43,7 +37,7 @@ class ComparedQuestions {
   /// The next questions, at most `most`; empty at the end.
   std::vector<question::Question> next(std::size_t most);
 
-  bool had_bad_input() const { return bad_rows_ > 0 || bad_ids_ || (stream_ && stream_->had_bad_input()); }
+  bool had_bad_input() const { return bad_ids_ || (given_ && given_->had_bad_input()); }
   std::size_t count() const { return count_; }
   std::size_t not_asked() const { return not_asked_; }  ///< that have numbers of another precision
   std::size_t scenes() const { return scenes_; }        ///< with questions
@@ -52,7 +46,7 @@ class ComparedQuestions {
   std::vector<question::Question> passed_over() { return std::exchange(passed_over_, {}); }
 
   /// Are the queries columns? Then rows of answers are matched to them by number.
-  bool are_columns() const { return columns_ != nullptr; }
+  bool are_columns() const { return given_ && given_->are_columns(); }
   int dimension() const { return place_ ? place_->scene().dimension : 0; }
   Components components() const { return place_ ? Components(place_->scene()) : 0; }
 
@@ -60,24 +54,19 @@ class ComparedQuestions {
   using Questions = std::vector<question::Question>;
 
   void enter(const Scene& scene);
-  void open_columns(const std::string& path);
   Questions draw(std::size_t most);
   Questions read(std::size_t most);
-  Questions read_columns(std::size_t most);
-  void take_rows(const QueryRows& rows, Questions& questions);
   void add(Questions& questions, const Query& query, const Id& id);
-  void complain(const Id& id, const std::string& why);
 
   const CompareOptions& options_;
   const Claim claim_;
   DisagreementFile& disagreements_;
-  std::optional<QueryStream> stream_;      // or
-  std::unique_ptr<ColumnReader> columns_;  // or drawn
+  std::optional<GivenQueries> given_;  // or drawn
   std::shared_ptr<question::Place> place_;
   std::optional<starts::FreeStarts> starts_;  // of drawn queries
   bool is_new_ = false, bad_ids_ = false;
   std::vector<question::Question> passed_over_;
-  std::size_t not_asked_ = 0, rows_ = 0, bad_rows_ = 0, count_ = 0, scenes_ = 0;
+  std::size_t not_asked_ = 0, count_ = 0, scenes_ = 0;
   std::unordered_set<Id> ids_;
 };
 

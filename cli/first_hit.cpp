@@ -138,8 +138,11 @@ int act_on_lines(const FirstHitOptions& options) {
     initial = load_scene(*options.scene, options.radius, unknown);
     answerer->set_scene(*initial);
   }
+  if (options.records) {
+    GivenQueries queries(options.queries, initial, unknown);
+    return write_records(queries, options.queries);
+  }
   QueryStream stream(options.queries, initial, unknown);
-  if (options.records) return write_records(stream, options.queries);
   if (options.prove) return answer_with_proofs(stream, *answerer);
   Output output;
   AnswerOrder order(output.buffer());

@@ -1,10 +1,9 @@
 #include "cli/first_hit_proofs.hpp"
 
-#include <set>
-
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "files/messages.hpp"
 #include "golden/maker.hpp"
@@ -85,38 +84,19 @@ int answer_with_proofs(QueryStream& stream, question::Answerer& answerer) {
   return unproved > 0 ? kDisagreement : kDone;
 }
 
-int write_records(QueryStream& stream, const std::string& source) {
-  std::string lines, scene_line;
-  std::set<std::string> ids;
-  long unproved = 0;
-  each_query(
-      stream,
-      [&](const golden::Maker& maker, const StreamItem& item) {
-        try {
-          golden::Record record =
-              maker.make(golden::question_of(item.query, *stream.scene()), item.query).record;
-          if (!ids.insert(record.id).second) return;
-          record.tags = {"given"};
-          if (maker.scene_line() != scene_line) lines += maker.scene_line() + '\n';
-          scene_line = maker.scene_line();
-          golden::append_record_line(lines, record, *stream.scene());
-        } catch (const golden::ProofTooLong& error) {
-          ++unproved;
-          say("left out: {}", error.what());
-        }
-      },
-      [](const StreamItem&) {});
+int write_records(GivenQueries& queries, const std::string& source) {
   golden::Header header{.name = "queries",
                         .description = "Given queries, answered exactly.",
                         .generator = "lorentz first-hit --prove --records " + shell_quoted(source),
                         .version = LORENTZ_VERSION,
-                        .count = ids.size(),
                         .tags = {{"given", "a query that was given"}}};
-  std::string first;
-  golden::append_header_line(first, header);
-  print(first + lines);
-  if (stream.had_bad_input()) return kBadInput;
-  return unproved > 0 ? kDisagreement : kDone;
+  std::size_t others = 0;
+  const golden::GivenQuestions given = questions_in(queries, std::move(header), others);
+  const golden::Order order{.count = given.questions.size(), .given = &given};
+  const golden::RecordCounts counts = golden::produce(order, [](std::string_view text) { print(text); }, {});
+  if (counts.left_out > 0)
+    say("{} left out: no checker goes through a proof of so many steps", counts.left_out);
+  return queries.had_bad_input() ? kBadInput : counts.left_out > 0 ? kDisagreement : kDone;
 }
 
 }  // namespace lorentz::cli

@@ -1,7 +1,7 @@
 // lorentz first-hit --prove: answers with their proofs, line by line, or as a golden set.
 #pragma once
 
-#include "cli/query_stream.hpp"
+#include "cli/given_queries.hpp"
 #include "question/answerer.hpp"
 
 namespace lorentz::cli {
@@ -12,6 +12,6 @@ int answer_with_proofs(QueryStream& stream, question::Answerer& answerer);
 
 /// Writes a golden set of the exact answers. `source` is where the queries come from. Returns the exit
 /// status.
-int write_records(QueryStream& stream, const std::string& source);
+int write_records(GivenQueries& queries, const std::string& source);
 
 }  // namespace lorentz::cli

@@ -1,14 +1,13 @@
 // lorentz fuzz export: what a campaign found, as a golden set or as a query stream.
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include <lorentz/exchange.hpp>
 #include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"
 #include "cli/fuzz_options.hpp"
 #include "cli/output.hpp"
-#include "golden/maker.hpp"
+#include "golden/production.hpp"
 #include "question/engines.hpp"
 #include "report/claim_words.hpp"
 
@@ -87,39 +86,22 @@ golden::Header header_of(const std::vector<fuzz::Campaign>& campaigns) {
 // Findings that shrank to the same question are one record.
 void print_golden_set(const std::vector<ExportedCase>& examples,
                       const std::vector<fuzz::Campaign>& campaigns) {
-  golden::Header header = header_of(campaigns);
-  std::string lines, scene_line;
-  std::set<std::string> ids;
+  golden::GivenQuestions given(header_of(campaigns));
   std::map<std::string, std::string> tags;
-  std::optional<golden::Maker> maker;
   for (const ExportedCase& one : examples) {
     const fuzz::Finding& finding = one.stored->finding;
-    if (finding.shrunk.scene != scene_line)
-      maker.emplace(one.shrunk.scene, golden::Others{}, header.precision);
-    const Scene& scene = one.shrunk.scene;
-    const Query& query = one.shrunk.query;
-    golden::Record record;
-    try {
-      record = maker->make(golden::question_of(query, scene), query).record;
-    } catch (const golden::ProofTooLong& error) {
-      say("left out: {}", error.what());
-      continue;
-    }
-    if (!ids.insert(record.id).second) continue;
-    record.tags = {finding.target, tag_of(finding.kind)};
     if (const cases::Target* target = cases::target_named(finding.target))
       tags.emplace(finding.target, target->description());
-    tags.emplace(record.tags[1], "what was found: an answer of the kind `" + finding.kind + "`");
-    if (finding.shrunk.scene != scene_line) lines += finding.shrunk.scene + '\n';
-    scene_line = finding.shrunk.scene;
-    golden::append_record_line(lines, record, scene);
+    tags.emplace(tag_of(finding.kind), "what was found: an answer of the kind `" + finding.kind + "`");
+    const auto& [scene, query] = std::tie(one.shrunk.scene, one.shrunk.query);
+    given.add({scene, golden::question_of(query, scene), query, {finding.target, tag_of(finding.kind)}});
   }
   if (examples.empty()) explain_targets(campaigns, tags);
-  header.count = ids.size();
-  header.tags.assign(tags.begin(), tags.end());
-  std::string first;
-  golden::append_header_line(first, header);
-  print(first + lines);
+  given.header.tags.assign(tags.begin(), tags.end());
+  const golden::Order order{.count = given.questions.size(), .given = &given};
+  const golden::RecordCounts counts = golden::produce(order, [](std::string_view text) { print(text); }, {});
+  if (counts.left_out > 0)
+    say("{} left out: no checker goes through a proof of so many steps", counts.left_out);
 }
 
 int act(const ExportOptions& options) {

@@ -11,5 +11,8 @@ Command golden_verify_command();
 Command golden_list_command();
 Command golden_explain_command();
 Command golden_export_command();
+Command golden_merge_command();
+Command golden_filter_command();
+Command golden_sample_command();
 
 }  // namespace lorentz::cli

@@ -8,10 +8,14 @@
 #include "cli/claim_options.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
+#include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
+#include "files/scene_file.hpp"
 #include "files/whole_file.hpp"
+#include "golden/index.hpp"
 #include "golden/production.hpp"
+#include "golden/selection.hpp"
 #include "src/exchange/nearest_name.hpp"
 #include "src/problem/write_error.hpp"
 #include "starts/free_starts.hpp"
@@ -23,16 +27,20 @@ namespace {
 namespace fs = std::filesystem;
 
 struct MakeOptions {
-  std::optional<std::string> set, folder, precision;
+  std::optional<std::string> set, folder, precision, queries, scene, name;
+  std::optional<double> radius;
+  std::vector<std::string> tags;
   std::optional<std::uint64_t> count;
   std::string output = "-";
   std::uint64_t seed = starts::kDefaultSeed, jobs = 1;
 };
 
+NumberFormat precision_of(const MakeOptions& options) {
+  return number_format_named(options.precision.value_or("binary64"));
+}
+
 const golden::Set& set_of(const MakeOptions& options) {
-  ClaimOptions claim;
-  claim.precision = options.precision;
-  const NumberFormat precision = claim.claim().precision;
+  const NumberFormat precision = precision_of(options);
   const golden::Set* set = golden::set_named(*options.set, precision);
   if (!set) {
     std::vector<std::string> names;
@@ -45,13 +53,12 @@ const golden::Set& set_of(const MakeOptions& options) {
   return *set;
 }
 
-void report(const golden::Order& order, const golden::RecordCounts& counts) {
-  say("{}: {} records (seed {}): {} hit, {} inside, {} never, {} error", order.set->name, counts.records,
-      order.seed, counts.hits, counts.insides, counts.nevers, counts.errors);
-  const std::uint64_t answered = counts.records - counts.errors;
-  if (answered > 0)
-    say("{}: all {} answers agreed by their checked certificates, {} of them by walk, too", order.set->name,
-        answered, counts.walked);
+std::string name_of(const golden::Order& order) {
+  return golden::header_of(order).name;
+}
+
+std::string seed_of(const golden::Order& order) {
+  return fmt::format(" (seed {})", order.seed);
 }
 
 // A file that is no golden set is not overwritten: it would be somebody's loss.
@@ -76,7 +83,8 @@ golden::RecordCounts make_file(const golden::Order& order, const std::string& pa
   {
     runs::PieceStore kept(part, "golden make", golden::plan_of(order));
     WholeFile file(path);
-    Progress progress(order.set->name.c_str(), order.count, 1);
+    const std::string name = name_of(order);
+    Progress progress(name.c_str(), order.count, 1);
     counts = golden::produce(
         order, [&](std::string_view text) { file.write(text); },
         [&](std::uint64_t done) { progress.at(done); }, &kept);
@@ -86,28 +94,52 @@ golden::RecordCounts make_file(const golden::Order& order, const std::string& pa
   return counts;
 }
 
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+// A few records of each tag: a first look, below a second.
+std::string smoke_of(const std::vector<std::string>& files) {
+  constexpr std::size_t kRecords = 100;
+  golden::Selection selection;
+  for (const std::string& file : files)
+    selection.add(file, [](const golden::Record& record) { return !golden::needs_judge(record); });
+  selection.thin(kRecords);
+  return selection.text({.name = "smoke",
+                         .description = "A few records of each tag of the sets in binary64.",
+                         .generator = "lorentz golden make --all data/golden",
+                         .version = LORENTZ_VERSION});
 }
 
 int make_all(golden::Order order, const std::string& folder) {
+  const auto in_folder = [&](const std::string& name) { return (fs::path(folder) / name).string(); };
   std::error_code error;
-  fs::create_directories(folder, error);
-  std::string sums;
+  fs::create_directories(in_folder("smoke"), error);
+  std::vector<std::string> names, wide;
   for (const golden::Set& set : golden::sets()) {
     if (!set.is_committed) continue;
     order.set = &set;
     order.count = set.count;
-    const std::string name = set.name + ".ndjson", path = (fs::path(folder) / name).string();
-    report(order, make_file(order, path));
-    sums += golden::sha256(contents(path)) + "  " + name + '\n';
+    names.push_back(set.name + ".ndjson");
+    report(set.name, make_file(order, in_folder(names.back())), seed_of(order));
+    const bool is_geometry = set.name != "bad-queries";
+    if (is_geometry && set.precision == NumberFormat::binary64) wide.push_back(in_folder(names.back()));
   }
-  const std::string path = (fs::path(folder) / "SHA256SUMS").string();
-  WholeFile file(path);
-  file.write(sums);
-  file.commit();
+  names.push_back("smoke/smoke.ndjson");
+  write_whole(in_folder(names.back()), smoke_of(wide));
+  write_whole(in_folder("index.json"), golden::index_of(folder, names));
+  names.push_back("index.json");
+  std::string sums;
+  for (const std::string& name : names) sums += golden::sum_of(in_folder(name)) + "  " + name + '\n';
+  write_whole(in_folder("SHA256SUMS"), sums);
   return kDone;
+}
+
+golden::RecordCounts make(const golden::Order& order, const std::string& output) {
+  if (output != "-") return make_file(order, output);
+  const std::string name = name_of(order);
+  Progress progress(name.c_str(), order.count, 1);
+  const auto write = [](std::string_view text) {
+    print(text);
+    if (std::ferror(stdout)) finish_output();
+  };
+  return golden::produce(order, write, [&](std::uint64_t done) { progress.at(done); });
 }
 
 int make_one(golden::Order order, const MakeOptions& options) {
@@ -117,30 +149,62 @@ int make_one(golden::Order order, const MakeOptions& options) {
     say("{}: there are {} records, not {}", order.set->name, order.set->most, order.count);
     order.count = order.set->most;
   }
-  if (options.output != "-") {
-    report(order, make_file(order, options.output));
-    return kDone;
-  }
-  Progress progress(order.set->name.c_str(), order.count, 1);
-  report(order, golden::produce(
-                    order,
-                    [](std::string_view text) {
-                      print(text);
-                      if (std::ferror(stdout)) finish_output();
-                    },
-                    [&](std::uint64_t done) { progress.at(done); }));
+  report(order.set->name, make(order, options.output), seed_of(order));
   return kDone;
 }
 
+// ---- Of given queries
+
+golden::Header header_of(const MakeOptions& options) {
+  golden::Header header{.name = options.name.value_or("queries"),
+                        .description = "Given queries, answered exactly.",
+                        .generator = "lorentz golden make --queries " + shell_quoted(*options.queries),
+                        .version = LORENTZ_VERSION,
+                        .precision = precision_of(options)};
+  for (const std::string& tag : options.tags) header.tags.push_back(tag_in(tag));
+  return header;
+}
+
+int make_of_queries(golden::Order order, const MakeOptions& options) {
+  const UnknownKeys unknown = UnknownKeys::warned;
+  std::optional<Scene> scene;
+  if (options.scene) scene = load_scene(*options.scene, options.radius, unknown);
+  if (options.radius && !options.scene)
+    throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
+  GivenQueries queries(*options.queries, scene, unknown);
+  std::size_t others = 0;
+  golden::GivenQuestions given = questions_in(queries, header_of(options), others);
+  given.look = true;
+  if (others > 0)
+    say("{}: {} queries left out, for they do not consist of numbers of {}", queries.name(), others,
+        name_of(precision_of(options)));
+  order.given = &given;
+  order.count = given.questions.size();
+  const golden::RecordCounts counts = make(order, options.output);
+  report(given.header.name, counts);
+  return queries.had_bad_input() || others > 0 ? kBadInput : counts.left_out > 0 ? kDisagreement : kDone;
+}
+
+void check(const MakeOptions& options) {
+  const int ways = options.set.has_value() + options.folder.has_value() + options.queries.has_value();
+  if (ways != 1)
+    throw InputError(
+        "name a set (--set NAME), a file of queries (--queries FILE), or a folder for all sets (--all "
+        "FOLDER)");
+  if (options.folder && (options.count || options.precision))
+    throw InputError("--all makes every set as it is committed; leave --count and --precision out");
+  if (options.queries && options.count) throw InputError("--count: not with --queries, which are all taken");
+  if (!options.queries && (options.scene || options.radius || options.name || !options.tags.empty()))
+    throw InputError("--scene, --radius, --name and --tag: need --queries");
+}
+
 int act(const MakeOptions& options) {
+  check(options);
   golden::Order order;
   order.seed = options.seed;
   order.jobs = options.jobs;
-  if (options.folder && (options.set || options.count || options.precision))
-    throw InputError("--all makes every set as it is committed; leave --set, --count and --precision out");
   if (options.folder) return make_all(order, *options.folder);
-  if (!options.set) throw InputError("name a set (--set NAME), or a folder for all of them (--all FOLDER)");
-  return make_one(order, options);
+  return options.queries ? make_of_queries(order, options) : make_one(order, options);
 }
 
 }  // namespace
@@ -149,9 +213,19 @@ Command golden_make_command() {
   auto options = std::make_shared<MakeOptions>();
   return {
       "make",
-      "Produces a set: the same, bit for bit, whatever --jobs.",
+      "Produces a set, of cases that are drawn or of queries that you have: the same, bit for bit, whatever "
+      "--jobs.",
       {
           {"--set", &options->set, "SET", "which set (lorentz golden list)"},
+          {"--queries", &options->queries, "FILE",
+           "records of these queries: a stream, or columns (.npy, .csv; - is standard input); invalid ones "
+           "become "
+           "records of errors"},
+          {"--scene", &options->scene, "SCENE",
+           "scene before the first scene line, and of columns: a file, or a name of the catalogue"},
+          {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
+          {"--tag", &options->tags, "TAG[=SENTENCE]", "tag of each record of --queries", kOneAtATime},
+          {"--name", &options->name, "NAME", "of the set that --queries become (default: queries)"},
           {"--precision", &options->precision, "binary64|binary32",
            "of the numbers of scenes and queries: cases are hard in its ulps, which margins and conditions "
            "count "
@@ -164,12 +238,16 @@ Command golden_make_command() {
            "file to write (- is standard output); killed in between, the same command goes on where it was",
            kOutput},
           {"--all", &options->folder, "FOLDER",
-           "make all sets in this folder as they are committed, and SHA256SUMS"},
+           "make all sets in this folder as they are committed, index.json, smoke/smoke.ndjson (a few "
+           "records of each tag) and "
+           "SHA256SUMS"},
       },
 
       "Every record was agreed by two oracles: walk, where it can go, and the checked certificate.\n"
       "Example:\n  lorentz golden make --set near-rational --count 1e3 --jobs 2 -o near-rational.ndjson\n"
-      "  lorentz golden make --set grazing --precision binary32 -o grazing-binary32.ndjson",
+      "  lorentz golden make --set grazing --precision binary32 -o grazing-binary32.ndjson\n"
+      "  lorentz sample --scene square --kind grazing --count 100 | lorentz golden make --queries - --tag "
+      "mine",
       [options] { return act(*options); }};
 }
 

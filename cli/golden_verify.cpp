@@ -48,7 +48,7 @@ VerifyFindings verify(const std::string& path, bool walk) {
       maker.emplace(reader.scene(), reader.scene_line(), golden::Others{}, reader.header().precision);
     scene = reader.scene_number();
     auto flaw = flaw_in_set(reader.header(), read.record, ids);
-    if (!flaw) flaw = maker->flaw_of(read.record, read.query, walk);
+    if (!flaw) flaw = maker->flaw_of(read.record, read.query, walk, reader.header().format);
     if (flaw) complain(read.line, "id " + read.record.id + ": " + *flaw);
   }
   if (findings.records != reader.header().count)

@@ -95,6 +95,7 @@ bool SceneStream<AnItem, AScene>::next(AnItem& item) {
       return false;
     }
     keys_.line = line.number;
+    line_ = line.text;
     read(reader_, line, scene(), item);
     if (item.no_scene && bad_scene_line_ > 0)
       item.message = fmt::format("the scene in line {} was bad, so this query has none", bad_scene_line_);

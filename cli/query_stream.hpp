@@ -29,6 +29,10 @@ class SceneStream {
   bool had_bad_input() const { return complaints_ > 0; }
 
   LineReader& lines() { return lines_; }
+  const LineReader& lines() const { return lines_; }
+
+  /// The line of the item that came last.
+  std::string_view line() const { return line_; }
 
  private:
   static constexpr long kMaxComplaints = 20;
@@ -42,6 +46,7 @@ class SceneStream {
   std::optional<AScene> scene_;
   bool initial_;  // no scene line came yet
   std::size_t bad_scene_line_ = 0;
+  std::string_view line_;
   long complaints_ = 0;
   bool empty_ = true;
 };

@@ -1,5 +1,6 @@
 """Verifies golden sets by their certificates (docs/certificates.md) in plain integers; shares nothing with the program.
-Usage: check.py FILE... ("-": stdin). Exit: 0 verified, 1 refuted, 2 bad input. `margin`, `condition`: not looked at."""
+Usage: check.py FILE... ("-": stdin). Exit: 0 verified, 1 refuted, 2 bad input. Not looked at: `margin`, `condition`,
+`time_change`, `acceptable`, `comment`, `source_id`."""
 import fractions, functools, hashlib, json, math, operator, re, sys
 LINE, DEEPEST, LONGEST, EXPONENT, STEPS = 2**25, 64, 2500, 2**14, 10**6  # the limits
 def require(condition, flaw):  # where something is missing or of a wrong type, Python's own errors say so
@@ -206,8 +207,8 @@ def check(name):
                 require(type(box["tags"]) is list and box["tags"] and {*box["tags"]} <= {*tags}, "unknown tags")
                 verify(box, scene)
         except Exception as e: flaws.append((2 - bool(identity), f"{name}:{i}: {identity}: {type(e).__name__}: {e}"))
-    if (version, count) != (1, records):
-        flaws.append((1 + (version != 1), f"{name}:1: {version, count} are not (1, {records})"))
+    if version not in (1, 2) or count != records:
+        flaws.append((1 + (version not in (1, 2)), f"{name}:1: format {version} with {count} records, not {records} of 1 or 2"))
     print(*[flaw for _, flaw in flaws] or [f"{name}: {records} records, all verified"], sep="\n")
     return max(flaws, default=(0,))[0]
 if __name__ == "__main__":

@@ -1,13 +1,16 @@
 #include "golden/maker.hpp"
 #include "src/exchange/json_writer.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <lorentz/certificate_check.hpp>
 #include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/prover.hpp>
+#include <lorentz/verdict.hpp>
 #include <lorentz/walk.hpp>
+#include "golden/seen.hpp"
 #include "src/problem/same_answer.hpp"
 
 namespace lorentz::golden {
@@ -23,12 +26,17 @@ int significant_digits(std::string_view decimal) {
   return digits;
 }
 
+bool is_same(const oracle::ExcusedAnswer& a, const oracle::ExcusedAnswer& b) {
+  return a.ulps == b.ulps && a.answer.outcome == b.answer.outcome && a.answer.obstacle == b.answer.obstacle;
+}
+
 // What a record has must be what its outcome has.
 std::optional<std::string> flaw_of_form(const Record& record) {
   const Outcome outcome = record.expect.outcome;
   const std::string& decimal = record.expect.time_decimal;
-  if (outcome == Outcome::error && (record.margin || record.condition || record.certificate))
-    return "of an error there is no margin, condition or certificate";
+  if (outcome == Outcome::error && (record.margin || record.condition || record.time_change ||
+                                    record.certificate || !record.acceptable.empty()))
+    return "an error has no margin, condition, time_change, certificate or acceptable";
   if (outcome != Outcome::hit && !decimal.empty()) return "it has a time_decimal, and hits nothing";
   if (outcome != Outcome::hit) return std::nullopt;
   if (decimal.empty()) return "it has no time_decimal";
@@ -46,6 +54,7 @@ struct Maker::Impl {
   oracle::Oracle oracle;
   oracle::Walk walk;
   oracle::Margins margins;
+  oracle::Judge judge;
   oracle::Prover prover;
   oracle::CertificateCheck check;
 
@@ -58,6 +67,7 @@ struct Maker::Impl {
         oracle(scene),
         walk(scene, kWalkCells),
         margins(scene, its_precision),
+        judge(scene, {its_precision, {}}),
         prover(scene),
         check(scene),
         others(std::move(those)) {}
@@ -67,26 +77,28 @@ struct Maker::Impl {
     return others.prove ? others.prove(query, answer) : prover.prove(query, answer);
   }
 
-  void measure(const Query& query, Record& record) const {
-    if (const auto decision = margins.hardest_decision(query, record.expect))
-      record.margin = decision->margin;
-    if (record.expect.outcome == Outcome::hit) record.condition = margins.condition(query, record.expect);
+  // Returns the hardest decision.
+  std::optional<oracle::HardestDecision> measure(const Query& query, Record& record) const {
+    const auto decision = margins.hardest_decision(query, record.expect);
+    if (decision) record.margin = decision->margin;
+    record.comment = comment_on(decision, scene);
+    if (record.expect.outcome != Outcome::hit) return decision;
+    record.condition = margins.condition(query, record.expect);
+    record.time_change = margins.time_change(query, record.expect);
+    return decision;
+  }
+
+  // Which other answers are acceptable; or the tag that says that a judge is needed.
+  void excuse(const Query& query, Record& record) const {
+    if (auto excused = judge.excused(query, record.expect, kExcusedUlps, kMostAcceptable))
+      record.acceptable = std::move(*excused);
+    else
+      record.tags.emplace_back(kNeedsJudge);
   }
 };
 
-namespace {
-
-std::string line_of(const Scene& scene) {
-  std::string line;
-  append_scene_line(line, scene);
-  line.pop_back();
-  return line;
-}
-
-}  // namespace
-
 Maker::Maker(const Scene& scene, Others others, NumberFormat precision)
-    : Maker(scene, line_of(scene), std::move(others), precision) {}
+    : Maker(scene, scene_line_of(scene), std::move(others), precision) {}
 Maker::Maker(const Scene& scene, std::string scene_line, Others others, NumberFormat precision)
     : impl_(std::make_unique<const Impl>(scene, std::move(scene_line), std::move(others), precision)) {}
 Maker::Maker(Maker&&) noexcept = default;
@@ -131,12 +143,13 @@ MadeRecord Maker::make(std::string question, const std::optional<Query>& query) 
   made.walked = walked.outcome != Outcome::undecided;
   if (made.walked && !same_answer(walked, record.expect))
     throw std::logic_error("walk does not agree with the oracle:\n" + asked_of(*query));
-  impl_->measure(*query, record);
+  made.hardest = impl_->measure(*query, record);
+  impl_->excuse(*query, record);
   return made;
 }
 
 std::optional<std::string> Maker::flaw_of(const Record& record, const std::optional<Query>& query,
-                                          bool ask_walk) const {
+                                          bool ask_walk, int format) const {
   if (record.id != id_of(impl_->scene_line, record.question)) return "the id does not belong to the question";
   if (auto why = flaw_of_form(record)) return why;
   if (!query || record.expect.outcome == Outcome::error) {
@@ -153,6 +166,13 @@ std::optional<std::string> Maker::flaw_of(const Record& record, const std::optio
   impl_->measure(*query, again);
   if (again.margin != record.margin) return "its margin is another one";
   if (again.condition != record.condition) return "its condition is another one";
+  if (format > 1) {
+    impl_->excuse(*query, again);
+    if (again.time_change != record.time_change) return "its time_change is another one";
+    if (!std::ranges::equal(again.acceptable, record.acceptable, is_same) ||
+        again.tags.empty() != !needs_judge(record))
+      return "other answers are acceptable";
+  }
   if (ask_walk) {
     const Answer walked = impl_->walked(*query);
     if (walked.outcome != Outcome::undecided && !same_answer(walked, record.expect))

@@ -5,14 +5,16 @@
 #include <memory>
 
 #include <lorentz/errors.hpp>
+#include <lorentz/margin.hpp>
 #include "golden/record.hpp"
 
 namespace lorentz::golden {
 
 struct MadeRecord {
-  Record record;  ///< but for the tags
+  Record record;  ///< of tags only `needs-judge`, if it has that
   bool walked =
       false;  ///< `walk` could go there, and agrees; else the second opinion is the checked certificate alone
+  std::optional<oracle::HardestDecision> hardest = {};  ///< that the answer rests on
 };
 
 /// An exact answer, with kDigits digits of its time, and its proof.
@@ -53,10 +55,10 @@ class Maker {
   MadeRecord make(std::string question, const std::optional<Query>& query) const;
 
   /// What is wrong with a record, or nothing: the id does not belong to the question; its numbers, or those of
-  /// the scene, are not of the precision; the certificate does not prove the answer; margin or condition are
-  /// others; walk, if asked, says otherwise.
-  std::optional<std::string> flaw_of(const Record& record, const std::optional<Query>& query,
-                                     bool ask_walk) const;
+  /// the scene, are not of the precision; the certificate does not prove the answer; margin, condition,
+  /// time_change or the acceptable answers (since format 2) are others; walk, if asked, says otherwise.
+  std::optional<std::string> flaw_of(const Record& record, const std::optional<Query>& query, bool ask_walk,
+                                     int format = kFormat) const;
 
  private:
   std::string asked_of(const Query& query) const;

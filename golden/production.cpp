@@ -1,7 +1,9 @@
 #include "golden/production.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <condition_variable>
 #include <exception>
@@ -12,6 +14,7 @@
 #include <unordered_set>
 
 #include "golden/maker.hpp"
+#include "golden/seen.hpp"
 
 namespace lorentz::golden {
 namespace {
@@ -21,27 +24,52 @@ constexpr std::uint64_t kBatch = cases::kCasesPerScene;
 struct Made {
   std::string scene_line;
   Components components = 2;
-  MadeRecord record;
+  std::optional<MadeRecord> record;  // nothing: it is left out
 };
 
 using Batch = std::vector<Made>;
 
-// The questions of one batch, all of which mostly share a scene.
+// How many questions there are.
+std::uint64_t number_in(const Order& order) {
+  return order.given ? order.given->questions.size() : order.set->most;
+}
+
+SetQuestion question_of(const Order& order, std::uint64_t index) {
+  return order.given ? order.given->questions[index] : order.set->question(order.seed, index);
+}
+
+NumberFormat precision_of(const Order& order) {
+  return order.given ? order.given->header.precision : order.set->precision;
+}
+
+// Nothing if a given question can't be proved.
+std::optional<MadeRecord> make_record(const Maker& maker, const Order& order, const SetQuestion& question) {
+  try {
+    MadeRecord made = maker.make(question.text, question.query);
+    if (order.given && order.given->look && question.query) {
+      for (std::string& tag : tags_seen(question.scene, *question.query, made.record.expect, made.hardest))
+        made.record.tags.push_back(std::move(tag));
+    }
+    made.record.tags.insert(made.record.tags.begin(), question.tags.begin(), question.tags.end());
+    made.record.source_id = question.source_id;
+    return made;
+  } catch (const ProofTooLong&) {
+    if (!order.given) throw;
+    return std::nullopt;
+  }
+}
+
+// The questions of one batch, most of which share a scene.
 Batch make_batch(const Order& order, std::uint64_t number) {
   Batch batch;
   std::optional<Maker> maker;
-  std::string scene_line;
-  for (std::uint64_t i = 0; i < kBatch; ++i) {
-    const std::uint64_t index = number * kBatch + i;
-    if (index >= order.set->most) break;
-    const SetQuestion question = order.set->question(order.seed, index);
-    scene_line.clear();
-    append_scene_line(scene_line, question.scene);
-    scene_line.pop_back();
+  const std::uint64_t end = std::min(number_in(order), (number + 1) * kBatch);
+  for (std::uint64_t index = number * kBatch; index < end; ++index) {
+    const SetQuestion question = question_of(order, index);
+    const std::string scene_line = scene_line_of(question.scene);
     if (!maker || maker->scene_line() != scene_line)
-      maker.emplace(question.scene, Others{}, order.set->precision);
-    batch.push_back({scene_line, question.scene, maker->make(question.text, question.query)});
-    batch.back().record.record.tags = question.tags;
+      maker.emplace(question.scene, Others{}, precision_of(order));
+    batch.push_back({scene_line, question.scene, make_record(*maker, order, question)});
   }
   return batch;
 }
@@ -120,6 +148,7 @@ std::uint64_t number_of(std::string_view id) {
 
 void count(RecordCounts& counts, const MadeRecord& made) {
   ++counts.records;
+  counts.needing_judge += needs_judge(made.record);
   counts.walked += made.walked;
   switch (made.record.expect.outcome) {
     case Outcome::hit:
@@ -140,17 +169,19 @@ void count(RecordCounts& counts, const MadeRecord& made) {
 void produce_rest(const Order& order, ProductionState& state,
                   const std::function<void(std::string_view)>& write, const OnProgress& progress) {
   BatchQueue queue(order, state.next_batch);
-  while (state.counts.records < order.count) {
+  while (state.counts.records + state.counts.left_out < order.count) {
     std::string text;
     for (const Made& made : queue.next()) {
-      const Record& record = made.record.record;
+      if (!made.record) ++state.counts.left_out;
+      if (!made.record) continue;
+      const Record& record = made.record->record;
       if (state.counts.records == order.count || !state.ids.insert(number_of(record.id)).second) continue;
       if (made.scene_line != state.scene_line) {
         state.scene_line = made.scene_line;
         text += state.scene_line + '\n';
       }
       append_record_line(text, record, made.components);
-      count(state.counts, made.record);
+      count(state.counts, *made.record);
     }
     ++state.next_batch;
     write(text);
@@ -160,14 +191,14 @@ void produce_rest(const Order& order, ProductionState& state,
 
 // A piece is what was made with a batch, in numbers, and the batch's text.
 std::string piece_of(const RecordCounts& a, std::string_view text) {
-  return fmt::format("{} {} {} {} {} {}\n{}", a.records, a.walked, a.hits, a.insides, a.nevers, a.errors,
-                     text);
+  return fmt::format("{} {} {} {} {} {} {} {}\n{}", a.records, a.walked, a.hits, a.insides, a.nevers,
+                     a.errors, a.needing_judge, a.left_out, text);
 }
 
 std::string text_in(const std::string& piece, ProductionState& state) {
   RecordCounts& a = state.counts;
   std::istringstream in(piece);
-  in >> a.records >> a.walked >> a.hits >> a.insides >> a.nevers >> a.errors;
+  in >> a.records >> a.walked >> a.hits >> a.insides >> a.nevers >> a.errors >> a.needing_judge >> a.left_out;
   if (!in || in.get() != '\n') throw InputError("is not a batch of records");
   const auto begin = static_cast<std::size_t>(in.tellg());
   constexpr std::string_view kId = "{\"id\":\"";
@@ -183,21 +214,50 @@ std::string text_in(const std::string& piece, ProductionState& state) {
 
 }  // namespace
 
+void GivenQuestions::add(SetQuestion question) {
+  const auto [place, is_new] =
+      by_id_.try_emplace(id_of(scene_line_of(question.scene), question.text), questions.size());
+  if (is_new) return questions.push_back(std::move(question));
+  std::vector<std::string>& tags = questions[place->second].tags;
+  for (std::string& tag : question.tags)
+    if (std::ranges::find(tags, tag) == tags.end()) tags.push_back(std::move(tag));
+}
+
 Header header_of(const Order& order) {
+  if (order.given) {
+    Header header = order.given->header;
+    header.count = order.count;
+    if (order.given->look) header.tags.insert(header.tags.end(), seen_tags().begin(), seen_tags().end());
+    header.tags.emplace_back(kNeedsJudge, kNeedsJudgeNote);
+    return header;
+  }
   const Set& set = *order.set;
-  Header header{set.name, set.description, {}, LORENTZ_VERSION, order.count, {}, set.precision};
+  Header header{.name = set.name,
+                .description = set.description,
+                .version = LORENTZ_VERSION,
+                .count = order.count,
+                .precision = set.precision};
   const bool is_wide = set.precision == NumberFormat::binary64;
   header.generator = fmt::format("lorentz golden make --set {}{} --count {} --seed {}", set.family,
                                  is_wide ? "" : " --precision binary32", order.count, order.seed);
   for (const cases::Tag& tag : set.tags) header.tags.emplace_back(tag.name, tag.note);
+  header.tags.emplace_back(kNeedsJudge, kNeedsJudgeNote);
   return header;
 }
 
-RecordCounts produce(const Order& order, const std::function<void(std::string_view)>& write,
-                     const OnProgress& progress, runs::PieceStore* kept) {
-  std::string header;
-  append_header_line(header, header_of(order));
-  write(header);
+namespace {
+
+std::string header_line(Order order, std::uint64_t count) {
+  order.count = count;
+  std::string line;
+  append_header_line(line, header_of(order));
+  return line;
+}
+
+using Write = std::function<void(std::string_view)>;
+
+RecordCounts produce_lines(const Order& order, const Write& write, const OnProgress& progress,
+                           runs::PieceStore* kept) {
   ProductionState state;
   if (kept) kept->each([&](const std::string& piece) { write(text_in(piece, state)); });
   produce_rest(
@@ -210,10 +270,32 @@ RecordCounts produce(const Order& order, const std::function<void(std::string_vi
   return state.counts;
 }
 
+}  // namespace
+
+// How many records given questions make is known in the end.
+RecordCounts produce(const Order& order, const Write& write, const OnProgress& progress,
+                     runs::PieceStore* kept) {
+  if (!order.given) {
+    write(header_line(order, order.count));
+    return produce_lines(order, write, progress, kept);
+  }
+  std::string all;
+  const RecordCounts counts = produce_lines(
+      order, [&](std::string_view text) { all += text; }, progress, kept);
+  write(header_line(order, counts.records));
+  write(all);
+  return counts;
+}
+
 runs::Plan plan_of(const Order& order) {
-  std::string header;
-  append_header_line(header, header_of(order));
-  return {{"header", header}};
+  runs::Plan plan{{"header", header_line(order, order.count)}};
+  if (!order.given) return plan;
+  std::string questions;
+  for (const SetQuestion& one : order.given->questions)
+    questions += scene_line_of(one.scene) + '\n' + one.text + '\n' +
+                 fmt::format("{}", fmt::join(one.tags, " ")) + '\n' + one.source_id + '\n';
+  plan.push_back({"questions", sha256(questions)});
+  return plan;
 }
 
 }  // namespace lorentz::golden

@@ -1,11 +1,14 @@
 #include "golden/reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
 #include <lorentz/line_reader.hpp>
 #include <lorentz/scene_check.hpp>
 #include "src/exchange/exchange_json.hpp"
+#include "src/exchange/exchange_line.hpp"
 
 namespace lorentz::golden {
 namespace {
@@ -38,7 +41,9 @@ Header read_header(json::Value value) {
   json::each_member(value.object(), [&](std::string_view name, json::Value member) {
     const std::string key(name);
     if (key == "format") {
-      if (read_count(member, key) != 1) throw InputError("format: only format 1 is known here");
+      header.format = read_index(member, key);
+      if (header.format < 1 || header.format > kFormat)
+        throw InputError("format: only formats 1 and 2 are known here");
       has_format = true;
     } else if (key == "name") {
       header.name = read_text(member, key);
@@ -156,14 +161,19 @@ oracle::Certificate read_certificate(json::Value value, const Components& count)
   return certificate;
 }
 
-// An expectation has what its outcome has, and no id.
-void check_members(const std::set<std::string>& keys, Outcome outcome) {
+// An answer of a record has what its outcome has, and no id; `expect` has a time, what is acceptable has ulps.
+void check_members(const std::set<std::string>& keys, Outcome outcome, bool is_expected) {
   const bool named = outcome == Outcome::hit || outcome == Outcome::inside;
-  const std::pair<const char*, bool> members[] = {
-      {"id", false}, {"lattice", named}, {"atom", named}, {"cell", named}, {"time", outcome == Outcome::hit}};
+  const std::pair<const char*, bool> members[] = {{"id", false},
+                                                  {"lattice", named},
+                                                  {"atom", named},
+                                                  {"cell", named},
+                                                  {"time", is_expected && outcome == Outcome::hit},
+                                                  {"ulps", !is_expected}};
   for (const auto& [key, needed] : members)
     if (keys.contains(key) != needed)
-      throw InputError(std::string("expect: ") + key + (needed ? " is missing" : " does not belong there"));
+      throw InputError(fmt::format("{}: {} {}", is_expected ? "expect" : "acceptable", key,
+                                   needed ? "is missing" : "does not belong there"));
 }
 
 }  // namespace
@@ -263,18 +273,31 @@ struct Reader::Impl {
     return question;
   }
 
-  void read_expectation(json::Object object, Answer& expect) {
+  // `expect`; or, if there is room for ulps, what is acceptable.
+  Answer read_answer_in(json::Object object, double* ulps) {
+    const char* key = ulps ? "acceptable" : "expect";
     std::set<std::string> keys;
     Id id;
     std::size_t components = 0;
     Answer answer;
-    if (!read_answer(object, id, answer, components, {}, &keys)) throw InputError("expect: is no answer");
-    check_members(keys, answer.outcome);
+    if (!read_answer(object, id, answer, components, {}, &keys, ulps))
+      throw InputError(fmt::format("{}: is not an answer", key));
+    check_members(keys, answer.outcome, !ulps);
     const bool names_one = answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
     if (names_one && static_cast<int>(components) != Components(*scene).of_cells(answer.obstacle.lattice))
-      throw InputError("expect.cell: has " + std::to_string(components) + " components");
+      throw InputError(fmt::format("{}.cell: has {} components", key, components));
+    return answer;
+  }
+
+  void read_expectation(json::Object object, Answer& expect) {
+    Answer answer = read_answer_in(object, nullptr);
     answer.time_decimal = std::move(expect.time_decimal);  // a key of the record's, wherever it stands
     expect = std::move(answer);
+  }
+
+  void read_acceptable(json::Object object, Record& record) {
+    oracle::ExcusedAnswer& excused = record.acceptable.emplace_back();
+    excused.answer = read_answer_in(object, &excused.ulps);
   }
 
   void read_field(const std::string& key, json::Value value, Record& record) {
@@ -291,6 +314,14 @@ struct Reader::Impl {
       record.margin = read_number_or_infinity(value, key);
     } else if (key == "condition") {
       record.condition = read_number_or_infinity(value, key);
+    } else if (key == "time_change") {
+      record.time_change = read_number_or_infinity(value, key);
+    } else if (key == "acceptable") {
+      json::each_element(value.array(), [&](json::Value one) { read_acceptable(one.object(), record); });
+    } else if (key == "comment") {
+      record.comment = read_text(value, key);
+    } else if (key == "source_id") {
+      record.source_id = read_id(value);
     } else if (key == "certificate") {
       record.certificate = read_certificate(value, Components(*scene));
     } else {

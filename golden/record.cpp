@@ -4,8 +4,10 @@
 #include <openssl/evp.h>
 #include <openssl/sha.h>
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "src/exchange/exchange_json.hpp"
 #include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::golden {
@@ -41,6 +43,10 @@ void add_certificate(json::Members& object, const oracle::Certificate& certifica
                }));
 }
 
+bool needs_judge(const Record& record) {
+  return std::ranges::find(record.tags, kNeedsJudge) != record.tags.end();
+}
+
 std::string sha256(std::string_view text) {
   unsigned char digest[SHA256_DIGEST_LENGTH];
   if (EVP_Digest(text.data(), text.size(), digest, nullptr, EVP_sha256(), nullptr) != 1)
@@ -51,6 +57,13 @@ std::string sha256(std::string_view text) {
     hexadecimal += "0123456789abcdef"[byte & 15];
   }
   return hexadecimal;
+}
+
+std::string scene_line_of(const Scene& scene) {
+  std::string line;
+  append_scene_line(line, scene);
+  line.pop_back();
+  return line;
 }
 
 std::string id_of(std::string_view scene_line, std::string_view question) {
@@ -66,10 +79,25 @@ std::string question_of(const Query& query, const Components& count) {
   return object.substr(1, object.size() - 2);
 }
 
+std::string question_in(std::string_view line) {
+  std::string question;
+  try {
+    json::Document document;
+    document.open(line);
+    json::each_member(document.object(), [&](std::string_view key, json::Value value) {
+      if (key != "x" && key != "v" && key != "from") return skip(value);
+      question += (question.empty() ? "" : ",") + json_quoted(key) + ':' + value.raw();
+    });
+    return document.ended() ? question : "";
+  } catch (const std::runtime_error&) {  // InputError, NotJson, json::Error
+    return "";
+  }
+}
+
 void append_header_line(std::string& out, const Header& header) {
   json::append(out, [&](json::Members& line) {
     line.add("golden", [&](json::Members& golden) {
-      golden.add("format", 1, "name", header.name, "description", header.description, "generator",
+      golden.add("format", header.format, "name", header.name, "description", header.description, "generator",
                  header.generator, "version", header.version, "count", header.count);
       if (header.precision != NumberFormat::binary64) golden.add("precision", name_of(header.precision));
       golden.add("tags", [&](json::Members& tags) {
@@ -91,6 +119,14 @@ void append_record_line(std::string& out, const Record& record, const Components
     if (!record.expect.time_decimal.empty()) line.add("time_decimal", record.expect.time_decimal);
     if (record.margin) line.add("margin", *record.margin);
     if (record.condition) line.add("condition", *record.condition);
+    if (record.time_change) line.add("time_change", *record.time_change);
+    if (!record.acceptable.empty())
+      line.add("acceptable", json::objects(record.acceptable, [&](json::Members& one, const auto& excused) {
+                 add_answer(one, excused.answer, count);
+                 one.add("ulps", excused.ulps);
+               }));
+    if (!record.comment.empty()) line.add("comment", record.comment);
+    if (!record.source_id.empty()) line.add("source_id", json::Raw{record.source_id});
     if (record.certificate)
       line.add("certificate",
                [&](json::Members& object) { add_certificate(object, *record.certificate, count); });

@@ -10,29 +10,50 @@
 #include <lorentz/certificate.hpp>
 #include <lorentz/claim.hpp>
 #include <lorentz/exchange.hpp>
+#include <lorentz/verdict.hpp>
 #include "src/exchange/json_writer.hpp"
 
 namespace lorentz::golden {
 
+/// The format that is written. Format 1 is read, too: its records have no `time_change` and no `acceptable`.
+inline constexpr int kFormat = 2;
+
+/// What errors of at most so many ulps excuse is listed, if it is no more than that; else the record has the tag.
+inline constexpr double kExcusedUlps = 16;
+inline constexpr std::size_t kMostAcceptable = 32;
+inline constexpr const char* kNeedsJudge = "needs-judge";
+inline constexpr const char* kNeedsJudgeNote =
+    "more than 32 other answers are within 16 ulps of the inputs, or endless many: none is listed";
+
 /// The first line of a set.
 struct Header {
-  std::string name, description;
-  std::string generator;  ///< the command that makes the set again
-  std::string version;    ///< of the program that made it
+  int format = kFormat;
+  std::string name = {}, description = {};
+  std::string generator = {};  ///< the command that makes the set again
+  std::string version = {};    ///< of the program that made it
   std::uint64_t count = 0;
-  std::vector<std::pair<std::string, std::string>> tags;  ///< each with what it is out to break
+  std::vector<std::pair<std::string, std::string>> tags = {};  ///< each with what it is out to break
   /// Of all numbers of its scenes and queries, and of the ulps that margins and conditions count.
   NumberFormat precision = NumberFormat::binary64;
 };
 
 struct Record {
-  std::string id;
-  std::vector<std::string> tags;
-  std::string question;  ///< the text after the tags to before `,"expect"`: what the id is made from
-  Answer expect;         ///< with time_decimal, of a hit
-  std::optional<double> margin, condition;
-  std::optional<oracle::Certificate> certificate;
+  std::string id = {};
+  std::vector<std::string> tags = {};
+  std::string comment = {};    ///< on the decision that is hard; empty: none is
+  std::string source_id = {};  ///< as JSON: the id that the question came with; empty: none
+  std::string question;        ///< the text after the tags to before `,"expect"`: what the id is made from
+  Answer expect;               ///< with time_decimal, of a hit
+  std::optional<double> margin = {}, condition = {};
+  std::optional<double> time_change = {};  ///< of a hit: what an ulp in each input makes of its time
+  std::vector<oracle::ExcusedAnswer> acceptable = {};  ///< besides `expect`, by ulps
+  std::optional<oracle::Certificate> certificate = {};
 };
+
+bool needs_judge(const Record& record);
+
+/// The line of a scene, without the line end.
+std::string scene_line_of(const Scene& scene);
 
 /// The id of a question: the beginning of the SHA-256 of the scene's line, a line feed, and the question.
 std::string id_of(std::string_view scene_line, std::string_view question);
@@ -42,6 +63,10 @@ std::string sha256(std::string_view text);
 
 /// The text of a query as it stands in a record.
 std::string question_of(const Query& query, const Components& count);
+
+/// Of a line that holds no valid query: what it says of x, v and `from`, as it stands there. Nothing if the line is not
+/// JSON, or is an object without these.
+std::string question_in(std::string_view line);
 
 /// The number of significant digits of a record's time_decimal.
 inline constexpr int kDigits = 40;

@@ -10,12 +10,13 @@
 
 namespace lorentz::golden {
 
-/// One question of a set. `query` is missing if it is none: then the text is all there is.
+/// One question of a set. `query` is missing if it is invalid: then the text is all there is.
 struct SetQuestion {
   Scene scene;
   std::string text;
   std::optional<Query> query;
   std::vector<std::string> tags;
+  std::string source_id = {};  ///< of a record
 };
 
 struct Set {

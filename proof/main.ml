@@ -226,9 +226,10 @@ let check file =
   let channel = if file = "-" then stdin else open_in_bin file in
   read_lines set channel;
   if file <> "-" then close_in channel;
-  if set.version <> Some Z.one || set.count <> Some (Z.of_int set.records) then
+  let is_known = set.version = Some Z.one || set.version = Some (Z.of_int 2) in
+  if not is_known || set.count <> Some (Z.of_int set.records) then
     set.flaws <-
-      ((if set.version <> Some Z.one then 2 else 1), Printf.sprintf "%s:1: (%s, %s) are not (1, %d)" file (say_count set.version) (say_count set.count) set.records) :: set.flaws;
+      ((if is_known then 1 else 2), Printf.sprintf "%s:1: format %s with %s records, not %d of 1 or 2" file (say_count set.version) (say_count set.count) set.records) :: set.flaws;
   if set.flaws = [] then Printf.printf "%s: %d records, all verified\n" file set.records
   else List.iter (fun (_, what) -> print_endline what) (List.rev set.flaws);
   if set.errors > 0 then Printf.printf "%s: %d of them of the outcome error, which is outside of the proof\n" file set.errors;

@@ -498,7 +498,7 @@ TEST_CASE("compare: columns that cannot be matched or read are told of", "[cli][
   refuses(run(csv.queries, folder.write("t.csv", names + "hit,0,0,1,0,soon,q 0\n")), 2, "column time");
   refuses(run(csv.queries, folder.write("n.csv", "outcome,lattice\n")), 2, "there is no column atom");
   refuses(run(folder.write("x.csv", "x1,x2,v1,v2\n0.5,0,1,0\n1,,2,3\n0.5,0,0,0\n"), ""), 2, "row 1: ");
-  refuses(run(folder.write("l.csv", "x1,x2,v1,v2,max_time\n0.5,0,1,0,3\n"), ""), 2, "compared without");
+  refuses(run(folder.write("l.csv", "x1,x2,v1,v2,max_time\n0.5,0,1,0,3\n"), ""), 2, "taken without");
   // An id that comes twice is told of, and the rows behind it are read.
   const Run twice =
       run(csv.queries, folder.write("d.csv", names + "never,,,,,,q 0\nnever,,,,,,q 0\nnever,,,,,,q 1\n"),

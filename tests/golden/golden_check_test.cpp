@@ -301,7 +301,8 @@ TEST_CASE("golden explain: a hit, inside, never, and an invalid query", "[golden
   CHECK(contains(hard, "The hard decision: is "));
   CHECK(contains(hard, "entered before the obstacle that is hit? No, by 0 ulps."));
   CHECK(contains(folder.read("tie.svg"), ">at one point</text>"));
-  CHECK(contains(explained("boundary-starts", "\"outcome\":\"inside\""), "It starts inside lattice "));
+  CHECK(contains(explained("boundary-starts", "\"expect\":{\"outcome\":\"inside\""),
+                 "It starts inside lattice "));
   CHECK(contains(explained("never", "\"outcome\":\"never\""), "Nothing is ever hit"));
   CHECK(contains(explained("bad-queries", "\"tags\":[\"v-zero\"]"), "It is not a valid query: "));
   const std::string id = first_id("grazing", "\"outcome\":\"hit\"");

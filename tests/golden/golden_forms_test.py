@@ -149,7 +149,7 @@ REFUSED = {
                              (CELL, '"cell":[1,0,0]')) +
                    [golden("hit", '"count":1', '"count":true', "header"),
                     golden("hit", '"format":1', '"format":true', "header"),
-                    *[golden("hit", '"format":1', f'"format":{other}', "header") for other in ("1.5", "0", "2", "-1")]],
+                    *[golden("hit", '"format":1', f'"format":{other}', "header") for other in ("1.5", "0", "3", "-1")]],
     "false numbers": in_record("hit", (TIME, '"time":0.14694030083187142118'),
                                (TIME, '"time":0.14694030083187137999'), (TIME, '"time":"0x1.2ceefp-3"'),
                                (TIME, '"time":-0.0'), (TIME, '"time":"inf"')),

@@ -240,7 +240,7 @@ TEST_CASE("Golden: a part of another order, or one that was changed, is refused,
   refused("DELETE FROM piece WHERE number = 1", "piece 1 is damaged");
   // With the right checksum, too.
   for (const auto& [text, why] : {std::pair{"what is this?", "is not a batch of records"},
-                                  {"77 0 0 0 0 0\n", "has another number of records than it says"}}) {
+                                  {"77 0 0 0 0 0 0 0\n", "has another number of records than it says"}}) {
     killed(order, set, 2);
     runs::PieceStore(set + ".part", "golden make", golden::plan_of(order)).add({text});
     CHECK_THROWS_WITH(produce_file(order, set), Catch::Contains(set + ".part: piece 3 " + why));

@@ -42,8 +42,28 @@ def flaws_of(path, validator, every):
             for error in validator.iter_errors(box):
                 yield f"{path.name}:{number}: {error.message[:200]}"
         used.update(box.get("tags", []))
-    if header["count"] and {*used} != {*header["tags"]}:
+    if header["count"] and {*used} | {"needs-judge"} != {*header["tags"]} | {"needs-judge"}:
         yield f"{path.name}: tags explained and tags used differ: {sorted({*used} ^ {*header['tags']})}"
+
+
+def is_indexed(path, said, digest):
+    lines = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+    records, header = [line for line in lines if "expect" in line], lines[0]["golden"]
+    scenes = [line["scene"] for line in lines if "scene" in line]
+    atoms = [atom for scene in scenes for lattice in scene["lattices"] for atom in lattice["atoms"]]
+    asked = "".join(json.dumps({key: line[key] for key in ("x", "v", "from", "expect", "scene") if key in line}) for line in lines)
+    facts = {
+        "sha256": digest, "name": header["name"], "count": len(records), "tags": header["tags"],
+        "dimensions": sorted({scene["dimension"] for scene in scenes}),
+        **{outcome: sum(r["expect"]["outcome"] == outcome for r in records) for outcome in ("hit", "never", "inside", "error")},
+        "with_acceptable": sum("acceptable" in r for r in records),
+        "needs_judge": sum("needs-judge" in r["tags"] for r in records),
+    }
+    kinds = {"ellipsoids": any("semiaxes" in atom for atom in atoms), "balls": any("radius" in atom for atom in atoms),
+             "several lattices": any(len(scene["lattices"]) > 1 for scene in scenes)}
+    return (said is not None and all(said[key] == fact for key, fact in facts.items())
+            and all((kind in said["scenes"]) == is_there for kind, is_there in kinds.items())
+            and ("hexadecimal" in said["notations"]) == ("0x" in asked))
 
 
 def main():
@@ -52,7 +72,7 @@ def main():
     validator_class.check_schema(schema)
     others = [pathlib.Path(name) for name in sys.argv[1:] if name != "--all"]
     every = 1 if others or "--all" in sys.argv[1:] else EVERY
-    sets = others or sorted(FOLDER.glob("*.ndjson"))
+    sets = others or sorted([*FOLDER.glob("*.ndjson"), *FOLDER.glob("smoke/*.ndjson")])
     flaws = [flaw for path in sets for flaw in flaws_of(path, validator_class(schema), every)]
     if not others:
         flaws += flaws_of_folder(sets)
@@ -63,9 +83,15 @@ def main():
 
 def flaws_of_folder(sets):
     sums = dict(reversed(line.split("  ")) for line in (FOLDER / "SHA256SUMS").read_text().splitlines())
-    for path in sets:
-        if sums.pop(path.name, None) != hashlib.sha256(path.read_bytes()).hexdigest():
-            yield f"{path.name}: not what SHA256SUMS says"
+    index = {one["file"]: one for one in json.loads((FOLDER / "index.json").read_text())["sets"]}
+    for path in [*sets, FOLDER / "index.json"]:
+        name, digest = str(path.relative_to(FOLDER)), hashlib.sha256(path.read_bytes()).hexdigest()
+        if sums.pop(name, None) != digest:
+            yield f"{name}: not what SHA256SUMS says"
+        if name != "index.json" and not is_indexed(path, index.pop(name, None), digest):
+            yield f"{name}: not what index.json says"
+    for name in index:
+        yield f"index.json: {name} is not there"
     for name in sums:
         yield f"SHA256SUMS: {name} is not there"
 

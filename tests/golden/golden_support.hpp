@@ -20,7 +20,7 @@ struct GoldenCase {
 
 inline GoldenCase golden_case(const Scene& scene, const Query& query) {
   golden::Record record = golden::Maker(scene).make(golden::question_of(query, scene), query).record;
-  record.tags = {"drawn"};
+  record.tags.insert(record.tags.begin(), "drawn");
   return {scene, query, std::move(record)};
 }
 
@@ -38,7 +38,13 @@ inline std::string record_line(const golden::Record& record, const Components& c
 /// The text of a set of these records.
 inline std::string set_of(const std::vector<GoldenCase>& cases) {
   std::string text;
-  golden::append_header_line(text, {"drawn", "for a test", "none", "0", cases.size(), {{"drawn", "a tag"}}});
+  golden::append_header_line(text,
+                             {.name = "drawn",
+                              .description = "for a test",
+                              .generator = "none",
+                              .version = "0",
+                              .count = cases.size(),
+                              .tags = {{"drawn", "a tag"}, {golden::kNeedsJudge, golden::kNeedsJudgeNote}}});
   for (const GoldenCase& c : cases) {
     append_scene_line(text, c.scene);
     text += record_line(c.record, c.scene);
@@ -50,7 +56,7 @@ inline std::string set_of(const std::vector<GoldenCase>& cases) {
 inline GoldenCase golden_case(const golden::Set& set, std::uint64_t seed, std::uint64_t index) {
   const golden::SetQuestion question = set.question(seed, index);
   golden::Record record = golden::Maker(question.scene).make(question.text, question.query).record;
-  record.tags = question.tags;
+  record.tags.insert(record.tags.begin(), question.tags.begin(), question.tags.end());
   return {question.scene, question.query, std::move(record)};
 }
 

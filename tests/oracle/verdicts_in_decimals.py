@@ -75,6 +75,7 @@ class Flight:
             passed = [b for b in balls if not b.met and b.s > 0 and b.distance < r * Decimal("1.001")]
             if len(self.ahead) < 3 or self.ahead[1].t > 6 / dot(v, v).sqrt():
                 continue
+            self.missed = passed
             self.passed = [b for b in passed if b.nearest < self.ahead[0].t]
             self.ulps = [*(max(ulp(a, bits), ulp(1, bits)) for a in self.x),
                          *(ulp(a, bits) for a in self.v), ulp(self.r, bits)]
@@ -192,4 +193,5 @@ def main():
     print(f"{sum(seen.values())} verdicts are the same: {seen}")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,81 @@
+#include "cli/given_queries.hpp"
+
+#include "files/messages.hpp"
+#include "files/scene_file.hpp"
+#include "src/exchange/columns_csv.hpp"
+#include "src/exchange/columns_npy.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+constexpr std::size_t kMostComplaints = 20, kRowsTogether = 4096;
+
+std::unique_ptr<ColumnReader> columns_in(const std::string& path, const Scene& scene, UnknownKeys unknown) {
+  if (path.ends_with(".npy"))
+    return std::make_unique<NpyQueryReader>(path, scene.dimension,
+                                            unknown_columns(npy_query_fields(), unknown));
+  return std::make_unique<CsvQueryReader>(path, Components(scene),
+                                          unknown_columns(csv_query_columns(scene.dimension), unknown));
+}
+
+}  // namespace
+
+GivenQueries::GivenQueries(const std::string& path, std::optional<Scene> scene, UnknownKeys unknown)
+    : scene_(std::move(scene)) {
+  if (!is_columns(path)) {
+    stream_.emplace(path, scene_, unknown);
+  } else {
+    if (!scene_) throw InputError("--queries: columns hold no scene; --scene says it");
+    columns_ = columns_in(path, *scene_, unknown);
+  }
+}
+
+bool GivenQueries::next(GivenQuery& given) {
+  given = {};
+  const bool found = columns_ ? next_row(given) : next_line(given);
+  if (found && scene()) given.new_scene = std::exchange(new_scene_, false);
+  return found;
+}
+
+bool GivenQueries::next_line(GivenQuery& given) {
+  for (StreamItem item; stream_->next(item);) {
+    if (item.kind == StreamItem::Kind::scene) {
+      new_scene_ = true;
+      continue;
+    }
+    given.id = std::move(item.id);
+    if (item.kind == StreamItem::Kind::query)
+      given.query = std::move(item.query);
+    else
+      given.line = stream_->line();
+    return true;
+  }
+  return false;
+}
+
+bool GivenQueries::next_row(GivenQuery& given) {
+  if (row_ == rows_.count) {
+    rows_.clear();
+    row_ = flaw_ = 0;
+    if (!columns_->next(rows_, kRowsTogether)) return false;
+    if (!rows_.max_time.empty())
+      throw InputError(columns_->name() +
+                       ": has limits (max_time), and queries are taken without; leave the column out");
+  }
+  if (row_ < rows_.count) take_row(given);
+  return true;
+}
+
+void GivenQueries::take_row(GivenQuery& given) {
+  given.id = rows_.id.empty() ? std::to_string(number_) : json_quoted(rows_.id[row_]);
+  Query query = rows_.query(row_, scene_->dimension);
+  std::optional<std::string> why = flaw_of(query, *scene_);
+  if (flaw_ < rows_.flaws.size() && rows_.flaws[flaw_].row == row_) why = rows_.flaws[flaw_++].message;
+  ++row_, ++number_;
+  if (!why)
+    given.query = std::move(query);
+  else if (++bad_rows_ <= kMostComplaints)
+    say("{}: row {}: {}", columns_->name(), given.id, *why);
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,105 @@
+/* What answers are worth, by a golden set alone (docs/golden.md).
+     runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
+     cc -std=c11 runner.c -lcjson -lm -o runner    (libcjson-dev) */
+#define _POSIX_C_SOURCE 200809L
+#include <cjson/cJSON.h>
+#include <math.h>
+#include <search.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char* text(const cJSON* object, const char* key) {
+  const char* value = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(object, key));
+  return value ? value : "";
+}
+
+static double number(const cJSON* object, const char* key, double otherwise) {
+  const cJSON* value = cJSON_GetObjectItemCaseSensitive(object, key);
+  return cJSON_IsNumber(value) ? value->valuedouble : cJSON_IsString(value) ? INFINITY : otherwise;
+}
+
+static int same_integer(const cJSON* a, const cJSON* b) { /* beyond 2^53 they are decimal strings */
+  if (cJSON_IsString(a) || cJSON_IsString(b))
+    return cJSON_IsString(a) && cJSON_IsString(b) && !strcmp(a->valuestring, b->valuestring);
+  return a->valuedouble == b->valuedouble;
+}
+
+static int same(const cJSON* a, const cJSON* b) {
+  if (strcmp(text(a, "outcome"), text(b, "outcome"))) return 0;
+  if (number(a, "lattice", -1) != number(b, "lattice", -1) || number(a, "atom", -1) != number(b, "atom", -1)) return 0;
+  const cJSON *one = cJSON_GetObjectItemCaseSensitive(a, "cell"), *other = cJSON_GetObjectItemCaseSensitive(b, "cell");
+  if (cJSON_GetArraySize(one) != cJSON_GetArraySize(other)) return 0;
+  for (int i = 0; i < cJSON_GetArraySize(one); ++i)
+    if (!same_integer(cJSON_GetArrayItem(one, i), cJSON_GetArrayItem(other, i))) return 0;
+  return 1;
+}
+
+static double ulp(double t, int binary32) {
+  const int exponent = t > 0 ? ilogb(t) : -1074;
+  return binary32 ? ldexp(1, (exponent < -126 ? -126 : exponent) - 23) : ldexp(1, exponent < -1022 ? -1074 : exponent - 52);
+}
+
+static int is_wrong_time(const cJSON* record, const cJSON* answer, double ulps, int binary32) {
+  const double t = number(cJSON_GetObjectItemCaseSensitive(record, "expect"), "time", INFINITY);
+  const double given = number(answer, "time", NAN);
+  if (isinf(t) || isnan(given)) return 0; /* beyond binary64, or none is given */
+  return !(fabs(given - t) <= ulps * fmax(number(record, "time_change", 0), ulp(t, binary32)));
+}
+
+static const char* verdict(const cJSON* record, const cJSON* answer, double ulps, int binary32) {
+  const cJSON *expect = cJSON_GetObjectItemCaseSensitive(record, "expect"), *item = NULL;
+  if (!answer) return "missing";
+  if (!strcmp(text(answer, "outcome"), "undecided") || !strcmp(text(answer, "outcome"), "later")) return "undecided";
+  if (!strcmp(text(answer, "outcome"), "error") && strcmp(text(expect, "outcome"), "error"))
+    return strcmp(text(answer, "reason"), "unsupported") ? "error" : "unsupported";
+  if (same(answer, expect)) return is_wrong_time(record, answer, ulps, binary32) ? "wrong-time" : "agree";
+  cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(record, "acceptable")) {
+    if (same(answer, item) && number(item, "ulps", INFINITY) <= ulps) return "ill-posed";
+  }
+  cJSON_ArrayForEach(item, cJSON_GetObjectItemCaseSensitive(record, "tags")) {
+    if (!strcmp(cJSON_GetStringValue(item), "needs-judge")) return "needs-judge";
+  }
+  return "wrong";
+}
+
+struct known {
+  const char* id;
+  cJSON* answer;
+};
+
+static int by_id(const void* a, const void* b) {
+  return strcmp(((const struct known*)a)->id, ((const struct known*)b)->id);
+}
+
+int main(int count, char** arguments) {
+  if (count < 3) return fprintf(stderr, "usage: runner SET ANSWERS [ULPS]\n"), 2;
+  const double ulps = count > 3 ? atof(arguments[3]) : 4;
+  FILE *set = fopen(arguments[1], "r"), *answers = fopen(arguments[2], "r");
+  if (!set || !answers) return fprintf(stderr, "cannot open %s\n", arguments[set ? 2 : 1]), 2;
+  void* tree = NULL;
+  char* line = NULL;
+  size_t room = 0;
+  while (getline(&line, &room, answers) > 0) {
+    struct known* entry = malloc(sizeof *entry);
+    entry->answer = cJSON_Parse(line);
+    entry->id = text(entry->answer, "id");
+    tsearch(entry, &tree, by_id);
+  }
+  int binary32 = 0, wrong = 0, records = 0;
+  while (getline(&line, &room, set) > 0) {
+    cJSON* record = cJSON_Parse(line);
+    const cJSON* header = cJSON_GetObjectItemCaseSensitive(record, "golden");
+    if (header) binary32 = !strcmp(text(header, "precision"), "binary32");
+    if (cJSON_HasObjectItem(record, "expect")) {
+      const struct known key = {text(record, "id"), NULL};
+      struct known** found = tfind(&key, &tree, by_id);
+      const char* its = verdict(record, found ? (*found)->answer : NULL, ulps, binary32);
+      printf("%s %s\n", key.id, its);
+      wrong += !strcmp(its, "wrong"), ++records;
+    }
+    cJSON_Delete(record);
+  }
+  fprintf(stderr, "%d of %d are wrong\n", wrong, records);
+  return wrong > 0;
+}

@@ -1,0 +1,80 @@
+// What answers are worth, by a golden set alone (docs/golden.md).
+//   runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
+//   c++ -std=c++17 runner.cpp -o runner    # nlohmann-json3-dev
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+using Json = nlohmann::json;
+
+// A decimal string where it is beyond 2^53.
+static std::string integer(const Json& n) {
+  return n.is_string() ? n.get<std::string>() : std::to_string(n.get<long long>());
+}
+
+static bool same(const Json& a, const Json& b) {
+  for (const char* key : {"outcome", "lattice", "atom"})
+    if (a.value(key, Json()) != b.value(key, Json())) return false;
+  const Json one = a.value("cell", Json::array()), other = b.value("cell", Json::array());
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                    [](const Json& m, const Json& n) { return integer(m) == integer(n); });
+}
+
+static double ulp(double t, bool binary32) {
+  const int exponent = t > 0 ? std::ilogb(t) : -1074;
+  return binary32 ? std::ldexp(1, std::max(exponent, -126) - 23)
+                  : std::ldexp(1, std::max(exponent - 52, -1074));
+}
+
+static bool is_wrong_time(const Json& record, const Json& answer, double ulps, bool binary32) {
+  const Json& expect = record["expect"];
+  if (!expect.contains("time") || !expect["time"].is_number() || !answer.contains("time")) return false;
+  const double t = expect["time"],
+               given = answer["time"].is_number() ? answer["time"].get<double>() : INFINITY;
+  return !(std::fabs(given - t) <= ulps * std::max(record["time_change"].get<double>(), ulp(t, binary32)));
+}
+
+static const char* verdict(const Json& record, const Json& answer, double ulps, bool binary32) {
+  if (answer.is_null()) return "missing";
+  const std::string outcome = answer["outcome"];
+  if (outcome == "undecided" || outcome == "later") return "undecided";
+  if (outcome == "error" && record["expect"]["outcome"] != "error")
+    return answer.value("reason", "") == "unsupported" ? "unsupported" : "error";
+  if (same(answer, record["expect"]))
+    return is_wrong_time(record, answer, ulps, binary32) ? "wrong-time" : "agree";
+  for (const Json& other : record.value("acceptable", Json::array()))
+    if (same(answer, other) && other["ulps"] <= ulps) return "ill-posed";
+  for (const Json& tag : record["tags"])
+    if (tag == "needs-judge") return "needs-judge";
+  return "wrong";
+}
+
+int main(int count, char** arguments) {
+  if (count < 3) return std::cerr << "usage: runner SET ANSWERS [ULPS]\n", 2;
+  const double ulps = count > 3 ? std::strtod(arguments[3], nullptr) : 4;
+  std::map<std::string, Json> answers;
+  std::ifstream answer_file(arguments[2]), set_file(arguments[1]);
+  for (std::string line; std::getline(answer_file, line);) {
+    const Json answer = Json::parse(line);
+    if (answer.contains("id") && answer["id"].is_string()) answers[answer["id"].get<std::string>()] = answer;
+  }
+  std::map<std::string, int> counts;
+  bool binary32 = false;
+  for (std::string line; std::getline(set_file, line);) {
+    const Json record = Json::parse(line);
+    if (record.contains("golden")) binary32 = record["golden"].value("precision", "") == "binary32";
+    if (!record.contains("expect")) continue;
+    const std::string id = record["id"];
+    const auto answer = answers.find(id);
+    const char* found = verdict(record, answer == answers.end() ? Json() : answer->second, ulps, binary32);
+    ++counts[found];
+    std::cout << id << ' ' << found << '\n';
+  }
+  for (const auto& [name, number] : counts) std::cerr << name << ' ' << number << '\n';
+  return counts.count("wrong") ? 1 : 0;
+}

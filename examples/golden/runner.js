@@ -1,0 +1,46 @@
+// What answers are worth, by a golden set alone (docs/golden.md).
+//   node runner.js SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
+"use strict";
+const fs = require("node:fs");
+
+const [setFile, answerFile, ulps = "4"] = process.argv.slice(2);
+const lines = (file) => fs.readFileSync(file, "utf8").split("\n").filter((line) => line.trim()).map((line) => JSON.parse(line));
+
+const same = (a, b) =>
+  a.outcome === b.outcome && a.lattice === b.lattice && a.atom === b.atom && (a.cell ?? []).join() === (b.cell ?? []).join();
+
+function ulp(t, bits) {
+  const exponent = Math.floor(Math.log2(t)); // may be one too large or too small beside a power of two
+  const power = 2 ** exponent > t ? exponent - 1 : 2 ** (exponent + 1) <= t ? exponent + 1 : exponent;
+  return bits === 24 ? 2 ** (Math.max(power, -126) - 23) : 2 ** Math.max(power - 52, -1074);
+}
+
+function isWrongTime(record, answer, k, bits) {
+  const t = record.expect.time;
+  if (typeof t !== "number" || answer.time === undefined) return false;
+  const given = answer.time === "inf" ? Infinity : Number(answer.time);
+  return !(Math.abs(given - t) <= k * Math.max(record.time_change, ulp(t, bits)));
+}
+
+function verdict(record, answer, k, bits) {
+  if (!answer) return "missing";
+  if (answer.outcome === "undecided" || answer.outcome === "later") return "undecided";
+  if (answer.outcome === "error" && record.expect.outcome !== "error")
+    return answer.reason === "unsupported" ? "unsupported" : "error";
+  if (same(answer, record.expect)) return isWrongTime(record, answer, k, bits) ? "wrong-time" : "agree";
+  if ((record.acceptable ?? []).some((other) => same(answer, other) && other.ulps <= k)) return "ill-posed";
+  return record.tags.includes("needs-judge") ? "needs-judge" : "wrong";
+}
+
+const answers = new Map(lines(answerFile).map((answer) => [answer.id, answer]));
+const counts = {};
+let bits = 53;
+for (const line of lines(setFile)) {
+  if (line.golden) bits = line.golden.precision === "binary32" ? 24 : 53;
+  if (!line.expect) continue;
+  const found = verdict(line, answers.get(line.id), Number(ulps), bits);
+  counts[found] = (counts[found] ?? 0) + 1;
+  console.log(line.id, found);
+}
+console.error(counts);
+process.exitCode = counts.wrong ? 1 : 0;

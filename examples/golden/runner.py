@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""What answers are worth, by a golden set alone (docs/golden.md).
+
+runner.py SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
+"""
+import collections
+import json
+import math
+import sys
+
+SAME = ("outcome", "lattice", "atom")
+
+
+def same(one, other):
+    cells = [[int(n) for n in answer.get("cell", [])] for answer in (one, other)]
+    return all(one.get(key) == other.get(key) for key in SAME) and cells[0] == cells[1]
+
+
+def ulp(t, binary32):
+    return 2.0 ** max(math.frexp(t)[1] - 24, -149) if binary32 else math.ulp(t)
+
+
+def is_wrong_time(record, answer, ulps, binary32):
+    t = record["expect"].get("time")
+    if t in (None, "inf") or "time" not in answer:
+        return False
+    return abs(float(answer["time"]) - t) > ulps * max(record["time_change"], ulp(t, binary32))
+
+
+def verdict(record, answer, ulps, binary32):
+    expect = record["expect"]
+    if answer is None:
+        return "missing"
+    if answer["outcome"] in ("undecided", "later"):
+        return "undecided"
+    if answer["outcome"] == "error" != expect["outcome"]:
+        return "unsupported" if answer.get("reason") == "unsupported" else "error"
+    if same(answer, expect):
+        return "wrong-time" if is_wrong_time(record, answer, ulps, binary32) else "agree"
+    if any(same(answer, other) and other["ulps"] <= ulps for other in record.get("acceptable", [])):
+        return "ill-posed"
+    return "needs-judge" if "needs-judge" in record["tags"] else "wrong"
+
+
+def main(set_file, answer_file, ulps="4"):
+    answers = {answer["id"]: answer for answer in map(json.loads, open(answer_file)) if "id" in answer}
+    counts, binary32 = collections.Counter(), False
+    for line in map(json.loads, open(set_file)):
+        if "golden" in line:
+            binary32 = line["golden"].get("precision") == "binary32"
+        elif "expect" in line:
+            found = verdict(line, answers.get(line["id"]), float(ulps), binary32)
+            counts[found] += 1
+            print(line["id"], found)
+    print(dict(counts), file=sys.stderr)
+    return 1 if counts["wrong"] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

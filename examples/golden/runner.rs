@@ -1,0 +1,75 @@
+// What answers are worth, by a golden set alone (docs/golden.md).
+//   runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
+//   cargo init runner && cd runner && cargo add serde_json && cp ../runner.rs src/main.rs && cargo build
+use serde_json::Value;
+use std::collections::{BTreeMap, HashMap};
+
+fn same(a: &Value, b: &Value) -> bool {
+    ["outcome", "lattice", "atom", "cell"].iter().all(|key| a.get(key) == b.get(key))
+}
+
+fn ulp(t: f64, binary32: bool) -> f64 {
+    if binary32 {
+        let exponent = ((t.to_bits() >> 52) as i32 - 1023).max(-126); // of what is far below binary64's range, too
+        return 2f64.powi(exponent - 23);
+    }
+    f64::from_bits(t.to_bits() + 1) - t
+}
+
+fn is_wrong_time(record: &Value, answer: &Value, ulps: f64, binary32: bool) -> bool {
+    let (Some(t), Some(given)) = (record["expect"]["time"].as_f64(), answer.get("time")) else { return false };
+    let allowed = ulps * record["time_change"].as_f64().unwrap_or(0.0).max(ulp(t, binary32));
+    !((given.as_f64().unwrap_or(f64::INFINITY) - t).abs() <= allowed)
+}
+
+fn verdict(record: &Value, answer: Option<&Value>, ulps: f64, binary32: bool) -> &'static str {
+    let Some(answer) = answer else { return "missing" };
+    let (outcome, expect) = (answer["outcome"].as_str().unwrap_or(""), &record["expect"]);
+    if outcome == "undecided" || outcome == "later" {
+        return "undecided";
+    }
+    if outcome == "error" && expect["outcome"] != "error" {
+        return if answer["reason"] == "unsupported" { "unsupported" } else { "error" };
+    }
+    if same(answer, expect) {
+        return if is_wrong_time(record, answer, ulps, binary32) { "wrong-time" } else { "agree" };
+    }
+    let none = vec![];
+    let others = record["acceptable"].as_array().unwrap_or(&none);
+    if others.iter().any(|other| same(answer, other) && other["ulps"].as_f64().unwrap_or(f64::INFINITY) <= ulps) {
+        return "ill-posed";
+    }
+    let needs_judge = record["tags"].as_array().is_some_and(|tags| tags.iter().any(|tag| tag == "needs-judge"));
+    if needs_judge { "needs-judge" } else { "wrong" }
+}
+
+fn lines(path: &str) -> Vec<Value> {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|why| panic!("{path}: {why}"));
+    text.lines().filter(|line| !line.trim().is_empty()).map(|line| serde_json::from_str(line).expect(path)).collect()
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().collect();
+    if arguments.len() < 3 {
+        eprintln!("usage: runner SET ANSWERS [ULPS]");
+        std::process::exit(2);
+    }
+    let ulps = arguments.get(3).map_or(4.0, |text| text.parse().expect("a number of ulps"));
+    let answers: HashMap<String, Value> =
+        lines(&arguments[2]).into_iter().filter_map(|line| Some((line["id"].as_str()?.to_string(), line))).collect();
+    let (mut counts, mut binary32) = (BTreeMap::new(), false);
+    for record in lines(&arguments[1]) {
+        if record.get("golden").is_some() {
+            binary32 = record["golden"]["precision"] == "binary32";
+        }
+        if record.get("expect").is_none() {
+            continue;
+        }
+        let id = record["id"].as_str().expect("an id");
+        let found = verdict(&record, answers.get(id), ulps, binary32);
+        *counts.entry(found).or_insert(0) += 1;
+        println!("{id} {found}");
+    }
+    eprintln!("{counts:?}");
+    std::process::exit(counts.contains_key("wrong") as i32);
+}

@@ -1,0 +1,90 @@
+#include "golden/index.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "golden/reader.hpp"
+
+namespace lorentz::golden {
+namespace {
+
+// What a consumer has to be able to do with the scenes.
+void see_scene(const Scene& scene, std::set<std::string>& kinds) {
+  for_each_atom(scene, [&](const Atom& atom) { kinds.insert(atom.is_ball() ? "balls" : "ellipsoids"); });
+  if (scene.lattices.size() > 1) kinds.insert("several lattices");
+  for (const Lattice& lattice : scene.lattices) {
+    if (lattice.atoms.size() > 1) kinds.insert("several atoms");
+    const int rank = lattice.rank(scene.dimension);
+    kinds.insert(rank == scene.dimension ? "crystals"
+                 : rank == 0             ? "single obstacles"
+                 : rank == 1             ? "rows"
+                                         : "layers");
+  }
+}
+
+bool has_exponent(std::string_view text) {
+  for (std::size_t i = 1; i + 1 < text.size(); ++i)
+    if ((text[i] == 'e' || text[i] == 'E') && text[i - 1] >= '0' && text[i - 1] <= '9') return true;
+  return false;
+}
+
+// And with the texts of numbers; in questions and answers, not in proofs.
+void see_notation(std::string_view text, std::set<std::string>& notations) {
+  text = text.substr(0, text.find(",\"certificate\""));
+  if (text.find("\"0x") != text.npos || text.find("\"-0x") != text.npos) notations.insert("hexadecimal");
+  if (has_exponent(text)) notations.insert("exponents");
+  if (text.find("\"inf\"") != text.npos) notations.insert("inf");
+  for (std::size_t cell = text.find("\"cell\":["); cell != text.npos;
+       cell = text.find("\"cell\":[", cell + 1))
+    if (text.substr(cell, text.find(']', cell) - cell).find('"', 8) != text.npos)
+      notations.insert("integers as strings");
+}
+
+void add_set(json::Members& object, const std::string& folder, const std::string& name) {
+  const std::string file = (std::filesystem::path(folder) / name).string();
+  Reader reader(file);
+  const Header& header = reader.header();
+  std::set<std::string> kinds, notations;
+  std::set<int> dimensions;
+  std::size_t outcomes[3] = {}, errors = 0, with_others = 0, needing = 0, scene = 0;
+  for (ReadRecord read; reader.next(read);) {
+    if (reader.scene_number() != scene) {
+      see_scene(reader.scene(), kinds), see_notation(reader.scene_line(), notations);
+      dimensions.insert(reader.scene().dimension);
+    }
+    scene = reader.scene_number();
+    see_notation(read.text, notations);
+    const Outcome outcome = read.record.expect.outcome;
+    ++(outcome == Outcome::error ? errors : outcomes[static_cast<int>(outcome)]);
+    with_others += !read.record.acceptable.empty();
+    needing += needs_judge(read.record);
+  }
+  object.add("name", header.name, "file", name, "sha256", sum_of(file), "description", header.description,
+             "count", header.count, "precision", name_of(header.precision), "dimensions", dimensions);
+  object.add("hit", outcomes[static_cast<int>(Outcome::hit)], "never",
+             outcomes[static_cast<int>(Outcome::never)], "inside",
+             outcomes[static_cast<int>(Outcome::inside)], "error", errors);
+  object.add("with_acceptable", with_others, "needs_judge", needing, "scenes", kinds, "notations", notations,
+             "tags", [&](json::Members& tags) {
+               for (const auto& [tag, note] : header.tags) tags.add_named(tag, note);
+             });
+}
+
+}  // namespace
+
+std::string sum_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return sha256(std::string{std::istreambuf_iterator<char>(in), {}});
+}
+
+std::string index_of(const std::string& folder, const std::vector<std::string>& names) {
+  return json::line_of([&](json::Members& index) {
+    const auto add = [&](json::Members& one, const std::string& name) { add_set(one, folder, name); };
+    index.add("format", kFormat, "sets", json::objects(names, add, "\n"));
+  });
+}
+
+}  // namespace lorentz::golden

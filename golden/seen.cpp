@@ -1,0 +1,117 @@
+#include "golden/seen.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <lorentz/exchange.hpp>
+#include <lorentz/geometry.hpp>
+
+namespace lorentz::golden {
+namespace {
+
+constexpr double kFar = 1e6, kTiny = 1e-5, kNear = 0x1p-20;
+constexpr int kSmall = 8;
+
+bool is_hard(const std::optional<oracle::HardestDecision>& decision) {
+  return decision && decision->margin < oracle::kLargestMargin;
+}
+
+// Infinite where no lattice repeats.
+double shortest_vector(const Scene& scene) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Lattice& lattice : scene.lattices)
+    for (int i = 0; i < lattice.rank(scene.dimension); ++i)
+      shortest = std::min(shortest, length(lattice.vectors[i]));
+  return shortest;
+}
+
+double smallest_radius(const Scene& scene) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for_each_atom(scene, [&](const Atom& atom) {
+    if (atom.is_ball()) smallest = std::min(smallest, atom.radius);
+  });
+  return smallest;
+}
+
+// The sine of the angle between two vectors; of a zero vector not a number.
+double sine_between(const Vec& a, const Vec& b) {
+  const Vec cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  return length(cross) / length(a) / length(b);
+}
+
+// Along a small vector of a lattice, or nearly.
+bool is_near_rational(const Scene& scene, const Vec& v) {
+  for (const Lattice& lattice : scene.lattices) {
+    const int rank = lattice.rank(scene.dimension);
+    std::array<int, 3> most{};
+    std::fill_n(most.begin(), rank, kSmall);
+    for (int i = -most[0]; i <= most[0]; ++i)
+      for (int j = -most[1]; j <= most[1]; ++j)
+        for (int k = -most[2]; k <= most[2]; ++k) {
+          Vec sum{};
+          const std::array<int, 3> n{i, j, k};
+          for (int m = 0; m < rank; ++m) sum = plus(sum, n[m], lattice.vectors[m]);
+          if (sine_between(sum, v) < kNear) return true;
+        }
+  }
+  return false;
+}
+
+}  // namespace
+
+const std::vector<std::pair<std::string, std::string>>& seen_tags() {
+  static const std::vector<std::pair<std::string, std::string>> tags{
+      {"grazing", "the line enters or misses an obstacle by less than 2^20 ulps of the inputs"},
+      {"tie", "two obstacles are entered at times that 2^20 ulps of the inputs could swap"},
+      {"boundary-start", "the start is within 2^20 ulps of an obstacle's surface"},
+      {"near-rational", "the direction is within 2^-20 of a lattice vector with components up to 8"},
+      {"zero-component", "a component of v is zero"},
+      {"leaving", "`from` names an obstacle, which is ignored"},
+      {"far", "the flight is longer than 10^6 times the shortest lattice vector"},
+      {"tiny-radius", "a radius is below 10^-5 of the shortest lattice vector"},
+      {"plain", "none of the others"}};
+  return tags;
+}
+
+std::vector<std::string> tags_seen(const Scene& scene, const Query& query, const Answer& exact,
+                                   const std::optional<oracle::HardestDecision>& decision) {
+  const auto is = [&](oracle::DecisionKind kind) { return is_hard(decision) && decision->kind == kind; };
+  const double unit = shortest_vector(scene);
+  const bool has_zero = std::any_of(query.v.begin(), query.v.begin() + scene.dimension,
+                                    [](double component) { return component == 0; });
+  const double flown = exact.time.value_or(0) * length(query.v);
+  const std::pair<const char*, bool> all[] = {
+      {"grazing", is(oracle::DecisionKind::meeting)},
+      {"tie", is(oracle::DecisionKind::order)},
+      {"boundary-start", is(oracle::DecisionKind::containing)},
+      {"near-rational", is_near_rational(scene, query.v)},
+      {"zero-component", has_zero},
+      {"leaving", query.from.has_value()},
+      {"far", flown > kFar * unit},
+      {"tiny-radius", std::isfinite(unit) && smallest_radius(scene) < kTiny * unit}};
+  std::vector<std::string> tags;
+  for (const auto& [tag, holds] : all)
+    if (holds) tags.emplace_back(tag);
+  if (tags.empty()) tags.emplace_back("plain");
+  return tags;
+}
+
+std::string comment_on(const std::optional<oracle::HardestDecision>& decision, const Components& count) {
+  if (!is_hard(decision)) return "";
+  const ObstacleId& its = decision->obstacle;
+  std::string cell;
+  for (int i = 0; i < count.of_cells(its.lattice); ++i) cell += (i ? "," : "") + its.cell[i].decimal();
+  const char* what = decision->kind == oracle::DecisionKind::containing
+                         ? (decision->yes ? "x lies in" : "x lies outside of")
+                     : decision->kind == oracle::DecisionKind::meeting
+                         ? (decision->yes ? "the line meets" : "the line misses")
+                         : "the line enters (later)";
+  return fmt::format("{} lattice {}, atom {}, cell [{}] by {:.3g} ulps", what, its.lattice, its.atom, cell,
+                     decision->margin);
+}
+
+}  // namespace lorentz::golden

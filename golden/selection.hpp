@@ -1,0 +1,45 @@
+// Records of several sets in one: all, some, or a few of each tag.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "golden/reader.hpp"
+
+namespace lorentz::golden {
+
+class Selection {
+ public:
+  /// Reads a set, of which each record is taken that `takes` says. An id that was there before is passed over. Throws
+  /// InputError, also if its precision or format is another one than that of the sets before.
+  void add(const std::string& path, const std::function<bool(const Record&)>& takes);
+
+  /// Keeps so many: in turn the first of each tag of each set, until there are enough.
+  void thin(std::size_t count);
+
+  std::size_t size() const { return records_.size(); }
+
+  /// The set, with the name, description and generator of `header`.
+  std::string text(Header header) const;
+
+ private:
+  struct TakenRecord {
+    std::size_t scene;  // in scenes_
+    std::string line, set;
+    std::vector<std::string> tags;
+  };
+
+  void take_tags(const Header& header, const std::string& path);
+  std::size_t number_of(const std::string& scene_line);
+
+  std::vector<std::string> scenes_;
+  std::map<std::string, std::size_t> scene_numbers_;
+  std::map<std::string, std::size_t> by_id_;
+  std::vector<TakenRecord> records_;
+  std::vector<std::pair<std::string, std::string>> tags_;
+  std::optional<Header> first_;
+};
+
+}  // namespace lorentz::golden

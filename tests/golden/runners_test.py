@@ -1,0 +1,164 @@
+"""The runners of examples/golden judge as `lorentz compare` does: every record without `needs-judge`, of ten engines that
+are wrong in different ways.
+
+runners_test.py LORENTZ WORK [--all]: the runners that can be made here are made in the folder WORK; --all: all sets.
+"""
+import json
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLES, SETS = ROOT / "examples/golden", ROOT / "data/golden"
+FEW = ["smoke/smoke", "boundary-starts-binary32", "rows-and-layers"]
+ENGINES = ["classical", "published", "published-float", "reduction"]
+UNANSWERED = ("undecided", "unsupported", "error", "missing")
+KEYS = ("outcome", "lattice", "atom", "cell")
+
+
+def answer_of(expect):
+    return {key: expect[key] for key in (*KEYS, "time") if key in expect}
+
+
+def acceptable(which):
+    def made(record):
+        others = record.get("acceptable")
+        return {key: value for key, value in others[which].items() if key != "ulps"} if others else answer_of(record["expect"])
+    return made
+
+
+def never(record):
+    return {"outcome": "never"}
+
+
+def late(record):
+    answer, change = answer_of(record["expect"]), record.get("time_change", 0)
+    if isinstance(answer.get("time"), (int, float)):
+        time = answer["time"] + change * (3.5 if int(record["id"], 16) % 2 else 4.5)
+        answer["time"] = "inf" if math.isinf(time) else time
+    return answer
+
+
+def neighbour(record):
+    answer = answer_of(record["expect"])
+    if answer.get("cell"):
+        first = int(answer["cell"][0]) + 1
+        answer["cell"] = [first if abs(first) < 2**53 else str(first), *answer["cell"][1:]]
+    return answer
+
+
+def inside(record):
+    answer = answer_of(record["expect"])
+    if answer["outcome"] == "hit":
+        answer["outcome"] = "inside"
+        answer.pop("time", None)
+    elif answer["outcome"] == "inside":
+        answer |= {"outcome": "hit", "time": 0}
+    return answer
+
+
+FAULTS = {"first acceptable": acceptable(0), "last acceptable": acceptable(-1), "never": never, "late": late,
+          "neighbour": neighbour, "inside": inside}
+
+
+def runners(work):
+    """Commands, by language; of those whose language is here."""
+    found = {"Python": [sys.executable, str(EXAMPLES / "runner.py")]}
+    if shutil.which("node"):
+        found["JavaScript"] = ["node", str(EXAMPLES / "runner.js")]
+    for name, compiler, source, options in (("C", "cc", "runner.c", ["-std=c11", "-lcjson", "-lm"]),
+                                            ("C++", "c++", "runner.cpp", ["-std=c++17"])):
+        program = work / f"runner-of-{source}"
+        made = subprocess.run([compiler, "-O1", str(EXAMPLES / source), "-o", str(program), *options],
+                              capture_output=True, text=True, check=False)
+        if made.returncode == 0:
+            found[name] = [str(program)]
+        elif "No such file" not in made.stderr:  # of a library's header: then it is not here
+            sys.exit(made.stderr)
+    if rust := rust_runner(work):
+        found["Rust"] = [rust]
+    return found
+
+
+def rust_runner(work):
+    """Of Debian's crates; nothing if they are not here."""
+    crates = pathlib.Path("/usr/share/cargo/registry")
+    if not shutil.which("cargo") or not list(crates.glob("serde_json-*")):
+        return None
+    folder = work / "rust"
+    (folder / "src").mkdir(parents=True, exist_ok=True)
+    shutil.copy(EXAMPLES / "runner.rs", folder / "src/main.rs")
+    (folder / "Cargo.toml").write_text('[package]\nname = "runner"\nversion = "0.1.0"\nedition = "2021"\n'
+                                       '[dependencies]\nserde_json = "1"\n')
+    made = subprocess.run(["cargo", "build", "--release", "--offline", "--config", 'source.crates-io.replace-with="debian"',
+                           "--config", f'source.debian.directory="{crates}"'], cwd=folder, capture_output=True, text=True, check=False)
+    if made.returncode:
+        sys.exit(made.stderr)
+    return str(folder / "target/release/runner")
+
+
+def compared(lorentz, path, answers, precision, work):
+    """What `compare` says of each record that departs, and how many are not answered in some way."""
+    found = work / "disagreements"
+    done = subprocess.run([lorentz, "compare", "--queries", path, "--answers", f"engine={answers}", "--precision", precision,
+                           "--disagreements", found, "--times", "--json"], capture_output=True, text=True, check=False)
+    if not done.stdout:
+        sys.exit(done.stderr)
+    lines = map(json.loads, found.read_text().splitlines())
+    counts = json.loads(done.stdout)["engines"][0]
+    return {line["id"]: line["verdict"] for line in lines if "id" in line}, {word: counts[word] for word in UNANSWERED}
+
+
+def answers_of(lorentz, engine, path, records, work):
+    answers = work / "answers"
+    with answers.open("w") as out:
+        if engine in ENGINES:
+            subprocess.run([lorentz, "first-hit", "--engine", engine, path], stdout=out, stderr=subprocess.DEVNULL, check=False)
+        else:
+            for record in records:
+                print(json.dumps({"id": record["id"], **FAULTS[engine](record)}), file=out)
+    return answers
+
+
+def main():
+    lorentz, work = sys.argv[1], pathlib.Path(sys.argv[2])
+    work.mkdir(parents=True, exist_ok=True)
+    programs = runners(work)
+    every = sorted(str(path.relative_to(SETS))[:-7] for path in SETS.glob("**/*.ndjson") if "itineraries" not in path.parts)
+    judged = needing = 0
+    seen = {}
+    for name in [name for name in every if name != "bad-queries"] if "--all" in sys.argv else FEW:
+        path = SETS / f"{name}.ndjson"
+        lines = [json.loads(line) for line in path.read_text().splitlines()]
+        precision = lines[0]["golden"].get("precision", "binary64")
+        records = {line["id"]: line for line in lines if "expect" in line}
+        for engine in [*ENGINES, *FAULTS]:
+            answers = answers_of(lorentz, engine, path, records.values(), work)
+            said, unanswered = compared(lorentz, path, answers, precision, work)
+            for language, command in programs.items():
+                done = subprocess.run([*command, path, answers], capture_output=True, text=True, check=False)
+                verdicts = dict(line.split() for line in done.stdout.splitlines())
+                if verdicts.keys() != records.keys():
+                    sys.exit(f"{language}: {len(verdicts)} verdicts on {len(records)} records of {name}: {done.stderr}")
+                counts = {word: sum(verdict == word for verdict in verdicts.values()) for word in UNANSWERED}
+                if counts != unanswered:
+                    sys.exit(f"{language}, {engine}, {name}: {counts}, and `compare` says {unanswered}")
+                for key, verdict in verdicts.items():
+                    if verdict in UNANSWERED:
+                        continue
+                    if "needs-judge" in records[key]["tags"]:
+                        needing += 1
+                        continue
+                    judged += 1
+                    expected = said.get(key, "agree")
+                    seen[expected] = seen.get(expected, 0) + 1
+                    if verdict != expected:
+                        sys.exit(f"{language}, {engine}, {name} {key}: {verdict}, and `compare` says {expected}")
+    print(f"{', '.join(programs)}: {judged} verdicts are those of `compare`: {seen}; {needing} need a judge")
+    return 0 if all(seen.get(one, 0) > 20 for one in ("agree", "ill-posed", "wrong", "wrong-time")) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
