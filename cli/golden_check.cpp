@@ -1,4 +1,5 @@
 // lorentz golden check: an engine against golden sets.
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -9,9 +10,11 @@
 #include "cli/compare_table.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
+#include "cli/known_failures.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
+#include "files/whole_file.hpp"
 #include "golden/find_sets.hpp"
 #include "golden/questions.hpp"
 #include "question/engines.hpp"
@@ -31,7 +34,7 @@ namespace {
 
 struct CheckOptions {
   std::vector<std::string> engines, sets;
-  std::optional<std::string> id;
+  std::optional<std::string> id, baseline, write_baseline, junit;
   std::optional<double> ulps, timeout;
   std::optional<std::uint64_t> first;
   std::uint64_t failures = 10, jobs = 1;
@@ -95,7 +98,10 @@ class EngineCheck {
         ulps_(options.ulps.value_or(oracle::kDefaultUlps)),
         options_(options.claim),
         times_(options.times),
+        strict_(options.strict),
+        has_junit_(options.junit.has_value()),
         most_failures_(options.json ? 0 : static_cast<std::size_t>(options.failures)) {
+    if (options.baseline) known_.emplace(*options.baseline);
     for (std::uint64_t job = 0; job < (engine.is_own() ? options.jobs : 1); ++job)
       answerers_.push_back(engine.answerer(asking));
   }
@@ -132,7 +138,11 @@ class EngineCheck {
   void finish() {
     for (const auto& answerer : answerers_) answerer->finish();
   }
-  const std::vector<Failure>& failures() const { return failures_; }
+  const std::vector<Failure>& failures() const { return failures_; }  ///< the first
+  const std::map<RecordKey, std::string>& all_failures() const { return all_failures_; }
+  std::size_t new_failures() const { return new_failures_; }
+  const std::optional<KnownFailures>& known() const { return known_; }
+  const JUnit& junit() const { return junit_; }
 
  private:
   static constexpr std::size_t kTogether = 4096;
@@ -145,9 +155,15 @@ class EngineCheck {
     }
     tally.all.count(judgement);
     for (const std::string& tag : question.tags) tally.by_tag[tag].count(judgement);
-    const bool failed = judgement.verdict == oracle::Verdict::wrong ||
-                        judgement.verdict == oracle::Verdict::error || (times_ && judgement.wrong_time);
-    if (!failed || failures_.size() >= most_failures_) return;
+    const std::optional<std::string> why = failure_of(judgement);
+    const RecordKey record{tally.all.name, question.where};
+    const bool is_new = known_ ? known_->is_new(record, why.has_value()) : why.has_value();
+    new_failures_ += is_new;
+    if (why) all_failures_.emplace(record, *why);
+    if (has_junit_) junit_.add(record, is_new ? why : std::nullopt);
+    const bool is_lenient =
+        judgement.verdict == oracle::Verdict::ill_posed || judgement.verdict == oracle::Verdict::undecided;
+    if (!is_new || is_lenient || failures_.size() >= most_failures_) return;
     Place& place = *question.place;
     failures_.push_back({set, question.where, fmt::format("{}", fmt::join(question.tags, ", ")), engine_,
                          judgement, margin_of(question), question.exact, reply.answer, place.scene(), "",
@@ -155,6 +171,22 @@ class EngineCheck {
     if (question.is_query() && judgement.verdict == oracle::Verdict::wrong)
       failures_.back().reason = report::reason_of(place.margins(), place.scene(), question.query,
                                                   question.exact, reply.answer, judgement.obstacle, "    ");
+  }
+
+  // What counts against the engine, in a word.
+  std::optional<std::string> failure_of(const oracle::Judgement& judgement) const {
+    switch (judgement.verdict) {
+      case oracle::Verdict::wrong:
+        return "wrong";
+      case oracle::Verdict::error:
+        return "error";
+      case oracle::Verdict::ill_posed:
+        return strict_ ? std::optional("ill-posed") : std::nullopt;
+      case oracle::Verdict::undecided:
+        return strict_ ? std::optional("undecided") : std::nullopt;
+      default:
+        return times_ && judgement.wrong_time ? std::optional("wrong-time") : std::nullopt;
+    }
   }
 
   // The record's, or computed where that counts in another precision's ulps.
@@ -167,8 +199,12 @@ class EngineCheck {
   const std::string engine_;
   const double ulps_;
   const ClaimOptions options_;
-  const bool times_;
+  const bool times_, strict_, has_junit_;
   const std::size_t most_failures_;
+  std::optional<KnownFailures> known_;
+  std::map<RecordKey, std::string> all_failures_;
+  std::size_t new_failures_ = 0;
+  JUnit junit_;
   std::vector<std::unique_ptr<Answerer>> answerers_;  // one a thread
   std::vector<Failure> failures_;
 };
@@ -348,22 +384,36 @@ std::string faults_page(const std::string& engine, const std::vector<SetTally>& 
   return page + "```\n";
 }
 
-int status_of(const std::vector<SetTally>& tallies, bool strict, bool times) {
-  int status = kDone;
-  for (const SetTally& set : tallies) {
-    const Tally& t = set.all;
-    if (set.failed) return kFailed;
-    if (t.wrong > 0 || t.error > 0 || (times && t.wrong_time > 0) ||
-        (strict && t.ill_posed + t.undecided > 0))
-      status = kDisagreement;
-  }
-  return status;
+int status_of(const EngineCheck& check, const std::vector<SetTally>& tallies) {
+  if (std::ranges::any_of(tallies, [](const SetTally& set) { return set.failed; })) return kFailed;
+  return check.new_failures() > 0 ? kDisagreement : kDone;
+}
+
+// What the baseline has to do with it.
+void tell_known(const EngineCheck& check) {
+  if (!check.known()) return;
+  constexpr std::size_t kMost = 10;
+  const std::vector<RecordKey>& stale = check.known()->stale();
+  say("{} failures are known, {} are new", check.known()->number_met(), check.new_failures());
+  for (std::size_t i = 0; i < std::min(stale.size(), kMost); ++i)
+    say("stale: {} {} fails no more; take it out of the baseline", stale[i].first, stale[i].second);
+  if (stale.size() > kMost) say("and {} more are stale", stale.size() - kMost);
+}
+
+// Known failures, and reports of them, are of one engine.
+void check_baseline(const CheckOptions& options, std::size_t engines) {
+  for (const auto& [option, path] : {std::pair{"--baseline", &options.baseline},
+                                     {"--write-baseline", &options.write_baseline},
+                                     {"--junit", &options.junit}})
+    if (*path && engines > 1) throw InputError(std::string(option) + ": is of one engine; name one");
 }
 
 int act(CheckOptions options) {
   const std::vector<EngineInfo> engines = engines_named(options.engines);
   if (engines.empty()) throw InputError("--engine: name one (" + names_for_help() + ")");
+  check_baseline(options, engines.size());
   options.claim.ask(engines);
+  RequestedFile baseline(options.write_baseline), junit(options.junit);
   const Claim claim = options.claim.claim();
   const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
   const std::uint64_t first = options.first.value_or(std::numeric_limits<std::uint64_t>::max());
@@ -388,7 +438,10 @@ int act(CheckOptions options) {
         say("{}: given up in {}: {} records were not asked", engine, its.all.name, its.given_up_before);
     }
     examination.finish();
-    status = std::max(status, status_of(tallies, options.strict, options.times));
+    status = std::max(status, status_of(examination, tallies));
+    tell_known(examination);
+    baseline.write([&] { return text_of(examination.all_failures()); });
+    junit.write([&] { return examination.junit().text(engine); });
     if (options.json)
       print(json_of(engine, claim, tallies, files.size() - tallies.size()));
     else if (!options.markdown)
@@ -428,13 +481,21 @@ Command golden_check_command() {
               {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
               {"--times", &options->times, "", "wrong times count: exit status 1, and among the failures"},
               {"--strict", &options->strict, "", "exit status 1 also for ill-posed and undecided answers"},
+              {"--baseline", &options->baseline, "FILE",
+               "failures that are known, lines \"SET ID\": only others count, and stale lines are told of"},
+              {"--write-baseline", &options->write_baseline, "FILE",
+               "write all failures there as such a file", kOutput},
+              {"--junit", &options->junit, "FILE", "write a report in JUnit's XML there, a case a record",
+               kOutput},
               {"--json", &options->json, "", "one JSON object an engine"},
               {"--markdown", &options->markdown, "", "a page of documentation: who fails what"},
           },
 
           "Exit status 1: an answer is wrong or an error; 3: a cmd: or lib: engine broke.\n"
-          "Example:\n  lorentz golden check --engine 'cmd:python3 examples/naive_engine.py' --first 64 "
-          "generic-3d",
+          "Examples:\n  lorentz golden check --engine 'cmd:python3 examples/naive_engine.py' --first 64 "
+          "generic-3d\n  lorentz golden check -e published --write-baseline known published-faults  # and "
+          "from then on\n"
+          "  lorentz golden check -e published --baseline known --junit report.xml published-faults",
           [options] { return act(*options); }};
 }
 

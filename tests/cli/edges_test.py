@@ -56,7 +56,7 @@ EDGES = {
     "scene show": Edge("square", missing="/no/such/file"),
     "scene draw": Edge("square", "", ["-o"], "/no/such/file"),
     "golden make": Edge("--set ties --count 5", "--set grazing --count 1e8 -o OUT", ["-o"]),
-    "golden check": Edge("ties -e reduction --first 10", "-e oracle,walk,published-256",
+    "golden check": Edge("ties -e reduction --first 10", "-e oracle,walk,published-256", ["--write-baseline", "--junit"],
                          missing="/no/such/file -e oracle"),
     "golden verify": Edge("bad-queries", "--walk", missing="/no/such/file"),
     "golden explain": Edge("9cbb135e set.ndjson", "", ["--svg", "--html"], "9cbb /no/such/file", report=True),

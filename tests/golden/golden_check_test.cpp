@@ -1,6 +1,11 @@
 // lorentz golden check and explain: engines against sets, one record in full.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cstdio>
+#include <set>
+#include <sstream>
+
 #include "report/page.hpp"
 #include "tests/golden/golden_support.hpp"
 
@@ -342,4 +347,83 @@ TEST_CASE("golden: a reader that has enough does not keep it waiting", "[golden]
                                 " 2>/dev/null | head -1 >/dev/null'";
     CHECK(WEXITSTATUS(std::system(command.c_str())) == 0);
   }
+}
+
+TEST_CASE("golden check: known failures do not count, new ones do, and what no longer fails is told of",
+          "[golden][golden_check]") {
+  const Folder folder;
+  const std::string check = "golden check -e published --first 60 published-faults ";
+  const std::string known = folder.file("known"), report = folder.file("report.xml");
+  const Run first = folder.lorentz(check + "--write-baseline " + known);
+  CHECK(first.status == 1);
+  std::istringstream lines(folder.read("known"));
+  std::vector<std::string> listed;
+  for (std::string line; std::getline(lines, line);)
+    if (line[0] != '#') listed.push_back(line);
+  REQUIRE(listed.size() > 3);
+  CHECK(listed[0].starts_with("published-faults "));
+  CHECK(listed[0].ends_with(" wrong"));
+  const Run again = folder.lorentz(check + "--baseline " + known + " --junit " + report);
+  CHECK(again.status == 0);
+  CHECK(contains(again.err, std::to_string(listed.size()) + " failures are known, 0 are new"));
+  CHECK_FALSE(contains(again.out, "The first failures"));
+  CHECK(contains(folder.read("report.xml"), "tests=\"60\" failures=\"0\""));
+  // One that is not listed is new; one that is right is stale; of a set that is not asked nothing is said.
+  const std::string removed = listed[1].substr(17, 16);
+  std::string text = replaced(folder.read("known"), listed[1] + "\n", "# a comment\n\n");
+  std::string right;
+  std::ifstream set(LORENTZ_SOURCE_DIR "/data/golden/published-faults.ndjson");
+  for (std::string line; right.empty() && std::getline(set, line);)
+    if (line.starts_with("{\"id\"") && !contains(text, line.substr(7, 16)) && line.substr(7, 16) != removed)
+      right = line.substr(7, 16);
+  folder.write("known", text + "published-faults " + right + "\nties " + right + "\n");
+  const Run fresh = folder.lorentz(check + "--baseline " + known + " --junit " + report);
+  CHECK(fresh.status == 1);
+  CHECK(contains(fresh.err, std::to_string(listed.size() - 1) + " failures are known, 1 are new"));
+  CHECK(contains(fresh.err, "stale: published-faults " + right + " "));
+  CHECK_FALSE(contains(fresh.err, "stale: ties"));
+  CHECK(contains(fresh.out, removed));
+  CHECK(contains(folder.read("report.xml"),
+                 "name=\"" + removed + "\"><failure message=\"wrong\"/></testcase>"));
+  const Run bad = folder.lorentz(check + "--baseline " + folder.write("bad", "# one\nties\n"));
+  CHECK(bad.status == 2);
+  CHECK(contains(bad.err, "bad:2: expected a set and the id"));
+  CHECK(folder.lorentz("golden check -e published,walk --baseline " + known + " ties").status == 2);
+}
+
+TEST_CASE("golden merge, filter and sample keep records as they are", "[golden][golden_check]") {
+  const Folder folder;
+  const auto made = [&](const std::string& arguments) {
+    const Run run = folder.lorentz("golden " + arguments);
+    INFO(run.err);
+    CHECK(run.status == 0);
+    const std::string set = folder.write("made.ndjson", run.out);
+    CHECK(folder.lorentz("golden verify " + set).status == 0);
+    std::set<std::string> records;
+    std::istringstream lines(run.out);
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with("{\"id\"")) CHECK(records.insert(line).second);
+    return records;
+  };
+  const std::string smoke = LORENTZ_SOURCE_DIR "/data/golden/smoke/smoke.ndjson";
+  const auto ball = made("merge ball-2d"), both = made("merge ball-2d ball-3d " + smoke);
+  CHECK(ball.size() == 640);
+  CHECK((both.size() > 1280 && both.size() < 1380));  // those of smoke that are in one of them once
+  CHECK(std::ranges::includes(both, ball));
+  const auto close = made("filter --margin-below 4 ball-2d ball-3d");
+  CHECK((close.size() > 20 && std::ranges::includes(both, close)));
+  for (const std::string& record : close) {
+    double margin = 1e9;
+    std::sscanf(between(record, "\"margin\":", ",").c_str(), "%lf", &margin);
+    CHECK(margin < 4);
+  }
+  const auto tangent = made("filter --tag far-origin --without needs-judge ball-2d ball-3d");
+  CHECK((!tangent.empty() && tangent.size() < both.size()));
+  for (const std::string& record : tangent) CHECK(contains(record, "far-origin"));
+  const auto few = made("sample --count 30 ball-2d ball-3d");
+  CHECK(few.size() == 30);
+  std::set<std::string> tags;
+  for (const std::string& record : few) tags.insert(between(record, "\"tags\":[\"", "\""));
+  CHECK(tags.size() >= 6);
+  CHECK(folder.lorentz("golden merge ball-2d ball-2d-binary32").status == 2);
 }
