@@ -15,6 +15,7 @@
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
 #include "files/whole_file.hpp"
+#include "golden/production.hpp"
 #include "judge/baseline.hpp"
 #include "judge/judging.hpp"
 #include "report/claim_words.hpp"
@@ -32,7 +33,7 @@ struct JudgeOptions {
   std::uint64_t seed = starts::kDefaultSeed, jobs = 1;
   std::optional<std::uint64_t> questions;
   std::optional<double> ulps, timeout, seconds;
-  std::optional<std::string> html, baseline;
+  std::optional<std::string> html, baseline, golden;
   ClaimOptions claim;
   bool quick = false, json = false, times = false, strict = false;
 };
@@ -133,10 +134,32 @@ JudgeOrder order_of(JudgeOptions options) {
   return order;
 }
 
+// The simplest case of each fault, as records.
+std::string golden_set_of(const JudgeReport& report) {
+  golden::GivenQuestions given({.name = "findings",
+                                .description = "The simplest case of each fault of an engine.",
+                                .generator = report.command,
+                                .version = LORENTZ_VERSION,
+                                .precision = report.claim.precision});
+  for (const judge::Finding& finding : report.findings) {
+    const question::Question& question = finding.simplest.question;
+    if (!question.is_query()) continue;
+    const std::string tag(judge::name_of(finding.cause()));
+    const Scene& scene = question.place->scene();
+    if (std::ranges::none_of(given.header.tags, [&](const auto& known) { return known.first == tag; }))
+      given.header.tags.emplace_back(tag, finding.summary());
+    given.add({scene, golden::question_of(question.query, scene), question.query, {tag}});
+  }
+  std::string text;
+  golden::produce({.count = given.questions.size(), .given = &given},
+                  [&](std::string_view more) { text += more; }, {});
+  return text;
+}
+
 int act(const JudgeOptions& options) {
   JudgeOrder order = order_of(options);
   if (options.html) report::page("{}");  // throws if the program has none: now rather than after two minutes
-  RequestedFile html(options.html);
+  RequestedFile html(options.html), golden(options.golden);
   const std::optional<judge::Baseline> baseline = baseline_of(options);
   const Interrupt interrupt;
   order.on_progress = order.questions ? rows_shown(order.claim.precision) : clock_of(order.seconds());
@@ -144,6 +167,7 @@ int act(const JudgeOptions& options) {
   order.on_progress = {};  // the bar is gone before anything is printed
   print(options.json ? report.json() : report.text());
   html.write([&] { return report::page(report.json()); });
+  golden.write([&] { return golden_set_of(report); });
   if (!Interrupt::came())
     return baseline ? status_against(*baseline, report, options) : exit_status(report, options);
   say("{}: this is what was found so far", Interrupt::what());
@@ -177,6 +201,9 @@ Command judge_command() {
            "how long a cmd: or lib: engine may be silent while it owes answers (default: a tenth of the time "
            "in all, from 2 to 60; for its first answer 60)"},
           {"--html", &options->html, "FILE", "write the report there as a page, whole or not at all",
+           kOutput},
+          {"--golden", &options->golden, "FILE",
+           "write the simplest case of each fault there, as a golden set for the engine's own tests",
            kOutput},
           {"--json", &options->json, "", "one JSON object instead of tables"},
           {"--baseline", &options->baseline, "FILE",

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <lorentz/obstacle.hpp>
+#include <lorentz/vec.hpp>
 #include "cli/command.hpp"
 
 namespace lorentz::cli {

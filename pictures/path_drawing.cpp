@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <lorentz/geometry.hpp>
 #include "pictures/drawing_parts.hpp"
 
 namespace lorentz::pictures {

@@ -8,6 +8,7 @@
 #include "cases/families/family_list.hpp"
 #include "cases/free_start.hpp"
 #include "cases/integer_vectors.hpp"
+#include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {

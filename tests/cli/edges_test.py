@@ -43,7 +43,7 @@ EDGES = {
     "first-hit": Edge("q.ndjson", "many.ndjson -e published-256", missing="/no/such/file"),
     "compare": Edge("--count 100", "--count 9 --disagreements OUT -e cmd:sleep${IFS}99", ["--disagreements", "--store"],
                     "--queries /no/such/file"),
-    "judge": Edge("-e reduction --quick --time 0.01", "-e published", ["--html"],
+    "judge": Edge("-e reduction --quick --time 0.01", "-e published", ["--html", "--golden"],
                   "-e cmd:/no/such/file --time 0.01", report=True, reports=True),
     "convergents": Edge("0.5"),
     "horizon": Edge("square", missing="/no/such/file"),

@@ -1,6 +1,8 @@
 // lorentz judge as its users call it: the fault is named and can be made again from what is printed.
 #include <catch2/catch.hpp>
 
+#include <sstream>
+
 #include <regex>
 
 #include "report/page.hpp"
@@ -218,6 +220,28 @@ TEST_CASE("judge: starting takes no part in the speed, free paths that are cut s
   CHECK(contains(cut.out, "; P(free path > "));
   CHECK(contains(cut.out, "wrong: "));
   CHECK(contains(cut.out, "says never where an obstacle is hit"));
+}
+
+TEST_CASE("judge --golden: the simplest case of each fault is a set", "[judge][judge_command]") {
+  const Folder folder;
+  const std::string set = folder.file("faults.ndjson");
+  const Run run = folder.lorentz("judge --engine published-float --questions 40 --json --golden " + set);
+  CHECK(run.status == 1);
+  CHECK(folder.lorentz("golden verify " + set).status == 0);
+  const Run check = folder.lorentz("golden check --times --engine published-float --json " + set);
+  CHECK(check.status == 1);
+  // Each cause that is told of is a tag, and each record fails again, or is ill-posed.
+  std::size_t records = 0;
+  std::istringstream lines(folder.read("faults.ndjson"));
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("{\"id\"")) {
+      ++records;
+      CHECK(contains(run.out, "\"cause\":" + line.substr(line.find("\"tags\":[") + 8,
+                                                         line.find_first_of(",]", line.find("\"tags\":[")) -
+                                                             line.find("\"tags\":[") - 8)));
+    }
+  CHECK(records >= 4);
+  CHECK(contains(check.out, "\"agree\":"));
 }
 
 TEST_CASE("flights and survival make pages of their curves", "[judge][judge_command]") {

@@ -428,6 +428,7 @@ test("Every chart can be downloaded as SVG and CSV", async () => {
     "speed-against-error": 5,
     "time-against-radius": 25,
     "error-histograms": 45,
+    calls: 1,
     survival: 90,
     "free-paths": 48,
     closeness: 12,

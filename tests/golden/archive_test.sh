@@ -1,0 +1,16 @@
+#!/bin/sh
+# ./run golden-archive makes the same bytes twice, and what is in it verifies by itself. $1: the project's folder.
+set -eu
+cd "$1"
+archive=$(./run golden-archive)
+first=$(sha256sum "$archive")
+touch docs/golden.md # of another time
+[ "$(./run golden-archive && sha256sum "$archive")" = "$archive
+$first" ]
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+tar -xzf "$archive" -C "$folder"
+cd "$folder"/lorentz-golden-*
+(cd data/golden && sha256sum --quiet -c SHA256SUMS)
+python3 data/check.py data/golden/ties.ndjson data/golden/smoke/smoke.ndjson
+test -f examples/golden/runner.py && test -f docs/golden.md && test -f LICENSE
