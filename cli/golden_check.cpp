@@ -440,7 +440,7 @@ int act(CheckOptions options) {
     examination.finish();
     status = std::max(status, status_of(examination, tallies));
     tell_known(examination);
-    baseline.write([&] { return text_of(examination.all_failures()); });
+    baseline.write([&] { return known_failures_text(examination.all_failures()); });
     junit.write([&] { return examination.junit().text(engine); });
     if (options.json)
       print(json_of(engine, claim, tallies, files.size() - tallies.size()));
@@ -493,9 +493,8 @@ Command golden_check_command() {
 
           "Exit status 1: an answer is wrong or an error; 3: a cmd: or lib: engine broke.\n"
           "Examples:\n  lorentz golden check --engine 'cmd:python3 examples/naive_engine.py' --first 64 "
-          "generic-3d\n  lorentz golden check -e published --write-baseline known published-faults  # and "
-          "from then on\n"
-          "  lorentz golden check -e published --baseline known --junit report.xml published-faults",
+          "generic-3d\n  lorentz golden check -e published --write-baseline known.txt published-faults\n"
+          "From then on the same line with --baseline known.txt fails only for what is new.",
           [options] { return act(*options); }};
 }
 

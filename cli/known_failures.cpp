@@ -30,7 +30,7 @@ bool KnownFailures::is_new(const RecordKey& record, bool failed) {
   return failed && !is_known;
 }
 
-std::string text_of(const std::map<RecordKey, std::string>& failures) {
+std::string known_failures_text(const std::map<RecordKey, std::string>& failures) {
   std::string text = "# Known failures: the set, the record's id, the verdict.\n";
   for (const auto& [record, verdict] : failures)
     text += fmt::format("{} {} {}\n", record.first, record.second, verdict);

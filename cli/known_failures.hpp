@@ -31,7 +31,7 @@ class KnownFailures {
 };
 
 /// The text of such a file: of each failure its set, id and verdict.
-std::string text_of(const std::map<RecordKey, std::string>& failures);
+std::string known_failures_text(const std::map<RecordKey, std::string>& failures);
 
 /// The XML that JUnit's readers know: a suite for each set, a case for each record.
 class JUnit {

@@ -34,7 +34,7 @@ std::uint64_t number_in(const Order& order) {
   return order.given ? order.given->questions.size() : order.set->most;
 }
 
-SetQuestion question_of(const Order& order, std::uint64_t index) {
+SetQuestion posed(const Order& order, std::uint64_t index) {
   return order.given ? order.given->questions[index] : order.set->question(order.seed, index);
 }
 
@@ -65,7 +65,7 @@ Batch make_batch(const Order& order, std::uint64_t number) {
   std::optional<Maker> maker;
   const std::uint64_t end = std::min(number_in(order), (number + 1) * kBatch);
   for (std::uint64_t index = number * kBatch; index < end; ++index) {
-    const SetQuestion question = question_of(order, index);
+    const SetQuestion question = posed(order, index);
     const std::string scene_line = scene_line_of(question.scene);
     if (!maker || maker->scene_line() != scene_line)
       maker.emplace(question.scene, Others{}, precision_of(order));

@@ -15,7 +15,7 @@ void Selection::add(const std::string& path, const std::function<bool(const Reco
   for (ReadRecord read; reader.next(read);) {
     const Record& record = read.record;
     if (!takes(record) || !by_id_.emplace(record.id, records_.size()).second) continue;
-    records_.push_back({number_of(reader.scene_line()), read.text, reader.header().name, record.tags});
+    records_.push_back({scene_number(reader.scene_line()), read.text, reader.header().name, record.tags});
   }
 }
 
@@ -30,7 +30,7 @@ void Selection::take_tags(const Header& header, const std::string& path) {
       tags_.push_back(tag);
 }
 
-std::size_t Selection::number_of(const std::string& scene_line) {
+std::size_t Selection::scene_number(const std::string& scene_line) {
   const auto [place, is_new] = scene_numbers_.try_emplace(scene_line, scenes_.size());
   if (is_new) scenes_.push_back(scene_line);
   return place->second;

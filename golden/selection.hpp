@@ -32,7 +32,7 @@ class Selection {
   };
 
   void take_tags(const Header& header, const std::string& path);
-  std::size_t number_of(const std::string& scene_line);
+  std::size_t scene_number(const std::string& scene_line);
 
   std::vector<std::string> scenes_;
   std::map<std::string, std::size_t> scene_numbers_;

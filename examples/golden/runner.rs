@@ -1,6 +1,6 @@
 // What answers are worth, by a golden set alone (docs/golden.md).
 //   runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
-//   cargo init runner && cd runner && cargo add serde_json && cp ../runner.rs src/main.rs && cargo build
+//   cargo init runner && cd runner && cargo add serde_json --features float_roundtrip && cp ../runner.rs src/main.rs && cargo build
 use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
 

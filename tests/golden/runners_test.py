@@ -91,7 +91,7 @@ def rust_runner(work):
     (folder / "src").mkdir(parents=True, exist_ok=True)
     shutil.copy(EXAMPLES / "runner.rs", folder / "src/main.rs")
     (folder / "Cargo.toml").write_text('[package]\nname = "runner"\nversion = "0.1.0"\nedition = "2021"\n'
-                                       '[dependencies]\nserde_json = "1"\n')
+                                       '[dependencies]\nserde_json = { version = "1", features = ["float_roundtrip"] }\n')
     made = subprocess.run(["cargo", "build", "--release", "--offline", "--config", 'source.crates-io.replace-with="debian"',
                            "--config", f'source.debian.directory="{crates}"'], cwd=folder, capture_output=True, text=True, check=False)
     if made.returncode:
