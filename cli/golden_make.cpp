@@ -1,4 +1,5 @@
 // lorentz golden make: produces a set, or all that are committed.
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +16,7 @@
 #include "files/whole_file.hpp"
 #include "golden/index.hpp"
 #include "golden/production.hpp"
+#include "golden/seen.hpp"
 #include "golden/selection.hpp"
 #include "src/exchange/nearest_name.hpp"
 #include "src/problem/write_error.hpp"
@@ -161,7 +163,14 @@ golden::Header header_of(const MakeOptions& options) {
                         .generator = "lorentz golden make --queries " + shell_quoted(*options.queries),
                         .version = LORENTZ_VERSION,
                         .precision = precision_of(options)};
-  for (const std::string& tag : options.tags) header.tags.push_back(tag_in(tag));
+  for (const std::string& text : options.tags) {
+    const auto tag = tag_in(text);
+    const auto is_it = [&](const auto& other) { return other.first == tag.first; };
+    if (tag.first == golden::kNeedsJudge || std::ranges::any_of(golden::seen_tags(), is_it) ||
+        std::ranges::any_of(header.tags, is_it))
+      throw InputError("--tag: " + tag.first + " is a tag already; name another");
+    header.tags.push_back(tag);
+  }
   return header;
 }
 
@@ -175,6 +184,8 @@ int make_of_queries(golden::Order order, const MakeOptions& options) {
   std::size_t others = 0;
   golden::GivenQuestions given = questions_in(queries, header_of(options), others);
   given.look = true;
+  if (given.questions.empty())
+    throw InputError(queries.name() + ": no question in it can be a record; nothing is written");
   if (others > 0)
     say("{}: {} queries left out, for they do not consist of numbers of {}", queries.name(), others,
         name_of(precision_of(options)));

@@ -46,6 +46,7 @@ NumberFormat precision_of(const Order& order) {
 std::optional<MadeRecord> make_record(const Maker& maker, const Order& order, const SetQuestion& question) {
   try {
     MadeRecord made = maker.make(question.text, question.query);
+    if (order.given && order.given->look && !question.query) made.record.tags.emplace_back("invalid");
     if (order.given && order.given->look && question.query) {
       for (std::string& tag : tags_seen(question.scene, *question.query, made.record.expect, made.hardest))
         made.record.tags.push_back(std::move(tag));

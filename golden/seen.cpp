@@ -73,6 +73,7 @@ const std::vector<std::pair<std::string, std::string>>& seen_tags() {
       {"leaving", "`from` names an obstacle, which is ignored"},
       {"far", "the flight is longer than 10^6 times the shortest lattice vector"},
       {"tiny-radius", "a radius is below 10^-5 of the shortest lattice vector"},
+      {"invalid", "no valid question: the answer is `error`"},
       {"plain", "none of the others"}};
   return tags;
 }

@@ -39,7 +39,10 @@ std::size_t Selection::scene_number(const std::string& scene_line) {
 void Selection::thin(std::size_t count) {
   std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> by_tag;
   for (std::size_t i = 0; i < records_.size(); ++i)
-    for (const std::string& tag : records_[i].tags) by_tag[{records_[i].set, tag}].push_back(i);
+    if (records_[i].tags.empty())
+      by_tag[{records_[i].set, ""}].push_back(i);
+    else
+      for (const std::string& tag : records_[i].tags) by_tag[{records_[i].set, tag}].push_back(i);
   std::set<std::size_t> chosen;
   for (std::size_t turn = 0; chosen.size() < std::min(count, records_.size()); ++turn)
     for (const auto& [tag, numbers] : by_tag)

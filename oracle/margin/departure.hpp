@@ -112,9 +112,17 @@ class DepartureBound {
     needs(open_near(query_, ulps_) ? ulps_to_open_way() : kInfinity, exact_.obstacle);
   }
 
-  // No obstacle is entered with more than k to spare.
+  // No obstacle is entered with more than k to spare; above all not the one that is hit.
   void bound_all_entered() {
+    if (exact_.outcome == Outcome::hit) {
+      const Uncertain<D>& hit = query_.atom_of(exact_.obstacle);
+      const Centre<D> centre = query_.centre_of(exact_.obstacle);
+      needs(hit.margin_of_meeting(centre), hit, centre);
+    }
     for (const Uncertain<D>& atom : query_.atoms()) {
+      if (exceeds_tolerance()) return;
+      passed_over_ =
+          0;  // a row of this atom beside the line, without an end, is not to cost the next one its turn
       const View<D>& view = atom.view();
       const std::optional<Z> end = last_s(view);
       const auto look = [&](const Centre<D>& centre) {
@@ -133,7 +141,6 @@ class DepartureBound {
           done |=
               visit_centres(view, atom.rho2(), low, limit, look, [&](int steps) { return pass_over(steps); });
       }
-      if (exceeds_tolerance()) return;
     }
   }
 

@@ -20,7 +20,7 @@ class ExcusedSearch {
   std::optional<std::vector<ExcusedAnswer>> run() {
     look_around();
     if (!is_inside_) look_along();
-    judge(Answer::never());
+    if (!is_never_out_) judge(Answer::never());
     if (is_too_much_) return std::nullopt;
     std::stable_sort(found_.begin(), found_.end(),
                      [](const ExcusedAnswer& a, const ExcusedAnswer& b) { return a.ulps < b.ulps; });
@@ -102,6 +102,9 @@ class ExcusedSearch {
       for (const Uncertain<D>& atom : query_.atoms()) look(atom, low, end);
       judge_candidates();
     }
+    // A direction that is uncertain reaches obstacles farther on.
+    for (const Uncertain<D>& atom : query_.atoms())
+      is_too_much_ |= atom.largest_change_across(farthest) > 2 * atom.largest_change_across(Real(0));
   }
 
   Real time_of(const ObstacleId& obstacle) const {
@@ -129,9 +132,14 @@ class ExcusedSearch {
 
   void look(const Uncertain<D>& atom, const Real& low, const Real& high) {
     const View<D>& view = atom.view();
+    if (view.rank == 0) {
+      if (low == 0) weigh(atom, query_.centre_of({atom.lattice(), atom.atom(), {}}));
+      return;
+    }
     const Real v2 = real(view.velocity.v2);
     const Real wide = real(view.radius) + Real(ulps_) * atom.largest_change_across(high);
     const Z reach2 = ceiling(wide * wide * v2);
+    is_too_much_ |= view.rank < D && wide > 3 * real(view.radius);  // stretches reach no farther (Stretches)
     // The first window has what lies behind the start by no more than is excused.
     const Z begin = low == 0 ? Z(-ceiling(wide * sqrt(v2))) : ceiling(low * v2) - 1;
     const Stretches<D> stretches(view, reach2);
@@ -162,10 +170,28 @@ class ExcusedSearch {
   // excused.
   void note_certain(const Uncertain<D>& atom, const Centre<D>& centre) {
     const bool is_entered = centre.s > 0 && centre.h2 < atom.rho2() && centre.c2 >= atom.view().radius2;
-    if (!is_entered || is_excused(atom.margin_of_meeting(centre))) return;
+    if (!is_entered || is_excused(atom.margin_of_meeting(centre)) || !is_order_certain(atom, centre)) return;
+    is_never_out_ |= is_met_for_certain(atom, centre);
     const Real change = largest_change(query_.ulps(), atom, atom.arrival(centre));
     const Real until = atom.time_of(centre) + 2 * Real(ulps_) * change + 4 * longest_radius();
     if (!until_ || until < *until_) until_ = until;
+  }
+
+  // Of one that is grazed closely the time depends so much on v that translates of it along the flight are not told
+  // apart, to first order.
+  bool is_order_certain(const Uncertain<D>& atom, const Centre<D>& centre) const {
+    const PerturbedArrival<D> arrival = atom.arrival(centre);
+    Real slope = 0;
+    for (std::size_t i = 0; i < D; ++i) slope += abs(arrival.by_x[i]) * query_.ulps().v[i];
+    return 2 * Real(ulps_) * slope < 1;
+  }
+
+  // However all inputs move by as much as is excused. (A margin is first-order: in space, of a line near the centre,
+  // it may be too large.) So no open corridor is that near, and the search for one is spared.
+  bool is_met_for_certain(const Uncertain<D>& atom, const Centre<D>& centre) const {
+    const Real v2 = real(atom.view().velocity.v2),
+               room = real(atom.view().radius) - sqrt(real(centre.h2) / v2);
+    return room > 2 * Real(ulps_) * atom.largest_change_across(real(centre.s) / v2);
   }
 
   // In order of time, each once: neighbouring stretches share their ends.
@@ -189,6 +215,7 @@ class ExcusedSearch {
   std::set<std::tuple<int, int, ZVec<D>>> judged_;
   std::optional<Real> until_;  // no later one is excused
   bool is_inside_ = false;     // by more than is excused
+  bool is_never_out_ = false;
   bool is_too_much_ = false;
   long budget_ = kExcusedBudget;
 };

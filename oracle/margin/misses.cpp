@@ -33,6 +33,11 @@ class MissSearch {
   // as far as the radius again, beyond which the margins are large.
   void search(const Uncertain<D>& atom) {
     const View<D>& view = atom.view();
+    if (view.rank == 0) {  // one obstacle, however far from the line
+      const Centre<D> centre = query_.centre_of({atom.lattice(), atom.atom(), {}});
+      if (!query_.is_from(atom, centre.point.n)) weigh(atom, centre);
+      return;
+    }
     const Real radius = real(view.radius), speed = sqrt(real(view.velocity.v2));
     const std::optional<Z> end = last_s(view);
     Z low = -ceiling(2 * radius * speed), high = -low;

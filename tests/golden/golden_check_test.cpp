@@ -422,6 +422,7 @@ TEST_CASE("golden merge, filter and sample keep records as they are", "[golden][
   for (const std::string& record : tangent) CHECK(contains(record, "far-origin"));
   const auto few = made("sample --count 30 ball-2d ball-3d");
   CHECK(few.size() == 30);
+  CHECK(made("sample --count 1000000 ball-2d").size() == 640);
   std::set<std::string> tags;
   for (const std::string& record : few) tags.insert(between(record, "\"tags\":[\"", "\""));
   CHECK(tags.size() >= 6);

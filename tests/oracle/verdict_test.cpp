@@ -592,3 +592,14 @@ TEST_CASE("An answer beyond any number of obstacles that ulps decide on is judge
   CHECK(judged(unit_scene(2, 1e-6), query, Answer::hit({0, 0, {far, far, 0}}, 1e300)).verdict ==
         Verdict::ill_posed);
 }
+
+TEST_CASE("never: along a row that is met it is wrong, whatever other rows lie beside the line",
+          "[oracle][verdict]") {
+  Scene scene = unit_scene(3, 0.25);
+  scene.lattices[0].vectors = {Vec{1, 0, 0}};
+  scene.lattices[0].missing = 2;
+  scene.lattices[0].atoms = {Atom{{0, 5, 0}, 0.25, {}}, Atom{{0, 0, 0}, 0.25, {}}};
+  const Query along{{0.5, 0.125, 0}, {1, 0, 0}, {}};
+  REQUIRE(oracle::Oracle(scene).first_hit(along).obstacle.atom == 1);
+  CHECK(judged(scene, along, Answer::never()).verdict == Verdict::wrong);
+}
