@@ -130,9 +130,10 @@ void check_dimension(const char* what, std::size_t count, int dimension) {
 
 // What golden records, golden itineraries and files of disagreements have beside the query.
 bool is_beside_query(std::string_view key) {
-  constexpr std::string_view kKeys[] = {"golden",    "tags",        "expect",    "time_decimal", "margin",
-                                        "condition", "certificate", "itinerary", "times",        "end",
-                                        "engine",    "verdict",     "departs",   "expected",     "given"};
+  constexpr std::string_view kKeys[] = {"golden",      "tags",        "expect",    "time_decimal", "margin",
+                                        "condition",   "certificate", "itinerary", "times",        "end",
+                                        "time_change", "acceptable",  "comment",   "source_id",    "engine",
+                                        "verdict",     "departs",     "expected",  "given"};
   return std::find(std::begin(kKeys), std::end(kKeys), key) != std::end(kKeys);
 }
 
