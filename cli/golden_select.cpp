@@ -31,7 +31,10 @@ int act(const SelectOptions& options) {
     return !options.margin_below || (record.margin && *record.margin < *options.margin_below);
   };
   golden::Selection selection;
-  for (const std::string& path : golden::find_sets(options.sets)) selection.add(path, takes);
+  for (const std::string& path : golden::find_sets(options.sets)) {
+    const bool is_wide = golden::Reader(path).header().precision == NumberFormat::binary64;
+    if (is_wide || !options.sets.empty()) selection.add(path, takes);
+  }
   if (options.count) selection.thin(*options.count);
   if (selection.size() == 0) say("warning: no record is left");
   print(selection.text({.name = options.name,
@@ -42,7 +45,8 @@ int act(const SelectOptions& options) {
 }
 
 Option sets_row(SelectOptions& options) {
-  return {"sets", &options.sets, "SET", "files, folders, or names of committed sets (default: all of these)"};
+  return {"sets", &options.sets, "SET",
+          "files, folders, or names of committed sets (default: all of these in binary64)"};
 }
 
 Option name_row(SelectOptions& options) {
