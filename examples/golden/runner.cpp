@@ -36,7 +36,8 @@ static bool is_wrong_time(const Json& record, const Json& answer, double ulps, b
   if (!expect.contains("time") || !answer.contains("time")) return false;
   constexpr double kLargest = 3.4028235677973366e38;  // from here on a binary32 is infinite
   const bool says_infinite = answer["time"] == "inf";
-  if (expect["time"] == "inf" || (says_infinite && binary32 && expect["time"] > kLargest)) return !says_infinite;
+  if (expect["time"] == "inf" || (says_infinite && binary32 && expect["time"] > kLargest))
+    return !says_infinite;
   const double t = expect["time"];
   const double given = answer["time"].is_number() ? answer["time"].get<double>() : INFINITY;
   return !(std::fabs(given - t) <= ulps * std::max(record["time_change"].get<double>(), ulp(t, binary32)));
