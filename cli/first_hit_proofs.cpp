@@ -94,8 +94,7 @@ int write_records(GivenQueries& queries, const std::string& source) {
   const golden::GivenQuestions given = questions_in(queries, std::move(header), others);
   const golden::Order order{.count = given.questions.size(), .given = &given};
   const golden::RecordCounts counts = golden::produce(order, [](std::string_view text) { print(text); }, {});
-  if (counts.left_out > 0)
-    say("{} left out: no checker goes through a proof of so many steps", counts.left_out);
+  say_unproved(counts);
   return queries.had_bad_input() ? kBadInput : counts.left_out > 0 ? kDisagreement : kDone;
 }
 

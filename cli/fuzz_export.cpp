@@ -6,6 +6,7 @@
 #include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"
 #include "cli/fuzz_options.hpp"
+#include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "golden/production.hpp"
 #include "question/engines.hpp"
@@ -100,8 +101,7 @@ void print_golden_set(const std::vector<ExportedCase>& examples,
   given.header.tags.assign(tags.begin(), tags.end());
   const golden::Order order{.count = given.questions.size(), .given = &given};
   const golden::RecordCounts counts = golden::produce(order, [](std::string_view text) { print(text); }, {});
-  if (counts.left_out > 0)
-    say("{} left out: no checker goes through a proof of so many steps", counts.left_out);
+  say_unproved(counts);
 }
 
 int act(const ExportOptions& options) {

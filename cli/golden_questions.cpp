@@ -38,6 +38,12 @@ golden::GivenQuestions questions_in(GivenQueries& queries, golden::Header header
   return all;
 }
 
+void say_unproved(const golden::RecordCounts& counts) {
+  if (counts.left_out > 0)
+    say("{} questions were left out: their proofs take more steps than the checkers go through",
+        counts.left_out);
+}
+
 void report(const std::string& name, const golden::RecordCounts& counts, const std::string& origin) {
   say("{}: {} records{}: {} hit, {} inside, {} never, {} error", name, counts.records, origin, counts.hits,
       counts.insides, counts.nevers, counts.errors);
@@ -47,8 +53,7 @@ void report(const std::string& name, const golden::RecordCounts& counts, const s
   if (counts.needing_judge > 0)
     say("{}: {} records have the tag {}: their acceptable answers are not listed", name, counts.needing_judge,
         golden::kNeedsJudge);
-  if (counts.left_out > 0)
-    say("{}: {} left out: no checker goes through a proof of so many steps", name, counts.left_out);
+  say_unproved(counts);
 }
 
 }  // namespace lorentz::cli

@@ -17,6 +17,9 @@ std::pair<std::string, std::string> tag_in(const std::string& text);
 /// header's precision are complained of, and left out (`others` counts them).
 golden::GivenQuestions questions_in(GivenQueries& queries, golden::Header header, std::size_t& others);
 
+/// How many questions were left out, and why; on stderr, if any.
+void say_unproved(const golden::RecordCounts& counts);
+
 /// What was made, on stderr. `origin`: " (seed 5)".
 void report(const std::string& name, const golden::RecordCounts& counts, const std::string& origin = "");
 
