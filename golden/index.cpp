@@ -37,10 +37,23 @@ void see_notation(std::string_view text, std::set<std::string>& notations) {
   if (text.find("\"0x") != text.npos || text.find("\"-0x") != text.npos) notations.insert("hexadecimal");
   if (has_exponent(text)) notations.insert("exponents");
   if (text.find("\"inf\"") != text.npos) notations.insert("inf");
-  for (std::size_t cell = text.find("\"cell\":["); cell != text.npos;
-       cell = text.find("\"cell\":[", cell + 1))
-    if (text.substr(cell, text.find(']', cell) - cell).find('"', 8) != text.npos)
-      notations.insert("integers as strings");
+}
+
+// Numbers of cells that JSON's readers would round are decimal strings.
+bool has_text(const ObstacleId& obstacle) {
+  constexpr std::int64_t kExact = std::int64_t{1} << 53;
+  return std::ranges::any_of(obstacle.cell, [](const Integer& n) {
+    return !n.fits_int64() || n.int64() > kExact || n.int64() < -kExact;
+  });
+}
+
+void see_cells(const ReadRecord& read, std::set<std::string>& notations) {
+  const Record& record = read.record;
+  const bool is_text =
+      has_text(record.expect.obstacle) || (read.query && read.query->from && has_text(*read.query->from)) ||
+      std::ranges::any_of(record.acceptable,
+                          [](const oracle::ExcusedAnswer& one) { return has_text(one.answer.obstacle); });
+  if (is_text) notations.insert("integers as strings");
 }
 
 void add_set(json::Members& object, const std::string& folder, const std::string& name) {
@@ -57,6 +70,7 @@ void add_set(json::Members& object, const std::string& folder, const std::string
     }
     scene = reader.scene_number();
     see_notation(read.text, notations);
+    see_cells(read, notations);
     const Outcome outcome = read.record.expect.outcome;
     ++(outcome == Outcome::error ? errors : outcomes[static_cast<int>(outcome)]);
     with_others += !read.record.acceptable.empty();

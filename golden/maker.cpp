@@ -169,6 +169,7 @@ std::optional<std::string> Maker::flaw_of(const Record& record, const std::optio
   if (format > 1) {
     impl_->excuse(*query, again);
     if (again.time_change != record.time_change) return "its time_change is another one";
+    if (again.comment != record.comment) return "its comment says something else";
     if (!std::ranges::equal(again.acceptable, record.acceptable, is_same) ||
         again.tags.empty() != !needs_judge(record))
       return "other answers are acceptable";

@@ -56,7 +56,7 @@ class Maker {
 
   /// What is wrong with a record, or nothing: the id does not belong to the question; its numbers, or those of
   /// the scene, are not of the precision; the certificate does not prove the answer; margin, condition,
-  /// time_change or the acceptable answers (since format 2) are others; walk, if asked, says otherwise.
+  /// time_change, comment or the acceptable answers (since format 2) are others; walk, if asked, says otherwise.
   std::optional<std::string> flaw_of(const Record& record, const std::optional<Query>& query, bool ask_walk,
                                      int format = kFormat) const;
 

@@ -110,8 +110,8 @@ std::string comment_on(const std::optional<oracle::HardestDecision>& decision, c
                          ? (decision->yes ? "x lies in" : "x lies outside of")
                      : decision->kind == oracle::DecisionKind::meeting
                          ? (decision->yes ? "the line meets" : "the line misses")
-                         : "the line enters (later)";
-  return fmt::format("{} lattice {}, atom {}, cell [{}] by {:.3g} ulps", what, its.lattice, its.atom, cell,
+                         : "the line enters later";
+  return fmt::format("{} lattice {}, atom {}, cell [{}], by {:.3g} ulps", what, its.lattice, its.atom, cell,
                      decision->margin);
 }
 

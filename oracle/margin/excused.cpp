@@ -89,8 +89,12 @@ class ExcusedSearch {
 
   // The obstacles along the flight, in windows of time that double.
   void look_along() {
-    if (exact_.outcome == Outcome::hit)
-      note_certain(query_.atom_of(exact_.obstacle), query_.centre_of(exact_.obstacle));
+    if (exact_.outcome == Outcome::hit) {
+      const Uncertain<D>& hit = query_.atom_of(exact_.obstacle);
+      const Centre<D> centre = query_.centre_of(exact_.obstacle);
+      is_too_much_ |= !is_order_certain(hit, centre);  // to first order all its translates are excused
+      note_certain(hit, centre);
+    }
     const std::optional<Real> last = end_of_scene();
     Real low = 0, high = longest_radius();
     const Real farthest = times_power_of_two(high, kFarthest);
@@ -102,9 +106,8 @@ class ExcusedSearch {
       for (const Uncertain<D>& atom : query_.atoms()) look(atom, low, end);
       judge_candidates();
     }
-    // A direction that is uncertain reaches obstacles farther on.
-    for (const Uncertain<D>& atom : query_.atoms())
-      is_too_much_ |= atom.largest_change_across(farthest) > 2 * atom.largest_change_across(Real(0));
+    // A direction that is uncertain, however little, reaches other obstacles farther on. (A zero is exact.)
+    is_too_much_ |= std::ranges::count_if(query_.ulps().v, [](const Real& ulp) { return ulp > 0; }) > 1;
   }
 
   Real time_of(const ObstacleId& obstacle) const {
@@ -170,7 +173,7 @@ class ExcusedSearch {
   // excused.
   void note_certain(const Uncertain<D>& atom, const Centre<D>& centre) {
     const bool is_entered = centre.s > 0 && centre.h2 < atom.rho2() && centre.c2 >= atom.view().radius2;
-    if (!is_entered || is_excused(atom.margin_of_meeting(centre)) || !is_order_certain(atom, centre)) return;
+    if (!is_entered || is_excused(atom.margin_of_meeting(centre))) return;
     is_never_out_ |= is_met_for_certain(atom, centre);
     const Real change = largest_change(query_.ulps(), atom, atom.arrival(centre));
     const Real until = atom.time_of(centre) + 2 * Real(ulps_) * change + 4 * longest_radius();

@@ -258,3 +258,33 @@ TEST_CASE("Golden: an exception while writing ends the production", "[golden][go
                   std::runtime_error);
   CHECK(writes == 3);
 }
+
+TEST_CASE("Golden: given questions are records once each; killed, the same order goes on", "[golden]") {
+  const Folder folder, elsewhere;
+  golden::GivenQuestions given(
+      {.name = "given", .version = "0", .tags = {{"one", "a tag"}, {"two", "a tag"}}});
+  given.look = true;
+  const auto add = [&](const Scene& scene, const Query& query, const std::string& id, const char* tag) {
+    given.add({scene, golden::question_of(query, scene), query, {tag}, id});
+  };
+  for (int i = 0; i < 150; ++i)
+    add(unit_scene(i < 100 ? 2 : 3, 0.2), {{0.5, 0.3 + 1e-3 * i, 0}, {1, 0.25, 0}, {}}, std::to_string(i),
+        "one");
+  add(unit_scene(2, 0.2), {{0.5, 0.3, 0}, {1, 0.25, 0}, {}}, "150", "two");  // the first once more
+  given.add({unit_scene(2, 0.2), "\"x\":[0,0],\"v\":[0,0]", {}, {"one"}, "\"bad\""});
+  REQUIRE(given.questions.size() == 151);
+  CHECK(given.questions[0].tags == std::vector<std::string>{"one", "two"});
+  const Order order{.count = given.questions.size(), .given = &given};
+  const Production whole = produced(order);
+  CHECK((whole.counts.records == 151 && whole.counts.errors == 1));
+  CHECK(contains(whole.text, "\"count\":151,"));
+  CHECK(contains(whole.text, "\"tags\":[\"one\",\"invalid\"]"));
+  CHECK(contains(whole.text, "\"source_id\":\"bad\""));
+  CHECK(elsewhere.lorentz("golden verify " + elsewhere.write("whole", whole.text)).status == 0);
+  killed(order, folder.file("set"), 3);
+  require_made(folder, order, whole);
+  // Another order of the same name does not go on there.
+  killed(order, folder.file("set"), 2);
+  given.questions[5].tags = {"two"};
+  CHECK_THROWS_WITH(produce_file(order, folder.file("set")), Catch::Contains("is of another run"));
+}

@@ -435,6 +435,9 @@ TEST_CASE("Golden: each kind of tampering with a hit is named", "[golden]") {
             {"margin", [](Record& r) { r.margin.reset(); }},
             {"condition", [](Record& r) { r.condition = stepped(*r.condition, 1); }},
             {"condition", [](Record& r) { r.condition.reset(); }},
+            {"time_change", [](Record& r) { r.time_change = stepped(*r.time_change, 1); }},
+            {"time_change", [](Record& r) { r.time_change.reset(); }},
+            {"comment", [](Record& r) { r.comment += "?"; }},
             {"no certificate", [](Record& r) { r.certificate.reset(); }},
             {"window", [](Record& r) { r.certificate->windows.clear(); }},
             {"window", [](Record& r) { r.certificate->windows.erase(r.certificate->windows.begin()); }},
@@ -475,6 +478,24 @@ TEST_CASE("Golden: each kind of tampering with inside, never and an error is nam
                  {"hits nothing", [](Record& r) { r.expect.time_decimal = "5"; }},
                  {"no query", [](Record& r) { r.expect = Answer::never(); }},
                  {"the id", [](Record& r) { r.question += " "; }}});
+}
+
+TEST_CASE("Golden: each kind of tampering with acceptable answers is named", "[golden]") {
+  const GoldenCase listed = golden_case(kSquare, {{0.25, 0}, {-1, 0.5}, {}});
+  REQUIRE(listed.record.acceptable.size() == 1);
+  require_flaws(listed, {{"acceptable", [](Record& r) { r.acceptable.clear(); }},
+                         {"acceptable", [](Record& r) { r.acceptable[0].ulps = 1; }},
+                         {"acceptable", [](Record& r) { r.acceptable[0].answer = Answer::never(); }},
+                         {"acceptable", [](Record& r) { r.acceptable[0].answer.obstacle.cell[0] = 1; }},
+                         {"acceptable", [](Record& r) { r.acceptable.push_back(r.acceptable[0]); }}});
+  require_flaws(hit_case(), {{"acceptable", [](Record& r) { r.tags.push_back(golden::kNeedsJudge); }},
+                             {"acceptable", [](Record& r) {
+                                r.acceptable.push_back({Answer::never(), 3});
+                              }}});
+  const GoldenCase endless =
+      golden_case(unit_scene(3, 0.25), {{0.25 + 0x1p-53, 0.5, 0.5}, {0, -1, 5e-324}, {}});
+  REQUIRE(golden::needs_judge(endless.record));
+  require_flaws(endless, {{"acceptable", [](Record& r) { std::erase(r.tags, golden::kNeedsJudge); }}});
 }
 
 TEST_CASE("Golden: all of a record's question is what its id is made from", "[golden]") {

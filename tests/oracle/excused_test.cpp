@@ -9,6 +9,7 @@
 #include <set>
 
 #include <lorentz/geometry.hpp>
+#include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
 #include "cases/families/family.hpp"
 #include "tests/support/support.hpp"
@@ -152,4 +153,31 @@ TEST_CASE("What is excused of a tangent, a tie, and a start on a surface", "[ora
   const auto surface = excused({{0.25, 0, 0}, {-1, 0.5, 0}, {}});
   REQUIRE(surface);
   CHECK(std::ranges::any_of(*surface, [](const auto& its) { return its.answer.outcome == Outcome::inside; }));
+  // Beside a plane of balls by an ulp, in a direction that is hardly known: it comes near one however far on.
+  const Scene balls = unit_scene(3, 0.25);
+  const Query beside{{0.25 + 0x1p-53, 0.5, 0.5}, {0, -1, 5e-324}, {}};
+  const Answer never = oracle::Oracle(balls).first_hit(beside);
+  REQUIRE(never.outcome == Outcome::never);
+  CHECK_FALSE(Judge(balls).excused(beside, never, kUlps, kMost));
+  // A hit so close to a tangent that to first order its translates along the flight are entered first.
+  Scene pell = unit_scene(2, 0.144622802734375);
+  const Query grazed{{0.06630492210388184, 0.12990045547485352, 0}, {51, -35, 0}, {}};
+  CHECK_FALSE(Judge(pell, {NumberFormat::binary32, {}})
+                  .excused(grazed, oracle::Oracle(pell).first_hit(grazed), kUlps, kMost));
+}
+
+TEST_CASE("A single ball is excused, and has a margin, however far the line misses it", "[oracle][excused]") {
+  Scene scene = unit_scene(2, 1);
+  scene.lattices[0].vectors = {};
+  scene.lattices[0].missing = 2;
+  const Query query{{-1e17, -1.0000000000000002e17, 0}, {1, 1, 0}, {}};  // by 11 radii, less than an ulp of x
+  const Answer exact = oracle::Oracle(scene).first_hit(query);
+  REQUIRE(exact.outcome == Outcome::never);
+  const auto decision = oracle::Margins(scene).hardest_decision(query, exact);
+  REQUIRE(decision);
+  CHECK(decision->margin < 1);
+  const auto excused = Judge(scene).excused(query, exact, kUlps, kMost);
+  REQUIRE((excused && excused->size() == 1));
+  CHECK(excused->front().answer.outcome == Outcome::hit);
+  CHECK(excused->front().ulps == Approx(decision->margin));
 }

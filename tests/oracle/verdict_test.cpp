@@ -3,12 +3,14 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
+#include "cases/families/family.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -509,6 +511,51 @@ TEST_CASE("Among the subnormal numbers a rounding is as large as the time, and s
   CHECK((judgement(5 * 0x1p-1074).verdict == Verdict::agree && judgement(5 * 0x1p-1074).wrong_time));
   CHECK_FALSE(judgement(6 * 0x1p-1074).other_quantity);
   CHECK(judgement(0x1p-1000).other_quantity);
+}
+
+TEST_CASE("Excused answers are the same in other units, axes and bases", "[oracle][verdict][excused]") {
+  int lists = 0, none = 0;
+  for (const char* name :
+       {"grazing", "ties", "boundary-starts", "corridor-edge", "ball-3d", "rows-and-layers"})
+    for (std::uint64_t index = 0; index < 24; ++index) {
+      const cases::Case one = cases::family_named(name)->make(302, index);
+      const int dimension = one.scene.dimension;
+      const auto listed = [](const Scene& scene, const Query& query) {
+        return oracle::Judge(scene).excused(query, oracle::Oracle(scene).first_hit(query), 16, 32);
+      };
+      const OtherWords words{static_cast<int>(index) % dimension, 40, 13, index % 2 ? 1.0 : -1.0};
+      Scene scene = words(one.scene);
+      Query query = words(one.query, dimension);
+      // The first two vectors the other way round, and the cells with them.
+      const auto turned = [&](ObstacleId obstacle) {
+        if (scene.lattices[static_cast<std::size_t>(obstacle.lattice)].rank(dimension) > 1)
+          std::swap(obstacle.cell[0], obstacle.cell[1]);
+        return obstacle;
+      };
+      for (Lattice& lattice : scene.lattices)
+        if (lattice.rank(dimension) > 1) std::swap(lattice.vectors[0], lattice.vectors[1]);
+      if (query.from) query.from = turned(*query.from);
+      const auto here = listed(one.scene, one.query), there = listed(scene, query);
+      INFO(name << ' ' << index << '\n' << stream(one.scene, one.query));
+      REQUIRE(here.has_value() == there.has_value());
+      if (!here) {
+        ++none;
+        continue;
+      }
+      REQUIRE(here->size() == there->size());
+      for (const oracle::ExcusedAnswer& its : *here) {
+        const auto same = [&](const oracle::ExcusedAnswer& other) {
+          const bool names_one = its.answer.outcome != Outcome::never;
+          return other.answer.outcome == its.answer.outcome &&
+                 (!names_one || other.answer.obstacle == turned(its.answer.obstacle)) &&
+                 other.ulps == Approx(its.ulps).epsilon(1e-9);
+        };
+        REQUIRE(std::ranges::any_of(*there, same));
+        ++lists;
+      }
+    }
+  INFO(lists << " answers, " << none << " without a list");
+  CHECK(lists > 40);
 }
 
 TEST_CASE("Verdicts, and by how many radii a line misses, are the same in other units and axes",
