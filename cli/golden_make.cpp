@@ -6,6 +6,7 @@
 #include <thread>
 
 #include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
 #include "cli/claim_options.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
@@ -18,6 +19,7 @@
 #include "golden/production.hpp"
 #include "golden/seen.hpp"
 #include "golden/selection.hpp"
+#include "report/manifest.hpp"
 #include "src/exchange/nearest_name.hpp"
 #include "src/problem/write_error.hpp"
 #include "starts/free_starts.hpp"
@@ -83,7 +85,10 @@ golden::RecordCounts make_file(const golden::Order& order, const std::string& pa
   if (fs::is_symlink(fs::symlink_status(part))) throw write_error(part, ELOOP);
   golden::RecordCounts counts;
   {
-    runs::PieceStore kept(part, "golden make", golden::plan_of(order));
+    runs::Plan plan = golden::plan_of(order);
+    plan.push_back(
+        {"commit", report::manifest_of(order.seed, command_line()).commit});  // what it makes may change
+    runs::PieceStore kept(part, "golden make", plan);
     WholeFile file(path);
     const std::string name = name_of(order);
     Progress progress(name.c_str(), order.count, 1);
