@@ -1,6 +1,8 @@
 // lorentz fuzz: runs a campaign, or goes on with one, and reports.
 #include "cli/fuzz.hpp"
 
+#include <algorithm>
+
 #include <lorentz/exchange.hpp>
 #include "cli/exit_status.hpp"
 #include "cli/fuzz_options.hpp"
@@ -10,6 +12,7 @@
 #include "cli/terminal.hpp"
 #include "fuzz/campaign/ranks.hpp"
 #include "fuzz/examine/answerers.hpp"
+#include "golden/record.hpp"
 #include "question/answerer.hpp"
 #include "report/claim_words.hpp"
 
@@ -28,6 +31,34 @@ int exit_status(const FuzzReport& report, bool times, bool answerer_failed) {
   if (answerer_failed) return kFailed;
   const bool wrong = report.total(Kind::wrong) + report.total(Kind::error) > 0;
   return wrong || (times && report.total(Kind::wrong_time) > 0) ? kDisagreement : kDone;
+}
+
+// Is the campaign the same on every machine? Throws InputError if it has to be.
+void check_files(const FuzzOptions& options) {
+  const auto option = options.files.first_option();
+  if (option && (!options.count || options.seconds || options.first))
+    throw InputError(*option +
+                     ": needs --count, and neither --time nor --first, so that each run asks the same");
+}
+
+// The failures that were kept, by target and the id of the case as it was found.
+void take_down(const FuzzReport& report, bool times, FailureLedger& ledger) {
+  for (const std::string& target : report.targets) {
+    bool failed = false;
+    for (const fuzz::Stored& stored : report.findings) {
+      const fuzz::Finding& finding = stored.finding;
+      const bool counts = finding.kind == name_of(Kind::wrong) || finding.kind == name_of(Kind::error) ||
+                          (times && finding.kind == name_of(Kind::wrong_time));
+      if (!counts || finding.target != target) continue;
+      const fuzz::ReadCase found = fuzz::case_in(finding.text);
+      std::string kind = finding.kind;
+      std::ranges::replace(kind, ' ', '-');
+      ledger.take(target, golden::id_of(found.scene, found.query), kind);
+      failed = true;
+    }
+    if (!failed) ledger.take(target, "no-failure", std::nullopt);
+    ledger.end(target);
+  }
 }
 
 void say_how_to_go_on(const FuzzOptions& options) {
@@ -87,6 +118,7 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan,
   const Interrupt interrupt;
   fuzz::Bounds bounds = bounds_of(options);
   bounds.stop = &Interrupt::came();
+  FailureLedger ledger(options.files, options.files.known());
   Store store(options.store.value_or(":memory:"), Store::Access::write, say_left_out);
   auto [report, campaign, unshrunk] = opened(store, plan, options);
   bool failed = false;
@@ -106,10 +138,15 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan,
         "--count");
     return kBadInput;
   }
-  return exit_status(report, options.times, failed);
+  const int status = exit_status(report, options.times, failed);
+  if (Interrupt::came()) return status;
+  take_down(report, options.times, ledger);
+  ledger.finish(options.engine);
+  return !ledger.has_baseline() || failed ? status : ledger.new_failures() > 0 ? kDisagreement : kDone;
 }
 
 int act(const FuzzOptions& options) {
+  check_files(options);
   const fuzz::Plan plan = plan_of(options);
   const unsigned jobs = bounds_of(options).jobs;
   const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);

@@ -173,6 +173,9 @@ std::string command_of(const FuzzOptions& o) {
   add_flag("--no-undecided", o.no_undecided);
   add_flag("--json", o.json);
   add_if("--store", o.store);
+  add_if("--baseline", o.files.baseline);
+  add_if("--write-baseline", o.files.write_baseline);
+  add_if("--junit", o.files.junit);
   return command;
 }
 
@@ -214,6 +217,11 @@ std::vector<Option> rows_of(FuzzOptions& options) {
           {"--no-undecided", &options.no_undecided, "", "`undecided` is no finding", kPlain, "--undecided"},
           {"--progress", Positive{&options.progress}, "SECONDS",
            "where stderr is not a terminal: print a line there every SECONDS (default: 60)"},
+          options.files.baseline_row(
+              "with --count: failures that are known, lines \"TARGET ID\": only others count; stale ones are "
+              "told of"),
+          options.files.write_baseline_row(),
+          options.files.junit_row(),
           {"--json", &options.json, "", "one JSON object instead of tables"}};
 }
 

@@ -8,6 +8,7 @@
 
 #include "cli/claim_options.hpp"
 #include "cli/command.hpp"
+#include "cli/known_failures.hpp"
 #include "fuzz/campaign/store.hpp"
 #include "starts/free_starts.hpp"
 
@@ -24,6 +25,7 @@ struct FuzzOptions {
   std::uint64_t seed = starts::kDefaultSeed, jobs = 1, keep = 3, mutate = 32, reword = 1;
   std::string engine = "reduction", shard = "0/1", judge = "oracle", scenes = "any";
   ClaimOptions claim;
+  FailureFiles files;
   bool json = false, first = false, times = false, undecided = false, no_undecided = false;
 };
 

@@ -68,9 +68,9 @@ Command golden_command() {
       "Example:\n  lorentz golden check --engine reduction near-rational\n"
       "docs/formats.md has the format, docs/certificates.md the proofs, data/README.md the committed sets.",
       {},
-      {golden_make_command(), golden_check_command(), golden_verify_command(), golden_explain_command(),
-       golden_export_command(), golden_merge_command(), golden_filter_command(), golden_sample_command(),
-       golden_list_command()}};
+      {golden_make_command(), golden_add_command(), golden_check_command(), golden_verify_command(),
+       golden_explain_command(), golden_export_command(), golden_merge_command(), golden_filter_command(),
+       golden_sample_command(), golden_list_command()}};
 }
 
 }  // namespace lorentz::cli

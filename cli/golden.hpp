@@ -6,6 +6,7 @@
 namespace lorentz::cli {
 
 Command golden_make_command();
+Command golden_add_command();
 Command golden_check_command();
 Command golden_verify_command();
 Command golden_list_command();

@@ -14,7 +14,6 @@
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
-#include "files/whole_file.hpp"
 #include "golden/find_sets.hpp"
 #include "golden/questions.hpp"
 #include "question/engines.hpp"
@@ -34,7 +33,8 @@ namespace {
 
 struct CheckOptions {
   std::vector<std::string> engines, sets;
-  std::optional<std::string> id, baseline, write_baseline, junit;
+  std::optional<std::string> id;
+  FailureFiles files;
   std::optional<double> ulps, timeout;
   std::optional<std::uint64_t> first;
   std::uint64_t failures = 10, jobs = 1;
@@ -99,9 +99,8 @@ class EngineCheck {
         options_(options.claim),
         times_(options.times),
         strict_(options.strict),
-        has_junit_(options.junit.has_value()),
-        most_failures_(options.json ? 0 : static_cast<std::size_t>(options.failures)) {
-    if (options.baseline) known_.emplace(*options.baseline);
+        most_failures_(options.json ? 0 : static_cast<std::size_t>(options.failures)),
+        ledger_(options.files, options.files.known()) {
     for (std::uint64_t job = 0; job < (engine.is_own() ? options.jobs : 1); ++job)
       answerers_.push_back(engine.answerer(asking));
   }
@@ -132,17 +131,17 @@ class EngineCheck {
     for (std::vector<Question> part; !(part = some_of(records, kTogether)).empty();)
       examine(part, answerers_, ulps_, [&](const Judged& judged) { take(judged, path, tally); });
     tally.failed = answerers_[0]->failed();
+    const bool are_all = !id && first >= reader.header().count && tally.not_asked() == 0;
+    if (are_all) ledger_.end(tally.all.name);
     return tally;
   }
 
   void finish() {
     for (const auto& answerer : answerers_) answerer->finish();
+    ledger_.finish(engine_);
   }
   const std::vector<Failure>& failures() const { return failures_; }  ///< the first
-  const std::map<RecordKey, std::string>& all_failures() const { return all_failures_; }
-  std::size_t new_failures() const { return new_failures_; }
-  const std::optional<KnownFailures>& known() const { return known_; }
-  const JUnit& junit() const { return junit_; }
+  std::size_t new_failures() const { return ledger_.new_failures(); }
 
  private:
   static constexpr std::size_t kTogether = 4096;
@@ -155,12 +154,7 @@ class EngineCheck {
     }
     tally.all.count(judgement);
     for (const std::string& tag : question.tags) tally.by_tag[tag].count(judgement);
-    const std::optional<std::string> why = failure_of(judgement);
-    const RecordKey record{tally.all.name, question.where};
-    const bool is_new = known_ ? known_->is_new(record, why.has_value()) : why.has_value();
-    new_failures_ += is_new;
-    if (why) all_failures_.emplace(record, *why);
-    if (has_junit_) junit_.add(record, is_new ? why : std::nullopt);
+    const bool is_new = ledger_.take(tally.all.name, question.where, failure_of(judgement, times_, strict_));
     const bool is_lenient =
         judgement.verdict == oracle::Verdict::ill_posed || judgement.verdict == oracle::Verdict::undecided;
     if (!is_new || is_lenient || failures_.size() >= most_failures_) return;
@@ -173,22 +167,6 @@ class EngineCheck {
                                                   question.exact, reply.answer, judgement.obstacle, "    ");
   }
 
-  // What counts against the engine, in a word.
-  std::optional<std::string> failure_of(const oracle::Judgement& judgement) const {
-    switch (judgement.verdict) {
-      case oracle::Verdict::wrong:
-        return "wrong";
-      case oracle::Verdict::error:
-        return "error";
-      case oracle::Verdict::ill_posed:
-        return strict_ ? std::optional("ill-posed") : std::nullopt;
-      case oracle::Verdict::undecided:
-        return strict_ ? std::optional("undecided") : std::nullopt;
-      default:
-        return times_ && judgement.wrong_time ? std::optional("wrong-time") : std::nullopt;
-    }
-  }
-
   // The record's, or computed where that counts in another precision's ulps.
   static std::optional<double> margin_of(const Question& question) {
     if (question.margin || !question.is_query()) return question.margin;
@@ -199,12 +177,9 @@ class EngineCheck {
   const std::string engine_;
   const double ulps_;
   const ClaimOptions options_;
-  const bool times_, strict_, has_junit_;
+  const bool times_, strict_;
   const std::size_t most_failures_;
-  std::optional<KnownFailures> known_;
-  std::map<RecordKey, std::string> all_failures_;
-  std::size_t new_failures_ = 0;
-  JUnit junit_;
+  FailureLedger ledger_;
   std::vector<std::unique_ptr<Answerer>> answerers_;  // one a thread
   std::vector<Failure> failures_;
 };
@@ -389,31 +364,12 @@ int status_of(const EngineCheck& check, const std::vector<SetTally>& tallies) {
   return check.new_failures() > 0 ? kDisagreement : kDone;
 }
 
-// What the baseline has to do with it.
-void tell_known(const EngineCheck& check) {
-  if (!check.known()) return;
-  constexpr std::size_t kMost = 10;
-  const std::vector<RecordKey>& stale = check.known()->stale();
-  say("{} failures are known, {} are new", check.known()->number_met(), check.new_failures());
-  for (std::size_t i = 0; i < std::min(stale.size(), kMost); ++i)
-    say("stale: {} {} fails no more; take it out of the baseline", stale[i].first, stale[i].second);
-  if (stale.size() > kMost) say("and {} more are stale", stale.size() - kMost);
-}
-
-// Known failures, and reports of them, are of one engine.
-void check_baseline(const CheckOptions& options, std::size_t engines) {
-  for (const auto& [option, path] : {std::pair{"--baseline", &options.baseline},
-                                     {"--write-baseline", &options.write_baseline},
-                                     {"--junit", &options.junit}})
-    if (*path && engines > 1) throw InputError(std::string(option) + ": is of one engine; name one");
-}
-
 int act(CheckOptions options) {
   const std::vector<EngineInfo> engines = engines_named(options.engines);
   if (engines.empty()) throw InputError("--engine: name one (" + names_for_help() + ")");
-  check_baseline(options, engines.size());
+  if (const auto option = options.files.first_option(); option && engines.size() > 1)
+    throw InputError(*option + ": is of one engine; name one");
   options.claim.ask(engines);
-  RequestedFile baseline(options.write_baseline), junit(options.junit);
   const Claim claim = options.claim.claim();
   const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
   const std::uint64_t first = options.first.value_or(std::numeric_limits<std::uint64_t>::max());
@@ -439,9 +395,6 @@ int act(CheckOptions options) {
     }
     examination.finish();
     status = std::max(status, status_of(examination, tallies));
-    tell_known(examination);
-    baseline.write([&] { return known_failures_text(examination.all_failures()); });
-    junit.write([&] { return examination.junit().text(engine); });
     if (options.json)
       print(json_of(engine, claim, tallies, files.size() - tallies.size()));
     else if (!options.markdown)
@@ -481,12 +434,9 @@ Command golden_check_command() {
               {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
               {"--times", &options->times, "", "wrong times count: exit status 1, and among the failures"},
               {"--strict", &options->strict, "", "exit status 1 also for ill-posed and undecided answers"},
-              {"--baseline", &options->baseline, "FILE",
-               "failures that are known, lines \"SET ID\": only others count, and stale lines are told of"},
-              {"--write-baseline", &options->write_baseline, "FILE",
-               "write all failures there as such a file", kOutput},
-              {"--junit", &options->junit, "FILE", "write a report in JUnit's XML there, a case a record",
-               kOutput},
+              options->files.baseline_row(),
+              options->files.write_baseline_row(),
+              options->files.junit_row(),
               {"--json", &options->json, "", "one JSON object an engine"},
               {"--markdown", &options->markdown, "", "a page of documentation: who fails what"},
           },

@@ -31,9 +31,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct MakeOptions {
-  std::optional<std::string> set, folder, precision, queries, scene, name;
-  std::optional<double> radius;
-  std::vector<std::string> tags;
+  std::optional<std::string> set, folder, precision, name;
+  QuestionOptions questions;
   std::optional<std::uint64_t> count;
   std::string output = "-";
   std::uint64_t seed = starts::kDefaultSeed, jobs = 1;
@@ -105,8 +104,10 @@ golden::RecordCounts make_file(const golden::Order& order, const std::string& pa
 std::string smoke_of(const std::vector<std::string>& files) {
   constexpr std::size_t kRecords = 100;
   golden::Selection selection;
-  for (const std::string& file : files)
-    selection.add(file, [](const golden::Record& record) { return !golden::needs_judge(record); });
+  for (const std::string& file : files) {
+    golden::Reader set(file);
+    selection.add(set, [](const golden::Record& record) { return !golden::needs_judge(record); });
+  }
   selection.thin(kRecords);
   return selection.text({.name = "smoke",
                          .description = "A few records of each tag of the sets in binary64.",
@@ -160,57 +161,34 @@ int make_one(golden::Order order, const MakeOptions& options) {
   return kDone;
 }
 
-// ---- Of given queries
-
-golden::Header header_of(const MakeOptions& options) {
-  golden::Header header{.name = options.name.value_or("queries"),
-                        .description = "Given queries, answered exactly.",
-                        .generator = "lorentz golden make --queries " + shell_quoted(*options.queries),
-                        .version = LORENTZ_VERSION,
-                        .precision = precision_of(options)};
-  for (const std::string& text : options.tags) {
-    const auto tag = tag_in(text);
-    const auto is_it = [&](const auto& other) { return other.first == tag.first; };
-    if (tag.first == golden::kNeedsJudge || std::ranges::any_of(golden::seen_tags(), is_it) ||
-        std::ranges::any_of(header.tags, is_it))
-      throw InputError("--tag: " + tag.first + " is a tag already; name another");
-    header.tags.push_back(tag);
-  }
-  return header;
-}
-
 int make_of_queries(golden::Order order, const MakeOptions& options) {
-  const UnknownKeys unknown = UnknownKeys::warned;
-  std::optional<Scene> scene;
-  if (options.scene) scene = load_scene(*options.scene, options.radius, unknown);
-  if (options.radius && !options.scene)
-    throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
-  GivenQueries queries(*options.queries, scene, unknown);
-  std::size_t others = 0;
-  golden::GivenQuestions given = questions_in(queries, header_of(options), others);
-  given.look = true;
-  if (given.questions.empty())
-    throw InputError(queries.name() + ": no question in it can be a record; nothing is written");
-  if (others > 0)
-    say("{}: {} queries left out, for they do not consist of numbers of {}", queries.name(), others,
-        name_of(precision_of(options)));
+  const golden::Header header{
+      .name = options.name.value_or("queries"),
+      .description = "Given queries, answered exactly.",
+      .generator = "lorentz golden make --queries " + shell_quoted(*options.questions.queries),
+      .version = LORENTZ_VERSION,
+      .precision = precision_of(options)};
+  bool had_bad_input = false;
+  const golden::GivenQuestions given = options.questions.read(header, had_bad_input);
   order.given = &given;
   order.count = given.questions.size();
   const golden::RecordCounts counts = make(order, options.output);
   report(given.header.name, counts);
-  return queries.had_bad_input() || others > 0 ? kBadInput : counts.left_out > 0 ? kDisagreement : kDone;
+  return had_bad_input ? kBadInput : counts.left_out > 0 ? kDisagreement : kDone;
 }
 
 void check(const MakeOptions& options) {
-  const int ways = options.set.has_value() + options.folder.has_value() + options.queries.has_value();
+  const int ways =
+      options.set.has_value() + options.folder.has_value() + options.questions.queries.has_value();
   if (ways != 1)
     throw InputError(
         "name a set (--set NAME), a file of queries (--queries FILE), or a folder for all sets (--all "
         "FOLDER)");
   if (options.folder && (options.count || options.precision))
     throw InputError("--all makes every set as it is committed; leave --count and --precision out");
-  if (options.queries && options.count) throw InputError("--count: not with --queries, which are all taken");
-  if (!options.queries && (options.scene || options.radius || options.name || !options.tags.empty()))
+  if (options.questions.queries && options.count)
+    throw InputError("--count: not with --queries, which are all taken");
+  if (!options.questions.queries && (options.questions.are_given() || options.name))
     throw InputError("--scene, --radius, --name and --tag: need --queries");
 }
 
@@ -220,27 +198,17 @@ int act(const MakeOptions& options) {
   order.seed = options.seed;
   order.jobs = options.jobs;
   if (options.folder) return make_all(order, *options.folder);
-  return options.queries ? make_of_queries(order, options) : make_one(order, options);
+  return options.questions.queries ? make_of_queries(order, options) : make_one(order, options);
 }
 
 }  // namespace
 
 Command golden_make_command() {
   auto options = std::make_shared<MakeOptions>();
-  return {
-      "make",
-      "Produces a set, of cases that are drawn or of queries that you have: the same, bit for bit, whatever "
-      "--jobs.",
-      {
-          {"--set", &options->set, "SET", "which set (lorentz golden list)"},
-          {"--queries", &options->queries, "FILE",
-           "records of these queries: a stream, or columns (.npy, .csv; - is standard input); invalid ones "
-           "become "
-           "records of errors"},
-          {"--scene", &options->scene, "SCENE",
-           "scene before the first scene line, and of columns: a file, or a name of the catalogue"},
-          {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
-          {"--tag", &options->tags, "TAG[=SENTENCE]", "tag of each record of --queries", kOneAtATime},
+  std::vector<Option> rows{{"--set", &options->set, "SET", "which set (lorentz golden list)"}};
+  std::ranges::move(options->questions.rows(), std::back_inserter(rows));
+  std::ranges::move(
+      std::vector<Option>{
           {"--name", &options->name, "NAME", "of the set that --queries become (default: queries)"},
           {"--precision", &options->precision, "binary64|binary32",
            "of the numbers of scenes and queries: cases are hard in its ulps, which margins and conditions "
@@ -256,8 +224,13 @@ Command golden_make_command() {
           {"--all", &options->folder, "FOLDER",
            "make all sets in this folder as they are committed, index.json, smoke/smoke.ndjson (a few "
            "records of each tag) and "
-           "SHA256SUMS"},
-      },
+           "SHA256SUMS"}},
+      std::back_inserter(rows));
+  return {
+      "make",
+      "Produces a set, of cases that are drawn or of queries that you have: the same, bit for bit, whatever "
+      "--jobs.",
+      rows,
 
       "Every record was agreed by two oracles: walk, where it can go, and the checked certificate.\n"
       "Example:\n  lorentz golden make --set near-rational --count 1e3 --jobs 2 -o near-rational.ndjson\n"

@@ -3,10 +3,16 @@
 #include <algorithm>
 
 #include <lorentz/claim.hpp>
+#include <lorentz/exchange.hpp>
 #include "files/messages.hpp"
+#include "files/scene_file.hpp"
+#include "golden/seen.hpp"
 
 namespace lorentz::cli {
 
+namespace {
+
+// "name" or "name=the sentence that explains it".
 std::pair<std::string, std::string> tag_in(const std::string& text) {
   const std::size_t end = text.find('=');
   const std::string name = text.substr(0, end);
@@ -17,10 +23,58 @@ std::pair<std::string, std::string> tag_in(const std::string& text) {
   return {name, end == text.npos ? "given by --tag" : text.substr(end + 1)};
 }
 
+// Each once; none that the program gives itself.
+std::vector<std::pair<std::string, std::string>> tags_in(const std::vector<std::string>& texts) {
+  std::vector<std::pair<std::string, std::string>> tags;
+  for (const std::string& text : texts) {
+    const auto tag = tag_in(text);
+    const auto is_it = [&](const auto& other) { return other.first == tag.first; };
+    if (tag.first == golden::kNeedsJudge || std::ranges::any_of(golden::seen_tags(), is_it) ||
+        std::ranges::any_of(tags, is_it))
+      throw InputError("--tag: " + tag.first + " is a tag already; name another");
+    tags.push_back(tag);
+  }
+  return tags;
+}
+
+}  // namespace
+
+std::vector<Option> QuestionOptions::rows() {
+  return {{"--queries", &queries, "FILE",
+           "records of these queries: a stream (- is standard input), or columns (.npy, .csv); invalid "
+           "queries of a stream become records of errors"},
+          {"--scene", &scene, "SCENE",
+           "scene before the first scene line, and of columns: a file, or a name of the catalogue"},
+          {"--radius", Positive{&radius}, "R", "radius of every ball of --scene"},
+          {"--tag", &tags, "TAG[=SENTENCE]", "tag of each record of --queries", kOneAtATime}};
+}
+
+golden::GivenQuestions QuestionOptions::read(golden::Header header, bool& had_bad_input) const {
+  const UnknownKeys unknown = UnknownKeys::warned;
+  const NumberFormat precision = header.precision;
+  header.tags = tags_in(tags);
+  std::optional<Scene> first;
+  if (scene) first = load_scene(*scene, radius, unknown);
+  if (radius && !scene)
+    throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
+  GivenQueries source(*queries, first, unknown);
+  std::size_t others = 0;
+  golden::GivenQuestions given = questions_in(source, std::move(header), others);
+  given.look = true;
+  if (others > 0)
+    say("{}: {} queries left out, for they do not consist of numbers of {}", source.name(), others,
+        name_of(precision));
+  if (given.questions.empty())
+    throw InputError(source.name() + ": no question in it can be a record; nothing is written");
+  had_bad_input = source.had_bad_input() || others > 0;
+  return given;
+}
+
 golden::GivenQuestions questions_in(GivenQueries& queries, golden::Header header, std::size_t& others) {
   golden::GivenQuestions all(std::move(header));
   std::vector<std::string> tags;
   for (const auto& [tag, note] : all.header.tags) tags.push_back(tag);
+  std::size_t repeated = 0;
   for (GivenQuery given; queries.next(given);) {
     if (!queries.scene()) continue;
     const Scene& scene = *queries.scene();
@@ -33,8 +87,10 @@ golden::GivenQuestions questions_in(GivenQueries& queries, golden::Header header
         continue;
       }
     }
-    if (!question.text.empty()) all.add(std::move(question));
+    if (!question.text.empty()) repeated += !all.add(std::move(question));
   }
+  if (repeated > 0)
+    say("{}: {} questions come more than once; a record has the id of the first", queries.name(), repeated);
   return all;
 }
 

@@ -1,19 +1,31 @@
 // Questions that are to become a golden set.
 #pragma once
 
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "cli/command.hpp"
 #include "cli/given_queries.hpp"
 #include "golden/production.hpp"
 
 namespace lorentz::cli {
 
-/// "name" or "name=the sentence that explains it". Throws InputError.
-std::pair<std::string, std::string> tag_in(const std::string& text);
+/// The options that say which questions become records.
+struct QuestionOptions {
+  std::optional<std::string> queries, scene;
+  std::optional<double> radius;
+  std::vector<std::string> tags;
 
-/// All of them, each once, with these tags; the invalid ones, too, if they are JSON. Numbers that are not of the
+  std::vector<Option> rows();
+  bool are_given() const { return queries || scene || radius || !tags.empty(); }
+
+  /// The questions, with the tags of the options, which the header gets, too. `had_bad_input`: some were not valid, or
+  /// do not consist of numbers of the header's precision. Throws InputError if no question can be a record.
+  golden::GivenQuestions read(golden::Header header, bool& had_bad_input) const;
+};
+
+/// All of them, each once, with the header's tags; the invalid ones, too, if they are JSON. Numbers that are not of the
 /// header's precision are complained of, and left out (`others` counts them).
 golden::GivenQuestions questions_in(GivenQueries& queries, golden::Header header, std::size_t& others);
 

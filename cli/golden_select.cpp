@@ -32,8 +32,8 @@ int act(const SelectOptions& options) {
   };
   golden::Selection selection;
   for (const std::string& path : golden::find_sets(options.sets)) {
-    const bool is_wide = golden::Reader(path).header().precision == NumberFormat::binary64;
-    if (is_wide || !options.sets.empty()) selection.add(path, takes);
+    golden::Reader set(path);
+    if (set.header().precision == NumberFormat::binary64 || !options.sets.empty()) selection.add(set, takes);
   }
   if (options.count) selection.thin(*options.count);
   if (selection.size() == 0) say("warning: no record is left");

@@ -6,15 +6,14 @@
 #include <chrono>
 
 #include <lorentz/exchange.hpp>
-#include <lorentz/line_reader.hpp>
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/known_failures.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
-#include "files/whole_file.hpp"
 #include "golden/production.hpp"
 #include "judge/baseline.hpp"
 #include "judge/judging.hpp"
@@ -33,7 +32,8 @@ struct JudgeOptions {
   std::uint64_t seed = starts::kDefaultSeed, jobs = 1;
   std::optional<std::uint64_t> questions;
   std::optional<double> ulps, timeout, seconds;
-  std::optional<std::string> html, baseline, golden;
+  std::optional<std::string> html, golden;
+  FailureFiles files;
   ClaimOptions claim;
   bool quick = false, json = false, times = false, strict = false;
 };
@@ -47,12 +47,21 @@ int exit_status(const JudgeReport& report, const JudgeOptions& options) {
   return kDone;
 }
 
-std::optional<judge::Baseline> baseline_of(const JudgeOptions& options) {
-  if (!options.baseline) return std::nullopt;
-  std::string text;
-  LineReader lines(*options.baseline);
-  for (LineReader::Line line; lines.next(line);) text.append(line.text) += '\n';
-  return judge::Baseline(text, *options.baseline);
+// An earlier report, or failures that are known, by row and id.
+struct BaselineFile {
+  std::optional<judge::Baseline> report;
+  std::optional<KnownFailures> known;
+};
+
+BaselineFile baseline_of(const JudgeOptions& options) {
+  if (!options.files.baseline) return {};
+  const std::string& name = *options.files.baseline;
+  const std::string text = text_of_file(name);
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == text.npos || text[begin] == '{') return {judge::Baseline(text, name), {}};
+  if (!options.questions)
+    throw InputError("--baseline: failures by row and id need --questions, so that each run asks the same");
+  return {{}, KnownFailures(text, name)};
 }
 
 // Says what is worse than in an earlier report; the exit status is of that alone.
@@ -62,15 +71,32 @@ int status_against(const judge::Baseline& baseline, const JudgeReport& report, c
   const auto others = baseline.not_compared(report);
   const auto asked = std::ranges::count_if(report.rows, [](const auto& row) { return row.asked() > 0; });
   if (worse.empty() && asked > 0 && static_cast<std::size_t>(asked) == others.size()) {
-    say("{} asked other numbers of questions in every row: give the same --questions", *options.baseline);
+    say("{} asked other numbers of questions in every row: give the same --questions",
+        *options.files.baseline);
     return kBadInput;
   }
   if (!others.empty())
     say("{} rows asked another number of questions than in {}; only new kinds of fault are told of them: {}",
-        others.size(), *options.baseline, fmt::join(others, ", "));
-  for (const std::string& one : worse) say("worse than in {}: {}", *options.baseline, one);
-  if (worse.empty()) say("nothing is worse than in {}", *options.baseline);
+        others.size(), *options.files.baseline, fmt::join(others, ", "));
+  for (const std::string& one : worse) say("worse than in {}: {}", *options.files.baseline, one);
+  if (worse.empty()) say("nothing is worse than in {}", *options.files.baseline);
   return worse.empty() ? kDone : kDisagreement;
+}
+
+int status_against(const FailureLedger& known, const JudgeReport& report) {
+  if (report.is_broken() || report.rows_given_up() > 0) return kFailed;
+  return known.new_failures() > 0 ? kDisagreement : kDone;
+}
+
+// Takes down what each row's answers come to; nothing if no file wants that.
+judge::OnJudged ledger_of(const JudgeOptions& options, FailureLedger& ledger) {
+  if (!ledger.has_baseline() && !options.files.write_baseline && !options.files.junit) return {};
+  return [&](const std::string& row, const question::Question& question, const oracle::Judgement& judgement) {
+    const Scene& scene = question.place->scene();
+    const std::string id = question.is_query() ? golden::id_of(scene, question.query)
+                                               : golden::id_of(golden::scene_line_of(scene), question.text);
+    ledger.take(row, id, failure_of(judgement, options.times, options.strict));
+  };
 }
 
 // Tells how much of the time that all is to take has passed.
@@ -160,7 +186,13 @@ int act(const JudgeOptions& options) {
   JudgeOrder order = order_of(options);
   if (options.html) report::page("{}");  // throws if the program has none: now rather than after two minutes
   RequestedFile html(options.html), golden(options.golden);
-  const std::optional<judge::Baseline> baseline = baseline_of(options);
+  for (const auto& [name, path] :
+       {std::pair{"--write-baseline", &options.files.write_baseline}, {"--junit", &options.files.junit}})
+    if (*path && !options.questions)
+      throw InputError(std::string(name) + ": needs --questions, so that each run asks the same");
+  const auto [baseline, known] = baseline_of(options);
+  FailureLedger ledger(options.files, known);
+  order.on_judged = ledger_of(options, ledger);
   const Interrupt interrupt;
   order.on_progress = order.questions ? rows_shown(order.claim.precision) : clock_of(order.seconds());
   const JudgeReport report = judge::judged(order, Interrupt::came());
@@ -168,8 +200,12 @@ int act(const JudgeOptions& options) {
   print(options.json ? report.json() : report.text());
   html.write([&] { return report::page(report.json()); });
   golden.write([&] { return golden_set_of(report); });
-  if (!Interrupt::came())
+  if (!Interrupt::came()) {
+    for (const judge::ExaminedRow& row : report.rows) ledger.end(row.name);
+    ledger.finish(options.engine);
+    if (ledger.has_baseline()) return status_against(ledger, report);
     return baseline ? status_against(*baseline, report, options) : exit_status(report, options);
+  }
   say("{}: this is what was found so far", Interrupt::what());
   return kFailed;
 }
@@ -206,9 +242,11 @@ Command judge_command() {
            "write the simplest case of each fault there, as a golden set for the engine's own tests",
            kOutput},
           {"--json", &options->json, "", "one JSON object instead of tables"},
-          {"--baseline", &options->baseline, "FILE",
-           "what --json printed earlier, of the same questions (--questions): exit status 1 only for what is "
-           "worse now"},
+          options->files.baseline_row("exit status 1 only for what is worse than in what --json printed "
+                                      "earlier, or, with --questions, "
+                                      "fails and is not in a file of --write-baseline"),
+          options->files.write_baseline_row(),
+          options->files.junit_row(),
           {"--times", &options->times, "", "wrong times count: in the verdict, and exit status 1"},
           {"--strict", &options->strict, "",
            "answers to invalid questions count in the verdict; exit status 1 also for these, and "

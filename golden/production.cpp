@@ -215,13 +215,17 @@ std::string text_in(const std::string& piece, ProductionState& state) {
 
 }  // namespace
 
-void GivenQuestions::add(SetQuestion question) {
+bool GivenQuestions::add(SetQuestion question) {
   const auto [place, is_new] =
       by_id_.try_emplace(id_of(scene_line_of(question.scene), question.text), questions.size());
-  if (is_new) return questions.push_back(std::move(question));
+  if (is_new) {
+    questions.push_back(std::move(question));
+    return true;
+  }
   std::vector<std::string>& tags = questions[place->second].tags;
   for (std::string& tag : question.tags)
     if (std::ranges::find(tags, tag) == tags.end()) tags.push_back(std::move(tag));
+  return false;
 }
 
 Header header_of(const Order& order) {

@@ -23,8 +23,8 @@ struct GivenQuestions {
   std::vector<SetQuestion> questions;
   bool look = false;  ///< for tags_seen, which are added
 
-  /// Adds it, or to the same question its tags that are new.
-  void add(SetQuestion question);
+  /// Adds it, or to the same question its tags that are new; returns whether it was new.
+  bool add(SetQuestion question);
 
  private:
   std::map<std::string, std::size_t> by_id_;

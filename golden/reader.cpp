@@ -180,6 +180,7 @@ void check_members(const std::set<std::string>& keys, Outcome outcome, bool is_e
 
 struct Reader::Impl {
   explicit Impl(const std::string& path) : lines(path) {}
+  Impl(std::string_view text, std::string name) : lines(text, std::move(name)) {}
 
   LineReader lines;
   ExchangeReader exchange;
@@ -377,6 +378,10 @@ struct Reader::Impl {
 };
 
 Reader::Reader(const std::string& path) : impl_(std::make_unique<Impl>(path)) {
+  impl_->read_first_line();
+}
+Reader::Reader(std::string_view text, std::string name)
+    : impl_(std::make_unique<Impl>(text, std::move(name))) {
   impl_->read_first_line();
 }
 Reader::~Reader() = default;

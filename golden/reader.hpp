@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "golden/record.hpp"
 
@@ -22,6 +23,8 @@ class Reader {
  public:
   /// Opens a set and reads its header. Throws FileError, or InputError naming the line.
   explicit Reader(const std::string& path);
+  /// The same of a set in memory, which messages call `name`.
+  Reader(std::string_view text, std::string name);
   ~Reader();
 
   const std::string& path() const;

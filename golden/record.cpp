@@ -73,6 +73,10 @@ std::string id_of(std::string_view scene_line, std::string_view question) {
   return sha256(text).substr(0, 16);
 }
 
+std::string id_of(const Scene& scene, const Query& query) {
+  return id_of(scene_line_of(scene), question_of(query, scene));
+}
+
 std::string question_of(const Query& query, const Components& count) {
   const std::string object =
       json::text_of([&](json::Members& question) { add_query(question, query, count); });

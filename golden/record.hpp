@@ -57,6 +57,7 @@ std::string scene_line_of(const Scene& scene);
 
 /// The id of a question: the beginning of the SHA-256 of the scene's line, a line feed, and the question.
 std::string id_of(std::string_view scene_line, std::string_view question);
+std::string id_of(const Scene& scene, const Query& query);
 
 /// SHA-256 in hexadecimal.
 std::string sha256(std::string_view text);

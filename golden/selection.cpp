@@ -9,9 +9,8 @@
 
 namespace lorentz::golden {
 
-void Selection::add(const std::string& path, const std::function<bool(const Record&)>& takes) {
-  Reader reader(path);
-  take_tags(reader.header(), path);
+void Selection::add(Reader& reader, const std::function<bool(const Record&)>& takes) {
+  take_tags(reader.header(), reader.path());
   for (ReadRecord read; reader.next(read);) {
     const Record& record = read.record;
     if (!takes(record) || !by_id_.emplace(record.id, records_.size()).second) continue;

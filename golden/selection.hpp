@@ -14,7 +14,9 @@ class Selection {
  public:
   /// Reads a set, of which each record is taken that `takes` says. An id that was there before is passed over. Throws
   /// InputError, also if its precision or format is another one than that of the sets before.
-  void add(const std::string& path, const std::function<bool(const Record&)>& takes);
+  void add(Reader& set, const std::function<bool(const Record&)>& takes);
+
+  bool has(const std::string& id) const { return by_id_.contains(id); }
 
   /// Keeps so many: in turn the first of each tag of each set, until there are enough.
   void thin(std::size_t count);

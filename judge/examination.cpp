@@ -169,6 +169,7 @@ void Examination::take(const Question& question, const Reply& reply, ExaminedRow
     ++row.nonsense;
   else
     row.tally.count(judgement);
+  if (on_judged_ && !is_nonsense) on_judged_(row.name, question, judgement);
   question.place->note(judgement.verdict == Verdict::unsupported);
   if (diagnosis) findings_.add({question, reply.answer, judgement, *diagnosis, last_words_}, row.name);
   const auto off = judgement.ulps ? question::radii_off(question, reply.answer) : std::nullopt;

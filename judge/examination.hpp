@@ -24,6 +24,9 @@ using question::Source;
 /// Sees each answer of a row.
 using Look = std::function<void(const Question&, const Answer& given)>;
 
+/// Sees what was made of each answer of all rows.
+using OnJudged = std::function<void(const std::string& row, const Question&, const oracle::Judgement&)>;
+
 /// One kind of difficulty, and how the engine does there.
 struct ExaminedRow {
   std::string name, explanation;
@@ -56,6 +59,9 @@ class Examination {
 
   /// Is called often while rows run, with the name of the row.
   void on_progress(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
+
+  /// Is called of each answer that a row's tally counts.
+  void on_judged(OnJudged tell) { on_judged_ = std::move(tell); }
 
   /// Seconds that another program took to its first answer, and more than to the next; 0 of an engine here.
   struct Start {
@@ -116,6 +122,7 @@ class Examination {
   std::optional<std::size_t> most_;  // questions of a row
   std::optional<Clock::time_point> end_;
   std::function<void(const std::string&)> tell_;
+  OnJudged on_judged_;
   bool failed_ = false;  // of those that were taken over
   const bool runs_apart_;
   std::unique_ptr<question::Answerer> answerer_;

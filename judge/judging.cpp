@@ -344,7 +344,10 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   report.seed = order.seed;
   report.timeout = terms.answerer.timeout;
   const std::unique_ptr<Examination> examination = terms.examination();
-  if (plan.questions) examination->ask_exactly(*plan.questions);
+  if (plan.questions) {
+    examination->ask_exactly(*plan.questions);
+    examination->on_judged(order.on_judged);
+  }
   examination->on_progress(order.on_progress);
   examination->limit(plan.seconds());
   const Examination::Start start = examination->warm_up();

@@ -31,6 +31,7 @@ struct JudgeOrder {
   bool strict = false;            ///< answers to invalid questions count
   question::Listener listener = {};
   std::function<void(const std::string& row)> on_progress = {};  ///< called often, with what is asked
+  OnJudged on_judged = {};  ///< called of each answer, if questions are counted
 
   /// How long it will take, about; not where questions are counted.
   double seconds() const;

@@ -28,6 +28,8 @@ class LineReader {
 
   /// Opens a file, or standard input for "-". Throws FileError if it cannot be read (a directory, say).
   explicit LineReader(const std::string& path);
+  /// The lines of a text, which messages call `name`.
+  LineReader(std::string_view text, std::string name);
   ~LineReader();
   LineReader(const LineReader&) = delete;
   LineReader& operator=(const LineReader&) = delete;
@@ -39,13 +41,14 @@ class LineReader {
   void before_waiting(std::function<void()> callback) { before_waiting_ = std::move(callback); }
 
   const std::string& name() const;
-  int descriptor() const;
+  int descriptor() const;  ///< -1 of a text
 
  private:
   bool fill();
   void skip_rest_of_line();
 
-  std::unique_ptr<InputFile> file_;
+  std::unique_ptr<InputFile> file_;  // null of a text
+  std::string name_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;  // unread bytes of the buffer
   bool at_end_ = false;

@@ -9,14 +9,19 @@ namespace lorentz {
 LineReader::LineReader(const std::string& path)
     : file_(std::make_unique<InputFile>(path)), buffer_(1 << 16) {}
 
+LineReader::LineReader(std::string_view text, std::string name)
+    : name_(std::move(name)), buffer_(text.begin(), text.end()), end_(text.size()), at_end_(true) {
+  buffer_.resize(text.size() + kPadding);
+}
+
 LineReader::~LineReader() = default;
 
 const std::string& LineReader::name() const {
-  return file_->name();
+  return file_ ? file_->name() : name_;
 }
 
 int LineReader::descriptor() const {
-  return file_->descriptor();
+  return file_ ? file_->descriptor() : -1;
 }
 
 // Reads more behind the unread bytes, making room for it; false at the end of the stream.

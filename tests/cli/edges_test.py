@@ -56,6 +56,7 @@ EDGES = {
     "scene show": Edge("square", missing="/no/such/file"),
     "scene draw": Edge("square", "", ["-o"], "/no/such/file"),
     "golden make": Edge("--set ties --count 5", "--set grazing --count 1e8 -o OUT", ["-o"]),
+    "golden add": Edge("ties --queries q.ndjson", "", ["-o"], "ties --queries /no/such/file"),
     "golden check": Edge("ties -e reduction --first 10", "-e oracle,walk,published-256", ["--write-baseline", "--junit"],
                          missing="/no/such/file -e oracle"),
     "golden verify": Edge("bad-queries", "--walk", missing="/no/such/file"),

@@ -471,6 +471,30 @@ TEST_CASE("The exit status where an engine only errs, or is wrong in times only"
   CHECK(strict.status == 1);
 }
 
+TEST_CASE("fuzz --baseline: failures that are known by target and id do not count", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string fuzz = "fuzz --engine published --target corridor,tie --count 20 ";
+  const std::string known = folder.file("known"), report = folder.file("report.xml");
+  CHECK(folder.lorentz(fuzz + "--write-baseline " + known + " --junit " + report).status == 1);
+  const std::string text = folder.read("known");
+  std::istringstream lines(text);
+  std::string heading, first;
+  REQUIRE((std::getline(lines, heading) && std::getline(lines, first)));
+  CHECK_THAT(first, Catch::StartsWith("corridor ") && Catch::EndsWith(" wrong"));
+  CHECK(contains(folder.read("report.xml"), "<testsuite name=\"tie\" tests=\"1\" failures=\"0\">"));
+  CHECK(contains(folder.read("report.xml"), "<failure message=\"wrong\"/>"));
+  CHECK(folder.lorentz(fuzz + "--jobs 2 --baseline " + known).status == 0);
+  const std::string stale = "tie 0123456789abcdef";
+  const Run other =
+      folder.lorentz(fuzz + "--baseline " + folder.write("known", replaced(text, first, stale)));
+  CHECK(other.status == 1);
+  CHECK(contains(other.err, "new: " + first + "\n"));
+  CHECK(contains(other.err, "stale: " + stale + " fails no more"));
+  // Without a number of cases another run asks others.
+  for (const std::string more : {"--time 1 ", "--count 20 --time 1 ", "--count 20 --first "})
+    CHECK(folder.lorentz("fuzz -e published -t tie " + more + "--junit " + report).status == 2);
+}
+
 TEST_CASE("No query is an error that a program was not asked", "[fuzz][fuzz_command]") {
   const Folder folder;
   const Run run = folder.lorentz("fuzz -t grazing --count 300 --mutate 0 --json --engine 'cmd:exec " +

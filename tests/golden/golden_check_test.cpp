@@ -436,3 +436,25 @@ TEST_CASE("golden merge, filter and sample keep records as they are", "[golden][
     CHECK_FALSE(contains(record, "needs-judge"));
   CHECK(folder.lorentz("golden merge ball-2d ball-2d-binary32").status == 2);
 }
+
+TEST_CASE("golden add: records of more queries, each question once", "[golden][golden_check]") {
+  const Folder folder;
+  const std::string queries = folder.write("queries", folder.lorentz("sample --scene square --count 5").out);
+  const std::string old = folder.write("old.ndjson", folder.lorentz("golden sample --count 9 ties").out);
+  const Run run = folder.lorentz("golden add " + old + " --queries " + queries + " --tag mine=of-me");
+  CHECK(run.status == 0);
+  const std::string set = folder.write("set.ndjson", run.out);
+  CHECK(contains(run.out, "\"count\":14,"));
+  CHECK(contains(run.out, "\"mine\":\"of-me\""));
+  CHECK(contains(run.out, folder.read("old.ndjson").substr(folder.read("old.ndjson").rfind("{\"id\""))));
+  CHECK(folder.lorentz("golden verify " + set).status == 0);
+  // Asked again, nothing is new; the set is never what is written.
+  const Run again = folder.lorentz("golden add " + set + " --queries " + queries + " --tag mine=of-me");
+  CHECK(again.status == 0);
+  CHECK(contains(again.err, "set.ndjson: has 5 of the questions already"));
+  CHECK(again.out.substr(again.out.find('\n')) == run.out.substr(run.out.find('\n')));
+  CHECK(folder.lorentz("golden add " + set + " --queries " + queries + " -o " + set).status == 2);
+  CHECK(folder.read("set.ndjson") == run.out);
+  CHECK(folder.lorentz("golden add ties-binary32 --queries " + queries).status == 2);
+  CHECK(folder.lorentz("golden add " + set).status == 2);
+}

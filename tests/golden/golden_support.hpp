@@ -75,13 +75,6 @@ inline std::string beginning_of_set(const Folder& folder, const std::string& nam
   return header + '\n' + rest;
 }
 
-/// The first place of `old` replaced; the text must hold it.
-inline std::string replaced(std::string text, const std::string& old, const std::string& fresh) {
-  const auto place = text.find(old);
-  if (place == std::string::npos) throw std::logic_error("the text does not hold " + old);
-  return text.replace(place, old.size(), fresh);
-}
-
 /// What the text holds between `begin` and `end`.
 inline std::string between(const std::string& text, const std::string& begin, const std::string& end) {
   const auto first = text.find(begin) + begin.size();

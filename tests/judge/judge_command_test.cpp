@@ -118,6 +118,36 @@ TEST_CASE("judge --baseline: only what is worse than in an earlier report fails"
   CHECK(folder.lorentz(judge + " --baseline " + folder.file("none")).status != 0);
 }
 
+TEST_CASE("judge --baseline: failures that are known by row and id do not count", "[judge][judge_command]") {
+  const Folder folder;
+  const std::string judge = "judge --questions 8 --engine published ";
+  const std::string known = folder.file("known"), report = folder.file("report.xml");
+  CHECK(folder.lorentz(judge + "--write-baseline " + known + " --junit " + report).status == 1);
+  const std::string text = folder.read("known");
+  std::istringstream lines(text);
+  std::string heading, first;
+  REQUIRE((std::getline(lines, heading) && std::getline(lines, first)));
+  CHECK_THAT(first, Catch::StartsWith("golden-") && Catch::EndsWith(" wrong"));
+  const std::string key = first.substr(0, first.rfind(' ')), id = key.substr(key.find(' ') + 1);
+  CHECK(contains(folder.read("report.xml"), "name=\"" + id + "\"><failure message=\"wrong\"/>"));
+  // The id is that of the set's record.
+  const std::string set = key.substr(7, key.find(' ') - 7);
+  CHECK(folder.lorentz("golden check -e published --id " + id + " " + set).status == 1);
+  const Run same = folder.lorentz(judge + "--baseline " + known + " --junit " + report);
+  CHECK(same.status == 0);
+  CHECK(contains(same.err, " failures are known, 0 are new"));
+  CHECK_FALSE(contains(folder.read("report.xml"), "<failure"));
+  const std::string stale = "golden-ties 0123456789abcdef";
+  const Run other =
+      folder.lorentz(judge + "--baseline " + folder.write("known", replaced(text, first, stale)));
+  CHECK(other.status == 1);
+  CHECK(contains(other.err, "new: " + first + "\n"));
+  CHECK(contains(other.err, "stale: " + stale + " fails no more"));
+  // Without a number of questions another run asks others.
+  for (const std::string option : {"--baseline ", "--write-baseline ", "--junit "})
+    CHECK(folder.lorentz("judge --time 1 -e published " + option + folder.file("known")).status == 2);
+}
+
 TEST_CASE("judge finds a correct engine right, in JSON, too", "[judge][judge_command]") {
   const Folder folder;
   const Run run = folder.lorentz("judge --quick --time 3 --json --strict --engine certified");

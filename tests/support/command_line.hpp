@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -63,6 +64,13 @@ inline bool goes_on_running(const std::string& pid_file) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   return true;
+}
+
+/// The first place of `old` replaced; the text must hold it.
+inline std::string replaced(std::string text, const std::string& old, const std::string& fresh) {
+  const auto place = text.find(old);
+  if (place == std::string::npos) throw std::logic_error("the text does not hold " + old);
+  return text.replace(place, old.size(), fresh);
 }
 
 inline bool contains(const std::string& text, const std::string& part) {

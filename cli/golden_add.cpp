@@ -1,0 +1,85 @@
+// lorentz golden add: a set, and records of more queries.
+#include <algorithm>
+
+#include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/golden.hpp"
+#include "cli/golden_questions.hpp"
+#include "cli/output.hpp"
+#include "cli/progress.hpp"
+#include "files/whole_file.hpp"
+#include "golden/find_sets.hpp"
+#include "golden/selection.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+struct AddOptions {
+  std::string set, output = "-";
+  QuestionOptions questions;
+  std::uint64_t jobs = 1;
+};
+
+bool is_any(const golden::Record& /*record*/) {
+  return true;
+}
+
+// Records of those questions that the selection has not; returns how many were left out.
+std::uint64_t add_records(golden::Selection& selection, golden::GivenQuestions given, std::uint64_t jobs) {
+  std::erase_if(given.questions, [&](const golden::SetQuestion& question) {
+    return selection.has(golden::id_of(golden::scene_line_of(question.scene), question.text));
+  });
+  const golden::Order order{.count = given.questions.size(), .jobs = jobs, .given = &given};
+  std::string text;
+  Progress progress("new records", order.count, 1);
+  const golden::RecordCounts counts = golden::produce(
+      order, [&](std::string_view more) { text += more; }, [&](std::uint64_t done) { progress.at(done); });
+  golden::Reader made(text, "the new records");
+  selection.add(made, is_any);
+  if (order.count > 0) report("new", counts);
+  return counts.left_out;
+}
+
+int act(const AddOptions& options) {
+  if (!options.questions.queries) throw InputError("--queries: name a file of queries (- is standard input)");
+  golden::Reader reader(golden::find_set(options.set));
+  golden::Header header = reader.header();
+  golden::Selection selection;
+  selection.add(reader, is_any);
+  const std::size_t before = selection.size();
+  bool had_bad_input = false;
+  golden::GivenQuestions given = options.questions.read(header, had_bad_input);
+  const std::size_t asked = given.questions.size();
+  const std::uint64_t left_out = add_records(selection, std::move(given), options.jobs);
+  const std::size_t added = selection.size() - before;
+  if (asked > added + left_out)
+    say("{}: has {} of the questions already", reader.path(), asked - added - left_out);
+  header.tags.clear();
+  header.generator = command_line();
+  header.version = LORENTZ_VERSION;
+  const std::string text = selection.text(header);
+  if (options.output == "-")
+    print(text);
+  else
+    write_whole(options.output, text);
+  return had_bad_input ? kBadInput : left_out > 0 ? kDisagreement : kDone;
+}
+
+}  // namespace
+
+Command golden_add_command() {
+  auto options = std::make_shared<AddOptions>();
+  std::vector<Option> rows{
+      {"set", &options->set, "SET", "a file, or the name of a committed set", kRequired}};
+  std::ranges::move(options->questions.rows(), std::back_inserter(rows));
+  rows.push_back({"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads"});
+  rows.push_back({"-o,--output", &options->output, "FILE", "file to write (- is standard output)", kOutput});
+  return {"add", "A set, and records of more queries: those that it has already are not answered again.",
+          rows,
+          "Example:\n  lorentz sample --scene square --kind grazing --count 20 | lorentz golden add ties "
+          "--queries - --tag mine",
+          [options] { return act(*options); }};
+}
+
+}  // namespace lorentz::cli
