@@ -188,6 +188,9 @@ void check(const MakeOptions& options) {
     throw InputError("--all makes every set as it is committed; leave --count and --precision out");
   if (options.questions.queries && options.count)
     throw InputError("--count: not with --queries, which are all taken");
+  if (options.questions.queries && options.seed != starts::kDefaultSeed)
+    throw InputError("--seed: not with --queries, which are not drawn");
+  if (options.name) check_set_name(*options.name);
   if (!options.questions.queries && (options.questions.are_given() || options.name))
     throw InputError("--scene, --radius, --name and --tag: need --queries");
 }

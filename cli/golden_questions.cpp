@@ -12,14 +12,19 @@ namespace lorentz::cli {
 
 namespace {
 
+bool is_name(const std::string& text) {
+  const auto is_allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
+  return !text.empty() && std::ranges::all_of(text, is_allowed);
+}
+
 // "name" or "name=the sentence that explains it".
 std::pair<std::string, std::string> tag_in(const std::string& text) {
   const std::size_t end = text.find('=');
   const std::string name = text.substr(0, end);
-  const auto is_allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
-  if (name.empty() || !std::all_of(name.begin(), name.end(), is_allowed))
+  if (!is_name(name))
     throw InputError("--tag: " + json_quoted(name) +
                      " is not a tag; expected small letters, digits and hyphens, and perhaps =SENTENCE");
+  if (end + 1 == text.size()) throw InputError("--tag: " + name + "= lacks its sentence");
   return {name, end == text.npos ? "given by --tag" : text.substr(end + 1)};
 }
 
@@ -68,6 +73,12 @@ golden::GivenQuestions QuestionOptions::read(golden::Header header, bool& had_ba
     throw InputError(source.name() + ": no question in it can be a record; nothing is written");
   had_bad_input = source.had_bad_input() || others > 0;
   return given;
+}
+
+void check_set_name(const std::string& name) {
+  if (!is_name(name))
+    throw InputError("--name: " + json_quoted(name) +
+                     " is not a name of a set; expected small letters, digits and hyphens");
 }
 
 golden::GivenQuestions questions_in(GivenQueries& queries, golden::Header header, std::size_t& others) {

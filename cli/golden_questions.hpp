@@ -25,6 +25,9 @@ struct QuestionOptions {
   golden::GivenQuestions read(golden::Header header, bool& had_bad_input) const;
 };
 
+/// Throws InputError if --name is not one: small letters, digits and hyphens.
+void check_set_name(const std::string& name);
+
 /// All of them, each once, with the header's tags; the invalid ones, too, if they are JSON. Numbers that are not of the
 /// header's precision are complained of, and left out (`others` counts them).
 golden::GivenQuestions questions_in(GivenQueries& queries, golden::Header header, std::size_t& others);

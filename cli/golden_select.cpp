@@ -5,6 +5,7 @@
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
+#include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "golden/find_sets.hpp"
 #include "golden/selection.hpp"
@@ -25,6 +26,7 @@ bool has_one_of(const std::vector<std::string>& tags, const golden::Record& reco
 }
 
 int act(const SelectOptions& options) {
+  check_set_name(options.name);
   const auto takes = [&](const golden::Record& record) {
     if (!options.tags.empty() && !has_one_of(options.tags, record)) return false;
     if (has_one_of(options.without, record)) return false;

@@ -150,7 +150,10 @@ MadeRecord Maker::make(std::string question, const std::optional<Query>& query) 
 
 std::optional<std::string> Maker::flaw_of(const Record& record, const std::optional<Query>& query,
                                           bool ask_walk, int format) const {
-  if (record.id != id_of(impl_->scene_line, record.question)) return "the id does not belong to the question";
+  if (record.id != id_of(impl_->scene_line, record.question))
+    return "the id does not belong to the question (it is made from the scene's line and the question as "
+           "they are "
+           "written: blanks and digits count)";
   if (auto why = flaw_of_form(record)) return why;
   if (!query || record.expect.outcome == Outcome::error) {
     if (!query && record.expect.outcome == Outcome::error) return std::nullopt;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include <lorentz/exchange.hpp>
@@ -61,6 +62,19 @@ bool is_near_rational(const Scene& scene, const Vec& v) {
   return false;
 }
 
+// Of the largest component.
+int exponent_of(const Vec& v) {
+  double largest = 0;
+  for (const double component : v) largest = std::max(largest, std::abs(component));
+  return std::ilogb(largest);
+}
+
+// How far it is to a hit along direction 2^exponent: the time may lie beyond binary64.
+long double flown(const Answer& exact, const Vec& direction, int exponent) {
+  if (exact.outcome != Outcome::hit) return 0;
+  return std::scalbn(std::strtold(exact.time_decimal.c_str(), nullptr) * length(direction), exponent);
+}
+
 }  // namespace
 
 const std::vector<std::pair<std::string, std::string>>& seen_tags() {
@@ -82,17 +96,19 @@ std::vector<std::string> tags_seen(const Scene& scene, const Query& query, const
                                    const std::optional<oracle::HardestDecision>& decision) {
   const auto is = [&](oracle::DecisionKind kind) { return is_hard(decision) && decision->kind == kind; };
   const double unit = shortest_vector(scene);
+  const int exponent = exponent_of(query.v);
+  Vec direction = query.v;  // by a power of two: its largest component is from 1 to 2
+  for (double& component : direction) component = std::scalbn(component, -exponent);
   const bool has_zero = std::any_of(query.v.begin(), query.v.begin() + scene.dimension,
                                     [](double component) { return component == 0; });
-  const double flown = exact.time.value_or(0) * length(query.v);
   const std::pair<const char*, bool> all[] = {
       {"grazing", is(oracle::DecisionKind::meeting)},
       {"tie", is(oracle::DecisionKind::order)},
       {"boundary-start", is(oracle::DecisionKind::containing)},
-      {"near-rational", is_near_rational(scene, query.v)},
+      {"near-rational", is_near_rational(scene, direction)},
       {"zero-component", has_zero},
       {"leaving", query.from.has_value()},
-      {"far", flown > kFar * unit},
+      {"far", flown(exact, direction, exponent) > kFar * unit},
       {"tiny-radius", std::isfinite(unit) && smallest_radius(scene) < kTiny * unit}};
   std::vector<std::string> tags;
   for (const auto& [tag, holds] : all)
