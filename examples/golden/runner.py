@@ -18,7 +18,9 @@ def same(one, other):
 
 
 def ulp(t, binary32):
-    return 2.0 ** max(math.frexp(t)[1] - 24, -149) if binary32 else math.ulp(t)
+    if not binary32:
+        return math.ulp(t)
+    return 2.0 ** max(math.frexp(t)[1] - 24, -149) if t else 2.0 ** -149
 
 
 def is_wrong_time(record, answer, ulps, binary32):

@@ -385,6 +385,12 @@ TEST_CASE("golden check: known failures do not count, new ones do, and what no l
   CHECK(contains(fresh.out, removed));
   CHECK(contains(folder.read("report.xml"),
                  "name=\"" + removed + "\"><failure message=\"wrong\"/></testcase>"));
+  // A record that is not among the first 60 is stale only where all of the set is asked.
+  const std::string nobody = "smoke 0123456789abcdef";
+  const std::string smoke = "golden check -e reduction " LORENTZ_SOURCE_DIR "/data/golden/smoke --baseline " +
+                            folder.write("known", nobody + "\n");
+  CHECK(contains(folder.lorentz(smoke).err, "stale: " + nobody));
+  CHECK_FALSE(contains(folder.lorentz(smoke + " --first 60").err, "stale"));
   const Run bad = folder.lorentz(check + "--baseline " + folder.write("bad", "# one\nties\n"));
   CHECK(bad.status == 2);
   CHECK(contains(bad.err, "bad:2: expected a set and the id"));
@@ -452,6 +458,7 @@ TEST_CASE("golden add: records of more queries, each question once", "[golden][g
   const Run again = folder.lorentz("golden add " + set + " --queries " + queries + " --tag mine=of-me");
   CHECK(again.status == 0);
   CHECK(contains(again.err, "set.ndjson: has 5 of the questions already"));
+  CHECK_FALSE(contains(again.err, "answers agreed"));  // that is: nothing was answered
   CHECK(again.out.substr(again.out.find('\n')) == run.out.substr(run.out.find('\n')));
   CHECK(folder.lorentz("golden add " + set + " --queries " + queries + " -o " + set).status == 2);
   CHECK(folder.read("set.ndjson") == run.out);

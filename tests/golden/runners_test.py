@@ -12,7 +12,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES, SETS = ROOT / "examples/golden", ROOT / "data/golden"
-FEW = ["smoke/smoke", "boundary-starts-binary32", "rows-and-layers"]
+FEW = ["smoke/smoke", "ball-2d-binary32", "boundary-starts-binary32", "rows-and-layers"]
 ENGINES = ["classical", "published", "published-float", "reduction"]
 UNANSWERED = ("undecided", "unsupported", "error", "missing")
 KEYS = ("outcome", "lattice", "atom", "cell")
