@@ -70,7 +70,7 @@ Command golden_command() {
       {},
       {golden_make_command(), golden_add_command(), golden_check_command(), golden_verify_command(),
        golden_explain_command(), golden_export_command(), golden_merge_command(), golden_filter_command(),
-       golden_sample_command(), golden_list_command()}};
+       golden_sample_command(), golden_index_command(), golden_list_command()}};
 }
 
 }  // namespace lorentz::cli

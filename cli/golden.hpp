@@ -12,6 +12,7 @@ Command golden_verify_command();
 Command golden_list_command();
 Command golden_explain_command();
 Command golden_export_command();
+Command golden_index_command();
 Command golden_merge_command();
 Command golden_filter_command();
 Command golden_sample_command();

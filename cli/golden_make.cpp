@@ -131,11 +131,7 @@ int make_all(golden::Order order, const std::string& folder) {
   }
   names.push_back("smoke/smoke.ndjson");
   write_whole(in_folder(names.back()), smoke_of(wide));
-  write_whole(in_folder("index.json"), golden::index_of(folder, names));
-  names.push_back("index.json");
-  std::string sums;
-  for (const std::string& name : names) sums += golden::sum_of(in_folder(name)) + "  " + name + '\n';
-  write_whole(in_folder("SHA256SUMS"), sums);
+  golden::write_index(folder, names);
   return kDone;
 }
 

@@ -125,7 +125,7 @@ std::optional<std::string> failure_of(const oracle::Judgement& judgement, bool t
 
 namespace {
 
-std::string text_of(const std::map<RecordKey, std::string>& failures) {
+std::string baseline_text(const std::map<RecordKey, std::string>& failures) {
   std::string text = "# Known failures: the set, the record's id, the verdict.\n";
   for (const auto& [record, verdict] : failures)
     text += fmt::format("{} {} {}\n", record.first, record.second, verdict);
@@ -176,7 +176,7 @@ void FailureLedger::finish(const std::string& engine) {
       stale.push_back(fmt::format("stale: {} {} fails no more; take it out of the baseline", set, id));
     say_first(stale);
   }
-  baseline_file_.write([&] { return text_of(failures_); });
+  baseline_file_.write([&] { return baseline_text(failures_); });
   junit_file_.write([&] { return junit_->text(engine); });
 }
 

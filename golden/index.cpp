@@ -6,10 +6,13 @@
 #include <iterator>
 #include <set>
 
+#include "files/whole_file.hpp"
 #include "golden/reader.hpp"
 
 namespace lorentz::golden {
 namespace {
+
+namespace fs = std::filesystem;
 
 // What a consumer has to be able to do with the scenes.
 void see_scene(const Scene& scene, std::set<std::string>& kinds) {
@@ -56,6 +59,12 @@ void see_cells(const ReadRecord& read, std::set<std::string>& notations) {
   if (is_text) notations.insert("integers as strings");
 }
 
+// SHA-256, in hexadecimal.
+std::string sum_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return sha256(std::string{std::istreambuf_iterator<char>(in), {}});
+}
+
 void add_set(json::Members& object, const std::string& folder, const std::string& name) {
   const std::string file = (std::filesystem::path(folder) / name).string();
   Reader reader(file);
@@ -89,16 +98,21 @@ void add_set(json::Members& object, const std::string& folder, const std::string
 
 }  // namespace
 
-std::string sum_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return sha256(std::string{std::istreambuf_iterator<char>(in), {}});
-}
-
-std::string index_of(const std::string& folder, const std::vector<std::string>& names) {
-  return json::line_of([&](json::Members& index) {
-    const auto add = [&](json::Members& one, const std::string& name) { add_set(one, folder, name); };
-    index.add("format", kFormat, "sets", json::objects(names, add, "\n"));
-  });
+void write_index(const std::string& folder, const std::vector<std::string>& names,
+                 const std::vector<std::string>& others) {
+  const auto path_of = [&](const std::string& name) { return (fs::path(folder) / name).string(); };
+  write_whole(path_of("index.json"), json::line_of([&](json::Members& index) {
+                const auto add = [&](json::Members& one, const std::string& name) {
+                  add_set(one, folder, name);
+                };
+                index.add("format", kFormat, "sets", json::objects(names, add, "\n"));
+              }));
+  std::string sums;
+  const auto add_sum = [&](const std::string& name) { sums += sum_of(path_of(name)) + "  " + name + '\n'; };
+  std::ranges::for_each(names, add_sum);
+  add_sum("index.json");
+  std::ranges::for_each(others, add_sum);
+  write_whole(path_of("SHA256SUMS"), sums);
 }
 
 }  // namespace lorentz::golden

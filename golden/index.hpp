@@ -6,11 +6,9 @@
 
 namespace lorentz::golden {
 
-/// The SHA-256 of a file's bytes, in hexadecimal.
-std::string sum_of(const std::string& file);
-
-/// Of these files in the folder one JSON object, a line for each: name, file, checksum, counts, tags, kinds of scenes, notations. Throws as
-/// Reader does.
-std::string index_of(const std::string& folder, const std::vector<std::string>& names);
+/// Writes index.json, one JSON object of these sets in the folder, a line for each: name, file, checksum, counts, tags,
+/// kinds of scenes, notations; and SHA256SUMS, of the sets, the index and `others`. Throws as Reader does, and FileError.
+void write_index(const std::string& folder, const std::vector<std::string>& names,
+                 const std::vector<std::string>& others = {});
 
 }  // namespace lorentz::golden

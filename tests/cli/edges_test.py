@@ -66,6 +66,7 @@ EDGES = {
     "golden merge": Edge("ties set.ndjson", missing="/no/such/file"),
     "golden filter": Edge("--margin-below 4 ties", missing="/no/such/file"),
     "golden sample": Edge("--count 20 ties", missing="/no/such/file"),
+    "golden index": Edge("sets", missing="/no/such/file", prints=False),
     "golden list": Edge(),
     "fuzz": Edge("-e published -t leaving --count 8 --keep 1 --mutate 0 --reword 0", "--time 600",
                  ["--store", "--write-baseline", "--junit"], status=1),
@@ -109,7 +110,11 @@ class Folder:
 
     def clear(self):
         for name in self.new():
-            (self.path / name).unlink(missing_ok=True)  # what an example left behind may still go
+            path = self.path / name  # what an example left behind may still go
+            if path.is_dir():
+                shutil.rmtree(path, ignore_errors=True)
+            else:
+                path.unlink(missing_ok=True)
 
 
 @dataclass
@@ -367,6 +372,8 @@ def prepare(made):
     for name in ("data", "examples"):
         os.symlink(Path(SOURCE) / name, made / name)
     shutil.copy(Path(SOURCE) / "data" / "golden" / "near-rational.ndjson", made / "set.ndjson")
+    (made / "sets").mkdir()
+    shutil.copy(made / "set.ndjson", made / "sets")
     (made / "start").write_text('{"x":["1/2","1/10"],"v":[1,0]}\n')
     for file, words in {
         "q.ndjson": "sample --count 1",

@@ -443,6 +443,37 @@ TEST_CASE("golden merge, filter and sample keep records as they are", "[golden][
   CHECK(folder.lorentz("golden merge ball-2d ball-2d-binary32").status == 2);
 }
 
+TEST_CASE("golden index: index, schema and sums beside sets, and no other file overwritten",
+          "[golden][golden_check]") {
+  const Folder folder;
+  fs::create_directory(folder.file("sets"));
+  const std::string set = folder.lorentz("golden sample --count 9 ties").out;
+  folder.write("sets/two.ndjson", set);
+  folder.write("sets/one.ndjson", folder.lorentz("golden sample --count 4 grazing").out);
+  const std::string index = "golden index " + folder.file("sets");
+  CHECK(folder.lorentz(index).status == 0);
+  CHECK(std::system(("cd " + folder.file("sets") + " && sha256sum --quiet --check SHA256SUMS").c_str()) == 0);
+  const std::string sums = folder.read("sets/SHA256SUMS");
+  for (const char* name : {"one.ndjson\n", "two.ndjson\n", "index.json\n", "schema.json\n"})
+    CHECK_THAT(sums, Catch::Contains(std::string("  ") + name));
+  CHECK_THAT(folder.read("sets/index.json"),
+             Catch::Contains("\"file\":\"one.ndjson\"") && Catch::Contains("\"count\":9,"));
+  // Again, of a set that has changed; a schema of one's own stays.
+  folder.write("sets/two.ndjson", folder.lorentz("golden sample --count 8 ties").out);
+  folder.write("sets/schema.json", "{}");
+  CHECK(folder.lorentz(index).status == 0);
+  CHECK_THAT(folder.read("sets/index.json"), Catch::Contains("\"count\":8,"));
+  CHECK(folder.read("sets/schema.json") == "{}");
+  // What others wrote stays.
+  folder.write("sets/index.json", "{\"mine\":1}");
+  CHECK(folder.lorentz(index).status == 2);
+  CHECK(folder.read("sets/index.json") == "{\"mine\":1}");
+  fs::remove(folder.file("sets/index.json"));
+  folder.write("sets/SHA256SUMS", "of mine");
+  CHECK(folder.lorentz(index).status == 2);
+  CHECK(folder.read("sets/SHA256SUMS") == "of mine");
+}
+
 TEST_CASE("golden add: records of more queries, each question once", "[golden][golden_check]") {
   const Folder folder;
   const std::string queries = folder.write("queries", folder.lorentz("sample --scene square --count 5").out);
