@@ -69,7 +69,7 @@ Rival::Rival(const question::EngineInfo& engine, Precision precision, const Rati
   const Query query = oracle::nearest(start);
   try {
     trajectory_ = std::make_unique<Trajectory>(std::move(ask), scene_, query, precision);
-  } catch (const std::invalid_argument& error) {
+  } catch (const UnsupportedError& error) {
     throw InputError(std::string("--engine: ") + error.what());
   }
   path_.push_back(query.x);

@@ -107,6 +107,7 @@ Answer Oracle::first_hit(const Query& query, const Request& request) const {
 
 bool Oracle::is_free(const Vec& x) const {
   const Query query{x, {1, 0, 0}, {}};
+  checked(query, impl_->scene);
   return std::visit([&](const auto& problem) { return problem.is_free(query); }, impl_->problem);
 }
 

@@ -31,6 +31,8 @@ void bind_errors(py::module_& module) {
       file_error(text_of(failure).c_str());
     } catch (const InputError& failure) {
       error(text_of(failure).c_str());
+    } catch (const UnsupportedError& failure) {
+      error(text_of(failure).c_str());
     } catch (const std::invalid_argument& failure) {
       error(text_of(failure).c_str());
     }

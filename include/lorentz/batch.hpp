@@ -111,7 +111,7 @@ class Batch {
   using Time = Reduction::Time;
 
   /// `instructions`: one of instruction_sets(), for tests and measurements; empty: the best. Throws
-  /// std::invalid_argument for another name, and as Reduction's constructor does.
+  /// UnsupportedError for another name, and as Reduction's constructor does.
   explicit Batch(const Scene& scene, std::string_view instructions = {});
   ~Batch();
   Batch(Batch&&) noexcept;

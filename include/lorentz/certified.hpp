@@ -24,7 +24,7 @@ namespace lorentz::oracle {
 /// (docs/speed.md).
 class Certified {
  public:
-  /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
+  /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in).
   explicit Certified(const Scene& scene);
 
   /// The exact answer; an invalid query yields `error`. A request for digits or detail is

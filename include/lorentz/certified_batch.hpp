@@ -21,7 +21,7 @@ namespace lorentz::oracle {
 /// in some thousand (docs/speed.md).
 class CertifiedBatch {
  public:
-  /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
+  /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in).
   explicit CertifiedBatch(const Scene& scene);
 
   /// Answers the queries on `jobs` threads. Columns that are not null must include `outcome`, `time` and

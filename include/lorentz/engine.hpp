@@ -44,7 +44,8 @@ class Engine {
   void first_hit(const Query& query, double max_time, Answer& answer) const;
 
  protected:
-  explicit Engine(Scene scene) : scene_(std::move(scene)) {}
+  /// Throws InputError for a scene with a flaw.
+  explicit Engine(Scene scene) : scene_(std::move(scene)) { checked(scene_); }
 
   /// Called for a valid query and a fresh answer. Times are in the units of the scaled velocity. Nothing is
   /// entered before max_time: `never`, of which first_hit makes `later`.
@@ -66,7 +67,7 @@ class Engine {
 /// The names that make_engine knows.
 std::vector<std::string> engine_names();
 
-/// The engine of this name for a scene without flaws, or null for an unknown name. A scene that the engine
+/// The engine of this name for a scene, or null for an unknown name. Throws InputError for a scene with a flaw. A scene that the engine
 /// does not do gets an engine that answers every query with `unsupported`.
 std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene);
 

@@ -1,12 +1,17 @@
-// The two ways in which reading or writing goes wrong.
+// What goes wrong: the input, what is asked of it, a file.
 #pragma once
 
 #include <stdexcept>
 
 namespace lorentz {
 
-/// Input that does not mean what it should: what() says where and why.
+/// Input that does not mean what it should, in a file or from a caller: what() says where and why.
 struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Good input that an engine or a class does not do: what() says why.
+struct UnsupportedError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 

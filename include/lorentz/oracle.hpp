@@ -46,7 +46,7 @@ struct Request {
 /// Source: this project. oracle/README.md says why it can be trusted.
 class Oracle {
  public:
-  /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in). Reduces its lattices,
+  /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in). Reduces its lattices,
   /// once.
   explicit Oracle(const Scene& scene);
   Oracle(Oracle&&) noexcept;
@@ -57,7 +57,7 @@ class Oracle {
   /// for. An invalid query (flaw_of) yields `error`.
   Answer first_hit(const Query& query, const Request& request = {}) const;
 
-  /// True if x lies in no open obstacle. Requires a finite x.
+  /// True if x lies in no open obstacle. Throws InputError if x is not finite.
   bool is_free(const Vec& x) const;
 
  private:

@@ -20,7 +20,7 @@ namespace lorentz::oracle {
 /// Cost: that of the oracle. Allocates. Any number of threads may ask one prover.
 class Prover {
  public:
-  /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
+  /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in).
   explicit Prover(const Scene& scene);
   Prover(Prover&&) noexcept;
   Prover& operator=(Prover&&) noexcept;

@@ -23,4 +23,8 @@ struct Query {
 /// exists.
 std::optional<std::string> flaw_of(const Query& query, const Scene& scene);
 
+/// The query, or the obstacle, if it has no flaw in this scene; else throws InputError.
+const Query& checked(const Query& query, const Scene& scene);
+const ObstacleId& checked(const ObstacleId& obstacle, const Scene& scene);
+
 }  // namespace lorentz

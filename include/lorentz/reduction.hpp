@@ -59,8 +59,8 @@ class Reduction : public Engine {
   /// With the fused multiply-add if the processor has it, or as if it had not: the same answers, to the bit.
   enum class Processor { this_one, without_fma };
 
-  /// For a scene without flaws (flaw_of) and with independent vectors (oracle::dependence_in). Throws
-  /// std::invalid_argument for one that is beyond the engine.
+  /// Throws InputError for a scene with a flaw, UnsupportedError for one that is beyond the engine. That its vectors
+  /// are independent only exact arithmetic can say (oracle::dependence_in).
   explicit Reduction(const Scene& scene, Processor processor = Processor::this_one);
   ~Reduction() override;
 

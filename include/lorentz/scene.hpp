@@ -85,6 +85,10 @@ void for_each_atom(const Scene& scene, const Visit& visit) {
 /// (include/lorentz/scene_check.hpp).
 std::optional<std::string> flaw_of(const Scene& scene);
 
+/// The scene, if it has no flaw; else throws InputError, which names the place and the remedy. What takes a scene calls
+/// this first, once.
+const Scene& checked(const Scene& scene);
+
 /// The unit square (d = 2) or cubic (d = 3) lattice with one ball of this radius at the origin.
 Scene unit_scene(int dimension, double radius);
 

@@ -38,7 +38,7 @@ struct Neighbourhood {
 /// known to 150 digits); their sizes are 1e300 at the most. Any number of threads may ask one.
 class Surroundings {
  public:
-  /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
+  /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in).
   explicit Surroundings(const Scene& scene);
   Surroundings(Surroundings&&) noexcept;
   Surroundings& operator=(Surroundings&&) noexcept;

@@ -99,8 +99,8 @@ using AskFirstHit = std::function<void(const Query& query, double max_time, Answ
 class Trajectory {
  public:
   /// From the start of a query: at x, with the velocity v, off `from` if there is one. `engine` must live as
-  /// long, and be the scene's; a Reduction is asked without detours. Throws std::invalid_argument for a scene
-  /// or start with a flaw (flaw_of), or beyond the range of sizes.
+  /// long, and be the scene's; a Reduction is asked without detours. Throws InputError for a
+  /// scene or start with a flaw (flaw_of), UnsupportedError for sizes beyond its range.
   Trajectory(const Engine& engine, const Scene& scene, const Query& start,
              Precision precision = Precision::binary64);
 
@@ -114,7 +114,7 @@ class Trajectory {
   const Particle& state() const { return particle_; }
 
   /// Takes another state in its place: one of another trajectory in this scene, say, to go on with it. One
-  /// with low parts makes a start of more than 53 bits. Throws std::invalid_argument for one that names an
+  /// with low parts makes a start of more than 53 bits. Throws InputError for one that names an
   /// obstacle that is not there, or has no velocity or speed_squared.
   void set_state(const Particle& particle);
 
@@ -155,7 +155,7 @@ class Trajectory {
   std::string message_;
 };
 
-/// The state at the start of a query. Throws std::invalid_argument as Trajectory's constructor does.
+/// The state at the start of a query. Throws as Trajectory's constructor does.
 Particle particle_at(const Scene& scene, const Query& start, Precision precision = Precision::binary64);
 
 /// Where a particle is in the scene's coordinates, rounded.

@@ -23,7 +23,7 @@ namespace lorentz {
 /// Units, ranges and exactness: those of Trajectory.
 class Particles {
  public:
-  /// `engine` is the scene's, and must live as long. Throws std::invalid_argument as Trajectory does.
+  /// `engine` is the scene's, and must live as long. Throws as Trajectory does.
   Particles(const Batch& engine, const Scene& scene, Precision precision = Precision::binary64);
   ~Particles();
   Particles(Particles&&) noexcept;

@@ -84,7 +84,7 @@ struct ExcusedAnswer {
 /// Cost: nothing to speak of where the two agree, else 100 us and more.
 class Judge {
  public:
-  /// The scene must have no flaw (flaw_of) and independent vectors (dependence_in).
+  /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in).
   explicit Judge(const Scene& scene, const Claim& claim = {});
   Judge(Judge&&) noexcept;
   Judge& operator=(Judge&&) noexcept;

@@ -25,9 +25,9 @@ namespace lorentz::oracle {
 /// 1/r^(d-1).
 class Walk {
  public:
-  /// The scene must have no flaw. After `max_cells` cells of one atom's lattice the walk gives up.
-  explicit Walk(Scene scene, std::int64_t max_cells = 100'000)
-      : scene_(std::move(scene)), max_cells_(max_cells) {}
+  /// Throws InputError for a scene with a flaw, or with dependent vectors. After `max_cells` cells of one atom's
+  /// lattice the walk gives up.
+  explicit Walk(Scene scene, std::int64_t max_cells = 100'000);
 
   /// The exact answer, time correctly rounded, or `later` if nothing is entered before `max_time` (an
   /// infinity: no limit), which is compared with the exact time; `undecided` if the flight passes more than

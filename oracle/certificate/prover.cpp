@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <variant>
 
+#include <lorentz/errors.hpp>
+
 #include "oracle/exact/exact_query.hpp"
 #include "oracle/exact/short_basis.hpp"
 #include "oracle/exact/stretches.hpp"
@@ -144,7 +146,7 @@ class Writer {
         centre_of<D>(scene_, hit.lattice, hit.atom, to_zvec<D>(hit.cell), query_.x, query_.length_exponent);
     if (const auto& frame = scene_.lattices[hit.lattice].atoms[hit.atom].frame) c = frame->to_ball * c;
     const Z s = dot(own.velocity.v, c), d = (own.radius2 - dot(c, c)) * own.velocity.v2 + s * s;
-    if (d <= 0) throw std::invalid_argument("the obstacle is not hit: there is nothing to prove");
+    if (d <= 0) throw InputError("the obstacle is not hit: there is nothing to prove");
     return ceil_div((s - floor_sqrt(d)) * view.velocity.v2, own.velocity.v2);
   }
 
@@ -196,13 +198,14 @@ class Writer {
 }  // namespace
 
 struct Prover::Impl {
+  Scene given;
   std::variant<ExactScene<2>, ExactScene<3>> scene;
 };
 
 Prover::Prover(const Scene& scene) {
   using Exact = std::variant<ExactScene<2>, ExactScene<3>>;
   impl_ = std::make_unique<const Impl>(
-      Impl{scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))});
+      Impl{scene, scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))});
 }
 
 Prover::Prover(Prover&&) noexcept = default;
@@ -210,6 +213,9 @@ Prover& Prover::operator=(Prover&&) noexcept = default;
 Prover::~Prover() = default;
 
 Certificate Prover::prove(const Query& query, const Answer& exact) const {
+  checked(query, impl_->given);
+  if (exact.outcome == Outcome::hit || exact.outcome == Outcome::inside)
+    checked(exact.obstacle, impl_->given);
   return std::visit(
       [&]<std::size_t D>(const ExactScene<D>& scene) { return Writer<D>(scene, query).prove(exact); },
       impl_->scene);

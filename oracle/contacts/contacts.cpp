@@ -395,6 +395,7 @@ void ContactSearch<D>::between(std::size_t l, std::size_t m) {
 }  // namespace
 
 Contacts contacts_in(const Scene& scene, std::size_t limit, Pairs pairs, long budget) {
+  checked_exactly(scene);
   return scene.dimension == 2 ? ContactSearch<2>(scene, limit, budget).run(pairs)
                               : ContactSearch<3>(scene, limit, budget).run(pairs);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <lorentz/scene.hpp>
+#include <lorentz/scene_check.hpp>
 
 #include "oracle/integers/dyadic.hpp"
 #include "oracle/integers/integer.hpp"
@@ -143,7 +144,7 @@ struct ExactScene {
   std::vector<ExactLattice<D>> lattices;
 
   explicit ExactScene(const IntegerScene<D>& scene);
-  explicit ExactScene(const Scene& scene) : ExactScene(integer_scene<D>(scene)) {}
+  explicit ExactScene(const Scene& scene) : ExactScene(integer_scene<D>(checked_exactly(scene))) {}
 };
 
 /// The velocity v scaled to integers, and v^2.

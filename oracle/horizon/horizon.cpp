@@ -216,6 +216,7 @@ Horizon horizon_of(const Scene& scene, double min_width, bool with_cylinders,
                    const SearchProgress& progress) {
   if (!(min_width >= 0 && std::isfinite(min_width)))
     throw InputError("min_width: needs a number, 0 or above");
+  checked_exactly(scene);
   if (!is_crystal(scene)) {
     if (min_width > 0) throw InputError("min_width: supports crystals only");
     Horizon horizon;

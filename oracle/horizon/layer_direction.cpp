@@ -38,7 +38,7 @@ double neighbours_of(const ObstacleLattice<3>& lattice, const Shadow& shadow) {
 }  // namespace
 
 OpenDirection look_along(const Scene& scene, const Vec& direction) {
-  const Scene crystal = crystal_along(scene, direction);
+  const Scene crystal = crystal_along(checked_exactly(scene), direction);
   if (dependence_in(crystal)) return {true, {}};
   const ChannelScene<3> exact(crystal, 0);
   const BallScene balls = balls_of(exact);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <lorentz/errors.hpp>
+
 #include "oracle/margin/misses.hpp"
 #include "oracle/margin/perturbed_query.hpp"
 
@@ -222,6 +224,7 @@ struct Margins::Impl {
 
   // Of the time, in this unit, when every input moves by an ulp.
   double change(const Query& query, const Answer& exact, double unit) const {
+    if (exact.outcome != Outcome::hit || !exact.time) throw InputError("answer: is no hit with a time");
     return scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
       return to_double(change_of_time(perturbed, exact.obstacle) / Real(unit),
                        std::numeric_limits<double>::max());
@@ -286,7 +289,7 @@ Crossing Margins::crossing(const Query& query, const ObstacleId& obstacle) const
 }
 
 double Margins::condition(const Query& query, const Answer& exact) const {
-  return impl_->change(query, exact, ulp(*exact.time, impl_->scene.precision()));
+  return impl_->change(query, exact, ulp(exact.time.value_or(0), impl_->scene.precision()));
 }
 
 double Margins::time_change(const Query& query, const Answer& exact) const {

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <deque>
+#include <string>
 #include <variant>
+
+#include <lorentz/errors.hpp>
 
 #include "oracle/margin/perturbation.hpp"
 
@@ -32,17 +35,19 @@ class PerturbedQuery {
   const Uncertain<D>& atom_of(const ObstacleId& id) const {
     for (const Uncertain<D>& atom : atoms_)
       if (atom.lattice() == id.lattice && atom.atom() == id.atom) return atom;
-    std::abort();
+    throw InputError("obstacle: the scene has no lattice " + std::to_string(id.lattice) + " with an atom " +
+                     std::to_string(id.atom));
   }
 
   Centre<D> centre_of(const ObstacleId& id) const {
+    const Uncertain<D>& atom = atom_of(id);
     LatticePoint<D> point;
     point.n = to_zvec<D>(id.cell);
     point.p =
         oracle::centre_of<D>(exact_scene_, id.lattice, id.atom, point.n, exact_.x, exact_.length_exponent);
     if (const auto& frame = exact_scene_.lattices[id.lattice].atoms[id.atom].frame)
       point.p = frame->to_ball * point.p;
-    return Centre<D>(atom_of(id).view().velocity, std::move(point));
+    return Centre<D>(atom.view().velocity, std::move(point));
   }
 
   bool is_from(const Uncertain<D>& atom, const ZVec<D>& n) const {
@@ -91,9 +96,10 @@ class PerturbedScene {
   const Scene& scene() const { return scene_; }
   NumberFormat precision() const { return precision_; }
 
-  /// What `work` makes of the query's PerturbedQuery<2> or PerturbedQuery<3>.
+  /// What `work` makes of the query's PerturbedQuery<2> or PerturbedQuery<3>. Throws InputError for a query with a flaw.
   template <class Work>
   auto with(const Query& query, const Work& work) const {
+    checked(query, scene_);
     return std::visit(
         [&]<std::size_t D>(const ExactScene<D>& exact) {
           return work(PerturbedQuery<D>(scene_, exact, query, precision_));

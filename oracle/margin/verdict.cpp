@@ -79,6 +79,8 @@ Judgement Judge::judge(const Query& query, const Answer& exact, const Answer& gi
     default:
       break;
   }
+  if (exact.outcome == Outcome::hit || exact.outcome == Outcome::inside)
+    checked(exact.obstacle, impl_->scene.scene());
   const bool names_obstacle = given.outcome != Outcome::never;
   if (given.outcome == exact.outcome && (!names_obstacle || given.obstacle == exact.obstacle))
     return given.outcome == Outcome::hit ? impl_->judge_time(query, exact, given, ulps)

@@ -3,7 +3,11 @@
 #include <lorentz/surroundings.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <variant>
+
+#include <lorentz/errors.hpp>
 
 #include "oracle/exact/exact_query.hpp"
 #include "oracle/exact/inside.hpp"
@@ -113,33 +117,43 @@ class SightLine {
 }  // namespace
 
 struct Surroundings::Impl {
+  Scene given;
   std::variant<ExactScene<2>, ExactScene<3>> scene;
 
   template <class Work>
-  auto with(const Query& query, const Work& work) const {
+  auto with(const Query& query, const std::initializer_list<PlaceOnLine>& places, const Work& work) const {
+    checked(query, given);
+    for (const PlaceOnLine& place : places) {
+      if (place.obstacle) checked(*place.obstacle, given);
+      if (!std::isfinite(place.time) || !std::isfinite(place.beyond))
+        throw InputError("place: is not finite");
+    }
     return std::visit(
         [&]<std::size_t D>(const ExactScene<D>& exact) { return work(SightLine<D>(exact, query)); }, scene);
   }
 };
 
 Surroundings::Surroundings(const Scene& scene)
-    : impl_(scene.dimension == 2 ? std::make_unique<const Impl>(Impl{ExactScene<2>(scene)})
-                                 : std::make_unique<const Impl>(Impl{ExactScene<3>(scene)})) {}
+    : impl_(scene.dimension == 2 ? std::make_unique<const Impl>(Impl{scene, ExactScene<2>(scene)})
+                                 : std::make_unique<const Impl>(Impl{scene, ExactScene<3>(scene)})) {}
 Surroundings::Surroundings(Surroundings&&) noexcept = default;
 Surroundings& Surroundings::operator=(Surroundings&&) noexcept = default;
 Surroundings::~Surroundings() = default;
 
 double Surroundings::way(const Query& query, const PlaceOnLine& from, const PlaceOnLine& to) const {
-  return impl_->with(query, [&](const auto& sight) { return sight.way(from, to); });
+  return impl_->with(query, {from, to}, [&](const auto& sight) { return sight.way(from, to); });
 }
 
 Vec Surroundings::centre(const Query& query, const PlaceOnLine& seen_from, const ObstacleId& obstacle) const {
-  return impl_->with(query, [&](const auto& sight) { return sight.centre(seen_from, obstacle); });
+  checked(obstacle, impl_->given);
+  return impl_->with(query, {seen_from},
+                     [&](const auto& sight) { return sight.centre(seen_from, obstacle); });
 }
 
 Neighbourhood Surroundings::around(const Query& query, const PlaceOnLine& place, double reach,
                                    std::size_t most) const {
-  return impl_->with(query, [&](const auto& sight) { return sight.around(place, reach, most); });
+  if (!(reach > 0 && std::isfinite(reach))) throw InputError("reach: must be above zero and finite");
+  return impl_->with(query, {place}, [&](const auto& sight) { return sight.around(place, reach, most); });
 }
 
 }  // namespace lorentz::oracle

@@ -21,6 +21,8 @@
 #include <tuple>
 #include <vector>
 
+#include <lorentz/errors.hpp>
+
 namespace lorentz::oracle {
 namespace {
 
@@ -297,7 +299,31 @@ Cell to_cell(const Index& n) {
   return {Integer(n[0]), Integer(n[1]), Integer(n[2])};
 }
 
+std::array<Vec, 3> columns_of(const Atom& atom) {
+  std::array<Vec, 3> columns{};
+  std::copy(atom.semiaxes.begin(), atom.semiaxes.end(), columns.begin());
+  return columns;
+}
+
+// Exactly: are the first `count` vectors linearly dependent? (In the plane the third components are zero.)
+bool are_dependent(const std::array<Vec, 3>& vectors, int count) {
+  const auto nothing = [](const RealVec& a) { return inner(a, a) == Real(0); };
+  if (count == 0) return false;
+  const RealVec a = exact(vectors[0]), b = exact(vectors[1]);
+  if (count == 1) return nothing(a);
+  return count == 2 ? nothing(outer(a, b)) : inner(outer(a, b), exact(vectors[2])) == Real(0);
+}
+
 }  // namespace
+
+Walk::Walk(Scene scene, std::int64_t max_cells) : scene_(std::move(scene)), max_cells_(max_cells) {
+  checked(scene_);
+  for (const Lattice& lattice : scene_.lattices)
+    for (const Atom& atom : lattice.atoms)
+      if (are_dependent(lattice.vectors, lattice.rank(scene_.dimension)) ||
+          (!atom.is_ball() && are_dependent(columns_of(atom), scene_.dimension)))
+        throw InputError("scene: vectors of a lattice or semiaxes are linearly dependent");
+}
 
 Answer Walk::first_hit(const Query& query, double max_time) const {
   if (auto flaw = flaw_of(query, scene_)) return Answer::error(*flaw);

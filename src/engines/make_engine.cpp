@@ -55,6 +55,7 @@ std::vector<std::string> engine_names() {
 std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene) {
   for (const EngineEntry& entry : kEngines) {
     if (entry.name != name) continue;
+    checked(scene);
     const bool is_beyond = entry.crystals_only && !is_crystal(scene);
     const auto why = is_beyond ? std::optional<std::string>(kCrystals) : entry.beyond(scene);
     if (why) return std::make_unique<Unsupported>(scene, std::string(name) + ' ' + *why);

@@ -1,5 +1,8 @@
 #include <lorentz/query.hpp>
 
+#include <string_view>
+
+#include <lorentz/errors.hpp>
 #include <lorentz/scene.hpp>
 
 #include "src/problem/finite.hpp"
@@ -12,6 +15,17 @@ std::optional<std::string> flaw_of(const Query& query, const Scene& scene) {
   if (!all_finite(query.v)) return "v is not finite";
   if (query.v == Vec{}) return "v is zero: the particle needs a direction";
   return query.from ? from_flaw(*query.from, scene) : std::nullopt;
+}
+
+const Query& checked(const Query& query, const Scene& scene) {
+  if (const auto flaw = flaw_of(query, scene)) throw InputError("query: " + *flaw);
+  return query;
+}
+
+const ObstacleId& checked(const ObstacleId& obstacle, const Scene& scene) {
+  if (const auto flaw = from_flaw(obstacle, scene))
+    throw InputError("obstacle: " + flaw->substr(std::string_view("from ").size()));
+  return obstacle;
 }
 
 }  // namespace lorentz

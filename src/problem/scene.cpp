@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <lorentz/errors.hpp>
 #include "src/problem/finite.hpp"
 
 namespace lorentz {
@@ -43,6 +44,11 @@ std::optional<std::string> flaw_of(const Scene& scene) {
         return where + ", atom " + std::to_string(a) + ": " + *flaw;
   }
   return std::nullopt;
+}
+
+const Scene& checked(const Scene& scene) {
+  if (const auto flaw = flaw_of(scene)) throw InputError("scene: " + *flaw);
+  return scene;
 }
 
 bool is_crystal(const Scene& scene) {

@@ -30,12 +30,12 @@ inline double flight_limit(const Particle& particle, double until) {
 /// The geometry of a scene whose lengths are in range.
 class Places {
  public:
-  /// Throws std::invalid_argument.
+  /// Throws InputError or UnsupportedError.
   explicit Places(const Scene& scene);
 
   const Scene& scene() const { return scene_; }
   Particle at(const Query& start, Precision precision) const;
-  /// Throws std::invalid_argument for what is no particle in this scene.
+  /// Throws InputError for what is no particle in this scene.
   void check(const Particle& particle) const;
   Point<Wide> centre(std::int32_t lattice, std::int32_t atom, const std::array<std::int64_t, 3>& cell) const;
   Point<Wide> place(const Particle& particle) const;

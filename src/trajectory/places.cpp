@@ -1,7 +1,7 @@
 // Starts, and places in the scene's coordinates.
 #include <algorithm>
-#include <stdexcept>
 
+#include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
 #include "src/trajectory/motion.hpp"
 
@@ -39,9 +39,9 @@ Vec rounded(const Point<Wide>& a) {
 }  // namespace
 
 Places::Places(const Scene& scene) : scene_(scene) {
-  if (const auto flaw = flaw_of(scene)) throw std::invalid_argument(*flaw);
+  checked(scene);
   if (!in_range(scene))
-    throw std::invalid_argument("trajectories are for scenes whose lengths lie between 2^-100 and 2^100");
+    throw UnsupportedError("trajectories are for scenes whose lengths lie between 2^-100 and 2^100");
 }
 
 // The obstacle that is left, or one near the start.
@@ -51,7 +51,7 @@ void Places::set_home(const Query& start, Particle& particle) const {
     particle.lattice = start.from->lattice, particle.atom = start.from->atom;
     for (int i = 0; i < scene_.dimension; ++i) {
       if (!start.from->cell[i].fits_int64())
-        throw std::invalid_argument("a trajectory starts in a cell of 64 bits");
+        throw UnsupportedError("a trajectory starts in a cell of 64 bits");
       particle.cell[i] = start.from->cell[i].int64();
     }
     return;
@@ -62,14 +62,14 @@ void Places::set_home(const Query& start, Particle& particle) const {
   const Vec n = coordinates(dual_of(vectors, scene_.dimension), start.x);
   for (int i = 0; i < rank; ++i) {
     if (!(std::fabs(n[i]) < 0x1p53))
-      throw std::invalid_argument("a trajectory starts within 2^53 cells of the origin");
+      throw UnsupportedError("a trajectory starts within 2^53 cells of the origin");
     particle.cell[i] = static_cast<std::int64_t>(std::round(n[i]));
   }
 }
 
 Particle Places::at(const Query& start, Precision precision) const {
-  if (const auto flaw = flaw_of(start, scene_)) throw std::invalid_argument(*flaw);
-  if (!in_range(start.v)) throw std::invalid_argument("trajectories are for speeds between 2^-100 and 2^100");
+  if (const auto flaw = flaw_of(start, scene_)) throw InputError("start: " + *flaw);
+  if (!in_range(start.v)) throw UnsupportedError("trajectories are for speeds between 2^-100 and 2^100");
   Particle particle;
   set_home(start, particle);
   const Point<Wide> home = centre(particle.lattice, particle.atom, particle.cell), v = exact(start.v);
@@ -90,7 +90,7 @@ void Places::check(const Particle& particle) const {
               number(particle.atom, scene_.lattices[particle.lattice].atoms.size());
   for (const double x : particle.offset) good &= std::fabs(x) <= kLargest;
   good &= in_range(particle.velocity) && particle.speed_squared > 0 && std::isfinite(particle.time);
-  if (!good) throw std::invalid_argument("this is no state of a particle in this scene");
+  if (!good) throw InputError("this is no state of a particle in this scene");
 }
 
 Point<Wide> Places::centre(std::int32_t lattice, std::int32_t atom,

@@ -439,8 +439,8 @@ TEST_CASE("A query with a flaw is an error of its own in a batch", "[engines][ba
 
 TEST_CASE("Instructions that the processor has not are refused", "[engines][batch]") {
   CHECK(Batch::instruction_sets().back() == "none");
-  CHECK_THROWS_AS(Batch(unit_scene(2, 0.1), "MMX"), std::invalid_argument);
-  CHECK_THROWS_AS(Batch(unit_scene(2, 0.9)), std::invalid_argument);  // beyond the engine
+  CHECK_THROWS_AS(Batch(unit_scene(2, 0.1), "MMX"), UnsupportedError);
+  CHECK_THROWS_AS(Batch(unit_scene(2, 0.9)), UnsupportedError);  // beyond the engine
   QueryTable table;
   Query far{{}, {1, 0, 0}, ObstacleId{0, 0, {*Integer::from_decimal("100000000000000000000"), 0, 0}}};
   CHECK_FALSE(table.push_back(far));

@@ -146,7 +146,7 @@ TEST_CASE("Radii and cells beyond the engine are named, certified does them all 
   CHECK(Reduction::beyond(square(9e-13)).value() ==
         "does radii from 1e-12 of the shortest lattice vector only");
   CHECK(Reduction::beyond(cubic(9e-8)).value() == "does radii from 1e-7 of the shortest lattice vector only");
-  CHECK_THROWS_AS(Reduction(square(0.6)), std::invalid_argument);
+  CHECK_THROWS_AS(Reduction(square(0.6)), UnsupportedError);
   Scene flat = square(0.1);
   flat.lattices[0].vectors[1] = {1e9, 1, 0};
   CHECK(Reduction::beyond(flat));

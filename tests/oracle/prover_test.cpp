@@ -28,7 +28,7 @@ struct Tally {
 std::string refutation(const Scene& scene, const Query& query, const Answer& answer) {
   try {
     return CertificateCheck(scene).refutation(query, answer, Prover(scene).prove(query, answer)).value_or("");
-  } catch (const std::invalid_argument& error) {
+  } catch (const InputError& error) {
     return error.what();  // the prover saw itself that there is nothing to prove
   }
 }

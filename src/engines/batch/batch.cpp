@@ -4,8 +4,9 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <thread>
+
+#include <lorentz/errors.hpp>
 
 #include "src/engines/batch/stretch.hpp"
 
@@ -17,7 +18,7 @@ StretchKernels kernels_named(std::string_view instructions) {
   if (instructions.empty()) return kernels.front();
   for (const StretchKernels& one : kernels)
     if (instructions == one.instructions) return one;
-  throw std::invalid_argument("this processor has no vector instructions " + std::string(instructions));
+  throw UnsupportedError("this processor has no vector instructions " + std::string(instructions));
 }
 
 // Lengths beyond are scaled in steps, which lanes do not do.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <stdexcept>
 
 #include <lorentz/engine_base.hpp>
+#include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
 #include "src/engines/base/double_double.hpp"
 
@@ -283,7 +283,7 @@ Walked CellWalk::CellLattice::walk(CellPlace place, const Vec& v, const From& fr
 }
 
 CellWalk::CellWalk(const Scene& scene) : Engine(scene) {
-  if (auto why = beyond(scene)) throw std::invalid_argument("classical " + *why);
+  if (auto why = beyond(scene)) throw UnsupportedError("classical " + *why);
   for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l)
     lattices_.emplace_back(scene, l).list(scene.lattices[l].atoms);
 }

@@ -24,7 +24,7 @@ class CellWalk : public Engine {
   static constexpr long kMaxTests = 100'000'000;      ///< of obstacles
   static constexpr double kMaxObstacles = 1'000'000;  ///< that reach into a cell, over all lattices
 
-  /// Throws std::invalid_argument for a scene that is beyond the walker.
+  /// Throws UnsupportedError for a scene that is beyond the walker.
   explicit CellWalk(const Scene& scene);
   ~CellWalk() override;
 

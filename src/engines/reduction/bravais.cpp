@@ -359,6 +359,7 @@ double first_length(const Scene& scene) {
 }  // namespace
 
 PreparedScene prepare(const Scene& scene) {
+  checked(scene);
   PreparedScene prepared;
   prepared.ellipsoids = has_ellipsoids(scene);
   const double first = first_length(scene);

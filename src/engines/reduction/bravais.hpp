@@ -47,7 +47,7 @@ struct PreparedScene {
   std::string beyond;                 ///< why the reduction engine does not do the scene; empty if it does
 };
 
-/// For a scene without flaws.
+/// Throws InputError for a scene with a flaw.
 PreparedScene prepare(const Scene& scene);
 
 }  // namespace lorentz

@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 #include <lorentz/engine_base.hpp>
+#include <lorentz/errors.hpp>
 #include "src/engines/reduction/kernels.hpp"
 #include "src/engines/reduction/offset.hpp"
 
@@ -40,7 +40,7 @@ struct Reduction::Model {
 Reduction::Reduction(const Scene& scene, Processor processor) : Engine(scene) {
   auto model = std::make_unique<Model>();
   model->scene = prepare(scene);
-  if (!model->scene.beyond.empty()) throw std::invalid_argument("reduction " + model->scene.beyond);
+  if (!model->scene.beyond.empty()) throw UnsupportedError("reduction " + model->scene.beyond);
   const bool fma = processor == Processor::this_one && has_fma();
   model->kernels = fma ? kernels_with_fma(model->scene) : kernels_without_fma(model->scene);
   model_ = std::move(model);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <lorentz/errors.hpp>
 #include "oracle/integers/dyadic.hpp"
 
 namespace lorentz::oracle {
@@ -39,6 +40,12 @@ std::optional<std::string> dependence_in(const Scene& scene) {
     }
   }
   return std::nullopt;
+}
+
+const Scene& checked_exactly(const Scene& scene) {
+  lorentz::checked(scene);
+  if (const auto dependence = dependence_in(scene)) throw InputError("scene: " + *dependence);
+  return scene;
 }
 
 std::string description_of(const Contact& contact) {

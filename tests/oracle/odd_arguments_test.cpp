@@ -1,0 +1,251 @@
+// What a caller may give wrong: each class that takes a scene refuses the same ones in the same way, and answers odd
+// questions with an error.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <lorentz/batch.hpp>
+#include <lorentz/certificate_check.hpp>
+#include <lorentz/certified.hpp>
+#include <lorentz/certified_batch.hpp>
+#include <lorentz/errors.hpp>
+#include <lorentz/horizon.hpp>
+#include <lorentz/margin.hpp>
+#include <lorentz/oracle.hpp>
+#include <lorentz/prover.hpp>
+#include <lorentz/scene_check.hpp>
+#include <lorentz/surroundings.hpp>
+#include <lorentz/trajectory.hpp>
+#include <lorentz/verdict.hpp>
+#include <lorentz/walk.hpp>
+#include "tests/support/support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(),
+                 kInf = std::numeric_limits<double>::infinity();
+
+struct BadScene {
+  const char* words;  // that the message has
+  Scene scene;
+};
+
+Scene changed(const std::function<void(Scene&)>& change, int dimension = 2) {
+  Scene scene = unit_scene(dimension, 0.25);
+  change(scene);
+  return scene;
+}
+
+// With a flaw that any class sees.
+std::vector<BadScene> flawed() {
+  const auto with = [](const char* words, const auto& change) { return BadScene{words, changed(change)}; };
+  std::vector<BadScene> all{
+      {"dimension must be 2 or 3", Scene{}},
+      with("dimension must be 2 or 3", [](Scene& s) { s.dimension = 0; }),
+      with("dimension must be 2 or 3", [](Scene& s) { s.dimension = 1; }),
+      with("dimension must be 2 or 3", [](Scene& s) { s.dimension = 4; }),
+      with("dimension must be 2 or 3", [](Scene& s) { s.dimension = -2; }),
+      with("at least one lattice", [](Scene& s) { s.lattices.clear(); }),
+      with("lattice 0: needs at least one atom", [](Scene& s) { s.lattices[0].atoms.clear(); }),
+      with("lattice 1: needs at least one atom", [](Scene& s) { s.lattices.emplace_back(); }),
+      with("primitive vector is not finite", [](Scene& s) { s.lattices[0].vectors[1][0] = kInf; }),
+      with("primitive vectors", [](Scene& s) { s.lattices[0].missing = -1; }),
+      with("primitive vectors", [](Scene& s) { s.lattices[0].missing = 3; }),
+      with("more primitive vectors than it says", [](Scene& s) { s.lattices[0].missing = 1; }),
+      with("position is not finite", [](Scene& s) { s.lattices[0].atoms[0].position[0] = kNaN; }),
+      with("as many semiaxes",
+           [](Scene& s) {
+             s.lattices[0].atoms[0].semiaxes = {{1, 0, 0}};
+           }),
+      with("a semiaxis is not finite", [](Scene& s) {
+        s.lattices[0].atoms[0].semiaxes = {{1, 0, 0}, {0, kNaN, 0}};
+      })};
+  for (const double radius : {0.0, -0.0, -0.1, -kInf, kInf, kNaN})
+    all.push_back(with("radius", [=](Scene& s) { s.lattices[0].atoms[0].radius = radius; }));
+  return all;
+}
+
+// That only exact arithmetic sees.
+std::vector<BadScene> dependent() {
+  const auto with = [](const char* words, const auto& change) { return BadScene{words, changed(change)}; };
+  return {with("linearly dependent", [](Scene& s) { s.lattices[0].vectors[1] = s.lattices[0].vectors[0]; }),
+          with("linearly dependent", [](Scene& s) { s.lattices[0].vectors[1] = {}; }),
+          with("linearly dependent",
+               [](Scene& s) {
+                 s.lattices[0].vectors = {{{0.1, 0.3, 0}, {0.2, 0.6, 0}}};
+               }),
+          with("linearly dependent", [](Scene& s) { s.lattices[0].vectors = {}, s.lattices[0].missing = 1; }),
+          with("linearly dependent", [](Scene& s) {
+            s.lattices[0].atoms[0].semiaxes = {{1, 2, 0}, {2, 4, 0}};
+          })};
+}
+
+struct Class {
+  const char* name;
+  std::function<void(const Scene&)> make;
+};
+
+const Query kQuery{{0.5, 0.5, 0}, {1, 0.1, 0}, {}};
+
+// That are exact, and say all that is wrong with a scene.
+std::vector<Class> exact_classes() {
+  return {{"Oracle", [](const Scene& s) { oracle::Oracle{s}; }},
+          {"Walk", [](const Scene& s) { oracle::Walk{s}; }},
+          {"Certified", [](const Scene& s) { oracle::Certified{s}; }},
+          {"CertifiedBatch", [](const Scene& s) { oracle::CertifiedBatch{s}; }},
+          {"Margins", [](const Scene& s) { oracle::Margins{s}; }},
+          {"Judge", [](const Scene& s) { oracle::Judge{s}; }},
+          {"Prover", [](const Scene& s) { oracle::Prover{s}; }},
+          {"Surroundings", [](const Scene& s) { oracle::Surroundings{s}; }},
+          {"horizon_of", [](const Scene& s) { (void)oracle::horizon_of(s); }},
+          {"look_along",
+           [](const Scene& s) {
+             (void)oracle::look_along(s, {1, 2, 3});
+           }},
+          {"contacts_in", [](const Scene& s) { (void)oracle::contacts_in(s, 3); }},
+          {"checked_exactly", [](const Scene& s) { (void)oracle::checked_exactly(s); }}};
+}
+
+// That compute in binary64, and may refuse a nearly flat cell as one that they do not do.
+std::vector<Class> fast_classes() {
+  std::vector<Class> all{{"Reduction", [](const Scene& s) { Reduction{s}; }},
+                         {"Reduction::beyond", [](const Scene& s) { (void)Reduction::beyond(s); }},
+                         {"Batch", [](const Scene& s) { Batch{s}; }},
+                         {"Trajectory", [](const Scene& s) { Trajectory(AskFirstHit(), s, kQuery); }},
+                         {"particle_at", [](const Scene& s) { (void)particle_at(s, kQuery); }},
+                         {"checked", [](const Scene& s) { (void)checked(s); }}};
+  for (const char* name : {"classical", "published", "reduction"})
+    all.push_back({name, [=](const Scene& s) { (void)make_engine(name, s); }});
+  return all;
+}
+
+void require_refused(const Class& one, const BadScene& bad) {
+  INFO(one.name << ", " << bad.words);
+  const bool is_told = [&] {
+    try {
+      one.make(bad.scene);
+    } catch (const InputError& error) {
+      const std::string said = error.what();
+      return said.starts_with("scene: ") && said.find(bad.words) != said.npos;
+    }
+    return false;
+  }();
+  CHECK(is_told);
+}
+
+}  // namespace
+
+TEST_CASE("A scene with a flaw is refused by every class, in the same words", "[oracle][odd]") {
+  std::vector<Class> all = exact_classes();
+  for (const Class& one : fast_classes()) all.push_back(one);
+  for (const Class& one : all)
+    for (const BadScene& bad : flawed()) require_refused(one, bad);
+  // The check of certificates refutes whatever is said of one.
+  for (const BadScene& bad : flawed()) {
+    const auto why = oracle::CertificateCheck(bad.scene).refutation(kQuery, Answer::never(), {});
+    REQUIRE(why);
+    CHECK_THAT(*why, Catch::StartsWith("scene: ") && Catch::Contains(bad.words));
+  }
+}
+
+TEST_CASE("Dependent vectors are refused by every exact class", "[oracle][odd]") {
+  for (const Class& one : exact_classes())
+    for (const BadScene& bad : dependent()) require_refused(one, bad);
+  for (const Class& one : fast_classes())  // in binary64 they can't be sure; they do not break
+    for (const BadScene& bad : dependent()) {
+      INFO(one.name);
+      try {
+        one.make(bad.scene);
+      } catch (const UnsupportedError&) {
+      } catch (const InputError&) {
+      }
+    }
+}
+
+TEST_CASE("Odd queries are errors, of every class that answers", "[oracle][odd]") {
+  const Scene scene = unit_scene(2, 0.25);
+  const oracle::Oracle oracle(scene);
+  const oracle::Walk walk(scene);
+  const oracle::Certified certified(scene);
+  std::vector<std::pair<std::string, std::function<Answer(const Query&)>>> all{
+      {"oracle", [&](const Query& q) { return oracle.first_hit(q); }},
+      {"walk", [&](const Query& q) { return walk.first_hit(q); }},
+      {"certified", [&](const Query& q) { return certified.first_hit(q); }}};
+  for (const std::string name : {"classical", "published", "reduction"}) {
+    const std::shared_ptr<Engine> engine = make_engine(name, scene);
+    all.emplace_back(name, [engine](const Query& q) { return engine->first_hit(q); });
+  }
+  const auto from = [](int lattice, int atom) {
+    Query query = kQuery;
+    query.from = ObstacleId{lattice, atom, {0, 0, 0}};
+    return query;
+  };
+  for (const auto& [name, ask] : all) {
+    INFO(name);
+    for (const Query& query :
+         {Query{{kNaN, 0, 0}, {1, 0, 0}, {}}, Query{{0, kInf, 0}, {1, 0, 0}, {}},
+          Query{{0.5, 0.5, 0}, {0, 0, 0}, {}}, Query{{0.5, 0.5, 0}, {-0.0, 0, 0}, {}},
+          Query{{0.5, 0.5, 0}, {kNaN, 1, 0}, {}}, Query{{0.5, 0.5, 0}, {1, -kInf, 0}, {}}, from(-1, 0),
+          from(1, 0), from(0, -1), from(0, 1), from(1 << 30, 1 << 30)})
+      CHECK(ask(query).outcome == Outcome::error);
+    CHECK(ask(kQuery).outcome == Outcome::hit);
+  }
+}
+
+TEST_CASE("Odd obstacles, places and answers are refused by what looks closely at a flight",
+          "[oracle][odd]") {
+  const Scene scene = unit_scene(2, 0.25);
+  const oracle::Margins margins(scene);
+  const oracle::Judge judge(scene);
+  const oracle::Prover prover(scene);
+  const oracle::Surroundings surroundings(scene);
+  using oracle::PlaceOnLine;
+  const Answer exact = oracle::Oracle(scene).first_hit(kQuery);
+  REQUIRE(exact.outcome == Outcome::hit);
+  for (const Query& query : {Query{{kNaN, 0, 0}, {1, 0, 0}, {}}, Query{{0.5, 0.5, 0}, {0, 0, 0}, {}}}) {
+    CHECK_THROWS_AS(margins.hardest_decision(query, exact), InputError);
+    CHECK_THROWS_AS(margins.passed(query, exact, 3), InputError);
+    CHECK_THROWS_AS(margins.condition(query, exact), InputError);
+    CHECK_THROWS_AS(margins.time_change(query, exact), InputError);
+    CHECK_THROWS_AS(margins.approach(query, exact.obstacle), InputError);
+    CHECK_THROWS_AS(margins.crossing(query, exact.obstacle), InputError);
+    CHECK_THROWS_AS(judge.judge(query, exact, Answer::never()), InputError);
+    CHECK_THROWS_AS(judge.excused(query, exact, 16, 32), InputError);
+    CHECK_THROWS_AS(prover.prove(query, exact), InputError);
+    CHECK_THROWS_AS(surroundings.way(query, PlaceOnLine::start(), PlaceOnLine::after(1)), InputError);
+  }
+  for (const ObstacleId& bad :
+       {ObstacleId{-1, 0, {}}, ObstacleId{1, 0, {}}, ObstacleId{0, -1, {}}, ObstacleId{0, 1, {}}}) {
+    const Answer hit = Answer::hit(bad, 1), inside = Answer::inside(bad);
+    for (const Answer& answer : {hit, inside}) {
+      CHECK_THROWS_AS(margins.hardest_decision(kQuery, answer), InputError);
+      CHECK_THROWS_AS(judge.judge(kQuery, answer, Answer::never()), InputError);
+      CHECK_THROWS_AS(prover.prove(kQuery, answer), InputError);
+      CHECK(judge.judge(kQuery, exact, answer).verdict ==
+            oracle::Verdict::wrong);  // another engine may say so
+    }
+    CHECK_THROWS_AS(margins.passed(kQuery, hit, 3), InputError);
+    CHECK_THROWS_AS(margins.condition(kQuery, hit), InputError);
+    CHECK_THROWS_AS(margins.approach(kQuery, bad), InputError);
+    CHECK_THROWS_AS(margins.crossing(kQuery, bad), InputError);
+    CHECK_THROWS_AS(judge.excused(kQuery, hit, 16, 32), InputError);
+    CHECK_THROWS_AS(surroundings.centre(kQuery, PlaceOnLine::start(), bad), InputError);
+    CHECK_THROWS_AS(surroundings.around(kQuery, PlaceOnLine::at(bad), 1, 3), InputError);
+  }
+  for (const Answer& odd :
+       {Answer::never(), Answer::inside({}), Answer::undecided(), Answer::error("none")}) {
+    CHECK_THROWS_AS(margins.condition(kQuery, odd), InputError);
+    CHECK_THROWS_AS(margins.time_change(kQuery, odd), InputError);
+  }
+  for (const double reach : {0.0, -1.0, kInf, kNaN})
+    CHECK_THROWS_AS(surroundings.around(kQuery, PlaceOnLine::start(), reach, 3), InputError);
+  CHECK_THROWS_AS(surroundings.around(kQuery, PlaceOnLine::after(kInf), 1, 3), InputError);
+  CHECK_THROWS_AS(oracle::Oracle(scene).is_free({kNaN, 0, 0}), InputError);
+  // A hit that names an obstacle which is not met.
+  CHECK_THROWS_AS(prover.prove(kQuery, Answer::hit({0, 0, {-5, 7, 0}}, 1)), InputError);
+}
