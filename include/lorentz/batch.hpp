@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include <lorentz/pimpl.hpp>
 #include <lorentz/reduction.hpp>
 
 namespace lorentz {
@@ -115,6 +116,7 @@ class Batch {
   explicit Batch(const Scene& scene, std::string_view instructions = {});
   ~Batch();
   Batch(Batch&&) noexcept;
+  Batch& operator=(Batch&&) noexcept;
 
   /// Answers all queries, on `jobs` threads (at least 1). Returns how many of them lanes left to single
   /// flights.
@@ -130,7 +132,7 @@ class Batch {
 
  private:
   struct Inside;
-  std::unique_ptr<const Inside> inside_;
+  Pimpl<const Inside> inside_;
 };
 
 /// The libraries that the batch engine computes with, and their versions.

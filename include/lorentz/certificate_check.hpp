@@ -3,12 +3,12 @@
 // times.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 
 #include <lorentz/answer.hpp>
 #include <lorentz/certificate.hpp>
+#include <lorentz/pimpl.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 
@@ -41,7 +41,7 @@ class CertificateCheck {
 
  private:
   struct Impl;
-  std::unique_ptr<const Impl> impl_;
+  Pimpl<const Impl> impl_;
 };
 
 }  // namespace lorentz::oracle

@@ -44,6 +44,11 @@ class Engine {
   void first_hit(const Query& query, double max_time, Answer& answer) const;
 
  protected:
+  Engine(const Engine&) = default;
+  Engine(Engine&&) noexcept = default;
+  Engine& operator=(const Engine&) = default;
+  Engine& operator=(Engine&&) noexcept = default;
+
   /// Throws InputError for a scene with a flaw.
   explicit Engine(Scene scene) : scene_(std::move(scene)) { checked(scene_); }
 

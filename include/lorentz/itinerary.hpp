@@ -4,11 +4,11 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <lorentz/pimpl.hpp>
 #include <lorentz/rational.hpp>
 
 namespace lorentz::oracle {
@@ -72,18 +72,19 @@ class Itinerary {
   /// Throws InputError if the scene has a flaw (radius not above 0, dependent vectors).
   explicit Itinerary(const RationalScene& scene);
   Itinerary(Itinerary&&) noexcept;
+  Itinerary& operator=(Itinerary&&) noexcept;
   ~Itinerary();
 
   using OnCollision = std::function<bool(const CertifiedCollision&)>;
 
   /// Calls on_collision for each collision, in order, as soon as it is certain to all digits; false from it
-  /// ends the journey there (as `collisions`). Throws InputError for a start that is none (v = 0), no
-  /// digits, a time that is not above 0.
+  /// ends the journey there (as `collisions`). Throws InputError for a start with v = 0, no
+  /// digits, a time that is not above 0, a journey that nothing ends.
   Arrival follow(const Start& start, const Journey& journey, const OnCollision& on_collision = {}) const;
 
  private:
   struct Impl;
-  std::unique_ptr<const Impl> impl_;
+  Pimpl<const Impl> impl_;
 };
 
 /// What plain arithmetic of so many bits makes of a trajectory: the same formulas, every result rounded to
@@ -94,6 +95,7 @@ class RoundedItinerary {
   /// As Itinerary and its follow(). bits >= 2.
   RoundedItinerary(const RationalScene& scene, const Start& start, long bits);
   RoundedItinerary(RoundedItinerary&&) noexcept;
+  RoundedItinerary& operator=(RoundedItinerary&&) noexcept;
   ~RoundedItinerary();
 
   /// The next obstacle; nothing where it hits none, or lies inside of one.
@@ -102,7 +104,7 @@ class RoundedItinerary {
   struct Impl;
 
  private:
-  std::unique_ptr<Impl> impl_;
+  Pimpl<Impl> impl_;
 };
 
 /// The nearest binary64 of every number: what programs make of the same problem. Beyond binary64's range an

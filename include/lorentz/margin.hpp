@@ -2,13 +2,13 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <lorentz/answer.hpp>
 #include <lorentz/claim.hpp>
+#include <lorentz/pimpl.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 
@@ -107,7 +107,7 @@ class Margins {
 
  private:
   struct Impl;
-  std::unique_ptr<const Impl> impl_;
+  Pimpl<const Impl> impl_;
 };
 
 }  // namespace lorentz::oracle

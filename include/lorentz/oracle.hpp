@@ -2,10 +2,10 @@
 // motifs and superpositions in 2D and 3D.
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include <lorentz/answer.hpp>
+#include <lorentz/pimpl.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 
@@ -62,7 +62,7 @@ class Oracle {
 
  private:
   struct Impl;
-  std::unique_ptr<const Impl> impl_;
+  Pimpl<const Impl> impl_;
 };
 
 /// The libraries that the oracle computes with, and their versions.

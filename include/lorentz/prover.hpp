@@ -1,10 +1,9 @@
 // Writes certificates: proofs that an exact answer is right, for those who do not believe the oracle.
 #pragma once
 
-#include <memory>
-
 #include <lorentz/answer.hpp>
 #include <lorentz/certificate.hpp>
+#include <lorentz/pimpl.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 
@@ -34,7 +33,7 @@ class Prover {
 
  private:
   struct Impl;
-  std::unique_ptr<const Impl> impl_;
+  Pimpl<const Impl> impl_;
 };
 
 }  // namespace lorentz::oracle

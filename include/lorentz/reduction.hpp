@@ -7,6 +7,7 @@
 
 #include <lorentz/engine.hpp>
 #include <lorentz/flight.hpp>
+#include <lorentz/pimpl.hpp>
 
 namespace lorentz {
 
@@ -63,6 +64,8 @@ class Reduction : public Engine {
   /// are independent only exact arithmetic can say (oracle::dependence_in).
   explicit Reduction(const Scene& scene, Processor processor = Processor::this_one);
   ~Reduction() override;
+  Reduction(Reduction&&) noexcept;
+  Reduction& operator=(Reduction&&) noexcept;
 
   /// Why the engine does not do a scene without flaws ("does ... only"), or nothing.
   static std::optional<std::string> beyond(const Scene& scene);
@@ -101,7 +104,7 @@ class Reduction : public Engine {
   void fly(const Ray& ray, const AtomDirections* directions, double max_time, Time time,
            Flight& flight) const;
   void fly_to_limit(Task task, Flight& flight) const;
-  std::unique_ptr<const Model> model_;
+  Pimpl<const Model> model_;
 };
 
 /// A velocity with all that one engine makes of it once; nothing until the engine's `direction` made it.

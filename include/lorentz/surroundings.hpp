@@ -2,10 +2,10 @@
 // are computed exactly, however far away, and rounded when they are relative to one another.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
+#include <lorentz/pimpl.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 
@@ -57,7 +57,7 @@ class Surroundings {
 
  private:
   struct Impl;
-  std::unique_ptr<const Impl> impl_;
+  Pimpl<const Impl> impl_;
 };
 
 }  // namespace lorentz::oracle

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 
 #include <lorentz/engine.hpp>
+#include <lorentz/pimpl.hpp>
 
 namespace lorentz {
 
@@ -110,6 +110,7 @@ class Trajectory {
 
   ~Trajectory();
   Trajectory(Trajectory&&) noexcept;
+  Trajectory& operator=(Trajectory&&) noexcept;
 
   const Particle& state() const { return particle_; }
 
@@ -148,7 +149,7 @@ class Trajectory {
   Stop advance(const Motion& motion, double until);
 
   struct Inside;
-  std::unique_ptr<Inside> inside_;
+  Pimpl<Inside> inside_;
   Particle particle_;
   Collision collision_;
   Stop stop_ = Stop::none;

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include <lorentz/batch.hpp>
+#include <lorentz/pimpl.hpp>
 #include <lorentz/trajectory.hpp>
 
 namespace lorentz {
@@ -27,6 +27,7 @@ class Particles {
   Particles(const Batch& engine, const Scene& scene, Precision precision = Precision::binary64);
   ~Particles();
   Particles(Particles&&) noexcept;
+  Particles& operator=(Particles&&) noexcept;
 
   /// Another particle, at the start of a query or in any state. Throws as Trajectory does.
   void add(const Query& start);
@@ -65,7 +66,7 @@ class Particles {
   std::size_t leave_stopped();
 
   struct Inside;
-  std::unique_ptr<Inside> inside_;
+  Pimpl<Inside> inside_;
   std::vector<Particle> particles_;
   std::vector<Stop> stops_;
   std::vector<std::size_t> going_;

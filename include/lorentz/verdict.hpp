@@ -1,12 +1,12 @@
 // Judging an answer by the exact one, with a tolerance that is derived and not guessed (docs/verdicts.md).
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include <lorentz/answer.hpp>
 #include <lorentz/claim.hpp>
+#include <lorentz/pimpl.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 
@@ -103,7 +103,7 @@ class Judge {
 
  private:
   struct Impl;
-  std::unique_ptr<const Impl> impl_;
+  Pimpl<const Impl> impl_;
 };
 
 }  // namespace lorentz::oracle

@@ -91,11 +91,14 @@ Itinerary::Itinerary(const RationalScene& scene) : impl_(std::make_unique<const 
 }
 
 Itinerary::Itinerary(Itinerary&&) noexcept = default;
+Itinerary& Itinerary::operator=(Itinerary&&) noexcept = default;
 Itinerary::~Itinerary() = default;
 
 Arrival Itinerary::follow(const Start& start, const Journey& journey, const OnCollision& on_collision) const {
   if (journey.digits < 1) throw InputError("digits: needs 1 or more");
   if (journey.time && !is_positive(*journey.time)) throw InputError("time: must be above zero");
+  if (!journey.collisions && !journey.time && !journey.stop && !on_collision)
+    throw InputError("journey: give it collisions, a time or a way to stop; else it never ends");
   return impl_->scene.dimension == 2 ? follow_in<2>(impl_->scene, start, journey, on_collision)
                                      : follow_in<3>(impl_->scene, start, journey, on_collision);
 }

@@ -73,6 +73,7 @@ RoundedItinerary::RoundedItinerary(const RationalScene& scene, const Start& star
 }
 
 RoundedItinerary::RoundedItinerary(RoundedItinerary&&) noexcept = default;
+RoundedItinerary& RoundedItinerary::operator=(RoundedItinerary&&) noexcept = default;
 RoundedItinerary::~RoundedItinerary() = default;
 
 std::optional<ObstacleId> RoundedItinerary::next() {

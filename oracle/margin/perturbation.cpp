@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include <lorentz/errors.hpp>
 #include <lorentz/margin.hpp>
 
 namespace lorentz::oracle {
@@ -127,6 +128,7 @@ Real Uncertain<D>::time_of(const Centre<D>& centre) const {
 // t v - c = (s v - v^2 c) / v^2 - sqrt(d) v / v^2: two vectors at right angles, the first one of integers.
 template <std::size_t D>
 PerturbedArrival<D> Uncertain<D>::arrival(const Centre<D>& centre) const {
+  if (centre.h2 >= rho2_) throw InputError("answer: the line does not meet the obstacle that it names");
   const ExactVelocity<D>& velocity = view_.velocity;
   PerturbedArrival<D> arrival;
   arrival.t = time_of(centre);

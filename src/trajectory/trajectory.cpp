@@ -85,6 +85,7 @@ Trajectory::Trajectory(AskFirstHit ask, const Scene& scene, const Query& start, 
 
 Trajectory::~Trajectory() = default;
 Trajectory::Trajectory(Trajectory&&) noexcept = default;
+Trajectory& Trajectory::operator=(Trajectory&&) noexcept = default;
 
 void Trajectory::set_state(const Particle& particle) {
   inside_->places().check(particle);

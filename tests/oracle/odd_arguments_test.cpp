@@ -12,6 +12,7 @@
 #include <lorentz/certified_batch.hpp>
 #include <lorentz/errors.hpp>
 #include <lorentz/horizon.hpp>
+#include <lorentz/itinerary.hpp>
 #include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/prover.hpp>
@@ -247,5 +248,69 @@ TEST_CASE("Odd obstacles, places and answers are refused by what looks closely a
   CHECK_THROWS_AS(surroundings.around(kQuery, PlaceOnLine::after(kInf), 1, 3), InputError);
   CHECK_THROWS_AS(oracle::Oracle(scene).is_free({kNaN, 0, 0}), InputError);
   // A hit that names an obstacle which is not met.
-  CHECK_THROWS_AS(prover.prove(kQuery, Answer::hit({0, 0, {-5, 7, 0}}, 1)), InputError);
+  const Answer missed = Answer::hit({0, 0, {-5, 7, 0}}, 1);
+  CHECK_THROWS_AS(margins.condition(kQuery, missed), InputError);
+  CHECK_THROWS_AS(margins.time_change(kQuery, missed), InputError);
+  CHECK_NOTHROW(margins.hardest_decision(kQuery, missed));
+  CHECK_NOTHROW(margins.passed(kQuery, missed, 3));
+  CHECK_NOTHROW(judge.judge(kQuery, missed, Answer::never()));
+  CHECK_THROWS_AS(prover.prove(kQuery, missed), InputError);
+}
+
+namespace {
+
+// Moved, it says what it said; moved from, it is empty; assigned, it is whole again.
+template <class T, class Use>
+void require_moves(T one, T other, const Use& use) {
+  const auto said = use(one);
+  T moved(std::move(one));
+  CHECK(use(moved) == said);
+  CHECK_THROWS_AS(use(one), InputError);
+  one = std::move(moved);
+  CHECK(use(one) == said);
+  CHECK_THROWS_AS(use(moved), InputError);
+  one = std::move(other);
+  CHECK(use(one) != said);
+}
+
+}  // namespace
+
+TEST_CASE("All classes move and assign; what was moved from says that it is empty", "[oracle][odd]") {
+  const Scene scene = unit_scene(2, 0.25), other = unit_scene(2, 0.125);
+  const auto time = [](const Answer& answer) { return answer.time.value_or(-1); };
+  const Answer exact = oracle::Oracle(scene).first_hit(kQuery);
+  const auto first = [&](const auto& one) { return time(one.first_hit(kQuery)); };
+  require_moves(oracle::Oracle(scene), oracle::Oracle(other), first);
+  require_moves(oracle::Certified(scene), oracle::Certified(other), first);
+  require_moves(Reduction(scene), Reduction(other), [](const auto& one) { return one.fly(kQuery).time; });
+  require_moves(oracle::Margins(scene), oracle::Margins(other),
+                [&](const auto& one) { return one.approach(kQuery, exact.obstacle).gap; });
+  require_moves(oracle::Judge(scene), oracle::Judge(other), [&](const auto& one) {
+    return one.judge(kQuery, exact, Answer::hit({0, 0, {9, 1, 0}}, 8)).departs;
+  });
+  require_moves(oracle::Surroundings(scene), oracle::Surroundings(other), [&](const auto& one) {
+    return one.way(kQuery, oracle::PlaceOnLine::start(), oracle::PlaceOnLine::at(exact.obstacle));
+  });
+  require_moves(Trajectory(AskFirstHit(), scene, kQuery),
+                Trajectory(AskFirstHit(), scene, {{0.5, 0.5, 0}, {2, 1, 0}, {}}),
+                [](const auto& one) { return one.place()[0] + one.state().velocity[0]; });
+  const auto batch_time = [](const Batch& batch) {
+    QueryTable queries;
+    queries.push_back(kQuery);
+    FlightTable flights;
+    flights.resize(1);
+    batch.fly(queries.columns(), flights.columns());
+    return flights[0].time;
+  };
+  require_moves(Batch(scene), Batch(other), batch_time);
+  Start start;
+  start.x = {0.5, 0.5, 0.0};
+  start.v = {Rational(1.0), Rational(0.1), Rational(0.0)};
+  require_moves(oracle::Itinerary(rational(scene)), oracle::Itinerary(rational(other)), [&](const auto& one) {
+    oracle::Journey journey;
+    journey.collisions = 1;
+    const auto end = one.follow(start, journey);
+    return end.x[0] + ' ' + end.x[1] + ' ' + end.distance;
+  });
+  CHECK_THROWS_AS(oracle::Itinerary(rational(scene)).follow(start, {}), InputError);
 }

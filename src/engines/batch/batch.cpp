@@ -155,6 +155,7 @@ Batch::Batch(const Scene& scene, std::string_view instructions)
     : inside_(std::make_unique<Inside>(scene, instructions)) {}
 Batch::~Batch() = default;
 Batch::Batch(Batch&&) noexcept = default;
+Batch& Batch::operator=(Batch&&) noexcept = default;
 
 const Reduction& Batch::one_at_a_time() const {
   return inside_->single;

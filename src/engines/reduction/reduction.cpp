@@ -47,6 +47,8 @@ Reduction::Reduction(const Scene& scene, Processor processor) : Engine(scene) {
 }
 
 Reduction::~Reduction() = default;
+Reduction::Reduction(Reduction&&) noexcept = default;
+Reduction& Reduction::operator=(Reduction&&) noexcept = default;
 
 std::optional<std::string> Reduction::beyond(const Scene& scene) {
   PreparedScene prepared = prepare(scene);

@@ -88,6 +88,7 @@ Particles::Particles(const Batch& engine, const Scene& scene, Precision precisio
     : inside_(std::make_unique<Inside>(engine, scene, precision)), collisions_(kTogether) {}
 Particles::~Particles() = default;
 Particles::Particles(Particles&&) noexcept = default;
+Particles& Particles::operator=(Particles&&) noexcept = default;
 
 void Particles::add(const Query& start) {
   add(inside_->places().at(start, inside_->precision));

@@ -1,0 +1,30 @@
+// The inside of a class, which its header does not show.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include <lorentz/errors.hpp>
+
+namespace lorentz {
+
+/// Moves with the class. What was moved from is empty, and says so where it is used: an InputError.
+template <class T>
+class Pimpl {
+ public:
+  Pimpl() = default;
+  template <class U>
+  Pimpl(std::unique_ptr<U> value) : value_(std::move(value)) {}
+
+  T* operator->() const {
+    if (!value_)
+      throw InputError("this object is empty: it was moved from; assign another to it, or use that one");
+    return value_.get();
+  }
+  T& operator*() const { return *operator->(); }
+
+ private:
+  std::unique_ptr<T> value_;
+};
+
+}  // namespace lorentz
