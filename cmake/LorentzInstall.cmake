@@ -10,7 +10,7 @@ set(LORENTZ_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/lorentz)
 
 set(LORENTZ_ENGINE_TARGETS lorentz_problem lorentz_engine_base lorentz_classical lorentz_published lorentz_reduction
   lorentz_engine lorentz_trajectory)
-set(LORENTZ_ENGINE_HEADERS problem vec scene obstacle query answer geometry errors environment engine engine_base
+set(LORENTZ_ENGINE_HEADERS problem vec scene obstacle query answer geometry errors pimpl environment engine engine_base
   collision flight reduction trajectory rational claim)
 set(LORENTZ_BATCH_TARGETS lorentz_batch lorentz_trajectory_batch)
 set(LORENTZ_BATCH_HEADERS batch trajectory_batch)

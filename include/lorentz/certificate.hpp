@@ -30,7 +30,8 @@ struct WindowEnd {
   bool infinite = false;
 
   WindowEnd() = default;
-  WindowEnd(Integer mantissa, long exponent = 0) : mantissa(std::move(mantissa)), exponent(exponent) {}
+  WindowEnd(Integer its_mantissa, long its_exponent = 0)
+      : mantissa(std::move(its_mantissa)), exponent(its_exponent) {}
   WindowEnd(double value) {  ///< finite, or infinity
     int e = 0;
     infinite = std::isinf(value);

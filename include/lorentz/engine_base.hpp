@@ -25,7 +25,7 @@ struct Ray {
   /// Is a component of v below kTinyComponent, but not zero as given? It may have lost digits, even all.
   bool has_tiny_component() const {
     bool tiny = false;
-    for (int i = 0; i < 3; ++i) tiny |= given_v[i] != 0 && std::fabs(v[i]) < kTinyComponent;
+    for (std::size_t i = 0; i < 3; ++i) tiny |= given_v[i] != 0 && std::fabs(v[i]) < kTinyComponent;
     return tiny;
   }
 };

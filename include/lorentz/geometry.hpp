@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
 #include <lorentz/scene.hpp>
@@ -55,19 +56,20 @@ namespace lorentz {
 /// dual_i . vector_k = delta_ik: the rows of the inverse of (vector_1 | ... | vector_d). In 2D the third
 /// vector, of either side, is the axis. Dependent vectors give what is not finite, or nonsense by rounding.
 [[gnu::always_inline]] inline std::array<Vec, 3> dual_of(std::array<Vec, 3> vectors, int dimension) {
+  const auto d = static_cast<std::size_t>(dimension);
   double largest = 0;
-  for (int i = 0; i < dimension; ++i)
+  for (std::size_t i = 0; i < d; ++i)
     for (const double component : vectors[i]) largest = std::max(largest, std::fabs(component));
   const int exponent = largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
-  for (int i = 0; i < dimension; ++i)
+  for (std::size_t i = 0; i < d; ++i)
     for (double& component : vectors[i]) component = std::scalbn(component, -exponent);
-  for (int i = dimension; i < 3; ++i) vectors[i] = Vec{0, 0, 1};
+  for (std::size_t i = d; i < 3; ++i) vectors[i] = Vec{0, 0, 1};
   std::array<Vec, 3> dual;
-  for (int i = 0; i < 3; ++i) dual[i] = cross(vectors[(i + 1) % 3], vectors[(i + 2) % 3]);
+  for (std::size_t i = 0; i < 3; ++i) dual[i] = cross(vectors[(i + 1) % 3], vectors[(i + 2) % 3]);
   const double volume = dot(vectors[0], dual[0]);
-  for (int i = 0; i < dimension; ++i)
+  for (std::size_t i = 0; i < d; ++i)
     for (double& component : dual[i]) component = std::scalbn(component / volume, -exponent);
-  for (int i = dimension; i < 3; ++i) dual[i] = Vec{0, 0, 1};
+  for (std::size_t i = d; i < 3; ++i) dual[i] = Vec{0, 0, 1};
   return dual;
 }
 
@@ -75,7 +77,7 @@ namespace lorentz {
 /// 2D the third is zero.
 [[gnu::always_inline]] inline std::array<Vec, 3> semiaxes_of(const Atom& atom, int dimension) {
   std::array<Vec, 3> columns{};
-  for (int i = 0; i < dimension; ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) {
     if (atom.is_ball())
       columns[i][i] = atom.radius;
     else
@@ -93,20 +95,21 @@ namespace lorentz {
 /// rounding.
 [[gnu::always_inline]] inline void complete_perpendicularly(std::array<Vec, 3>& vectors, int rank,
                                                             int dimension) {
+  const auto r = static_cast<std::size_t>(rank), d = static_cast<std::size_t>(dimension);
   std::array<Vec, 3> units{};  // orthonormal: the first i span what the first i vectors span
-  for (int i = 0; i < dimension; ++i) {
+  for (std::size_t i = 0; i < d; ++i) {
     const auto across = [&](Vec v) {
-      for (int j = 0; j < i; ++j) v = plus(v, -dot(v, units[j]), units[j]);
+      for (std::size_t j = 0; j < i; ++j) v = plus(v, -dot(v, units[j]), units[j]);
       return v;
     };
-    Vec best = i < rank ? across(vectors[i]) : Vec{};
-    for (int axis = 0; i >= rank && axis < dimension; ++axis) {
+    Vec best = i < r ? across(vectors[i]) : Vec{};
+    for (std::size_t axis = 0; i >= r && axis < d; ++axis) {
       Vec unit{};
       unit[axis] = 1;
       if (length(across(unit)) > length(best)) best = across(unit);
     }
     units[i] = scaled(best, 1 / length(best));
-    if (i >= rank) vectors[i] = units[i];
+    if (i >= r) vectors[i] = units[i];
   }
 }
 

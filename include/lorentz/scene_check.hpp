@@ -14,9 +14,6 @@ namespace lorentz::oracle {
 /// or semiaxes, decided exactly), or nothing.
 std::optional<std::string> dependence_in(const Scene& scene);
 
-/// The scene, if it has no flaw and its vectors are independent; else throws InputError, which names the place.
-const Scene& checked_exactly(const Scene& scene);
-
 /// Two obstacles that have a point in common. Each pair counts once, up to lattice translations.
 struct Contact {
   int lattice = 0, atom = 0;  ///< the obstacle of this atom in the cell 0 ..
@@ -45,7 +42,7 @@ struct Contacts {
 /// Pairs of obstacles looked at before a search is given up: some seconds, 10^5 atoms of a crystal.
 inline constexpr long kContactBudget = 1'000'000;
 
-/// The first `limit` contacts, decided exactly. Throws InputError as checked_exactly() does.
+/// The first `limit` contacts, decided exactly. Throws InputError for a scene with a flaw or dependent vectors.
 Contacts contacts_in(const Scene& scene, std::size_t limit, Pairs pairs = Pairs::all,
                      long budget = kContactBudget);
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <lorentz/scene.hpp>
-#include <lorentz/scene_check.hpp>
 
+#include "oracle/exact/dependence.hpp"
 #include "oracle/integers/dyadic.hpp"
 #include "oracle/integers/integer.hpp"
 

@@ -6,6 +6,7 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/scene_check.hpp>
+#include "oracle/exact/dependence.hpp"
 #include "oracle/exact/quadratic.hpp"
 #include "oracle/exact/root_sums.hpp"
 #include "oracle/horizon/closed_directions.hpp"

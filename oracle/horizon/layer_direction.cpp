@@ -6,6 +6,7 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/scene_check.hpp>
+#include "oracle/exact/dependence.hpp"
 #include "oracle/horizon/shadow_hole.hpp"
 
 namespace lorentz::oracle {
@@ -39,7 +40,7 @@ double neighbours_of(const ObstacleLattice<3>& lattice, const Shadow& shadow) {
 
 OpenDirection look_along(const Scene& scene, const Vec& direction) {
   const Scene crystal = crystal_along(checked_exactly(scene), direction);
-  if (dependence_in(crystal)) return {true, {}};
+  if (dependence_of(crystal)) return {true, {}};
   const ChannelScene<3> exact(crystal, 0);
   const BallScene balls = balls_of(exact);
   if (!balls.unsupported.empty()) throw InputError("direction: " + balls.unsupported);

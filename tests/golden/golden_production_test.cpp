@@ -259,7 +259,7 @@ TEST_CASE("Golden: an exception while writing ends the production", "[golden][go
   CHECK(writes == 3);
 }
 
-TEST_CASE("Golden: given questions are records once each; killed, the same order goes on", "[golden]") {
+TEST_CASE("Golden: given questions are records once each, and a killed order goes on", "[golden]") {
   const Folder folder, elsewhere;
   golden::GivenQuestions given(
       {.name = "given", .version = "0", .tags = {{"one", "a tag"}, {"two", "a tag"}}});

@@ -208,6 +208,7 @@ const std::map<std::string, std::string> kPublic{
     {"answer", "src/problem"},
     {"claim", "src/problem"},
     {"errors", "src/problem"},
+    {"pimpl", "src/problem"},
     {"rational", "src/problem"},
     {"geometry", "src/problem"},
     {"exchange", "src/exchange"},

@@ -43,6 +43,25 @@ foreach(page man/man1/lorentz.1 man/man1/lorentz-scene-draw.1 bash-completion/co
   endif()
 endforeach()
 
+# A component may have the name of a target; a wrong one gets a list.
+file(WRITE ${SCRATCH}/names/CMakeLists.txt "cmake_minimum_required(VERSION 3.23)
+project(names CXX)
+find_package(lorentz REQUIRED COMPONENTS \${WANTED})
+if(NOT TARGET lorentz::\${WANTED})
+  message(FATAL_ERROR \"no target\")
+endif()
+")
+foreach(name walk certified trajectory trajectory_batch engine)
+  run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SCRATCH}/names -B ${SCRATCH}/names/${name} -DCMAKE_PREFIX_PATH=${prefix}
+    -DWANTED=${name})
+endforeach()
+execute_process(COMMAND ${CMAKE_COMMAND} -G ${GENERATOR} -S ${SCRATCH}/names -B ${SCRATCH}/names/orcale
+  -DCMAKE_PREFIX_PATH=${prefix} -DWANTED=orcale RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(status EQUAL 0)
+  message(FATAL_ERROR "there is a component orcale")
+endif()
+prints("no component orcale; lorentz has")
+
 # By pkg-config, the engine alone.
 set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
 run(pkg-config --define-prefix --cflags --libs lorentz-engine)

@@ -1,4 +1,4 @@
-#include <lorentz/scene_check.hpp>
+#include "oracle/exact/dependence.hpp"
 
 #include <algorithm>
 
@@ -24,7 +24,7 @@ bool are_dependent(const std::array<Vec, 3>& vectors, int dimension, int count) 
 
 }  // namespace
 
-std::optional<std::string> dependence_in(const Scene& scene) {
+std::optional<std::string> dependence_of(const Scene& scene) {
   for (std::size_t l = 0; l < scene.lattices.size(); ++l) {
     const Lattice& lattice = scene.lattices[l];
     const std::string where = "lattice " + std::to_string(l);
@@ -44,19 +44,8 @@ std::optional<std::string> dependence_in(const Scene& scene) {
 
 const Scene& checked_exactly(const Scene& scene) {
   lorentz::checked(scene);
-  if (const auto dependence = dependence_in(scene)) throw InputError("scene: " + *dependence);
+  if (const auto dependence = dependence_of(scene)) throw InputError("scene: " + *dependence);
   return scene;
-}
-
-std::string description_of(const Contact& contact) {
-  const auto name = [](int lattice, int atom) {
-    return "lattice " + std::to_string(lattice) + ", atom " + std::to_string(atom);
-  };
-  const std::string first = name(contact.lattice, contact.atom),
-                    second = name(contact.other_lattice, contact.other_atom),
-                    verb = contact.overlap ? " overlap" : " touch";
-  if (first == second) return "the obstacles of " + first + verb + " their own translates";
-  return "obstacles of " + first + " and of " + second + verb;
 }
 
 }  // namespace lorentz::oracle
