@@ -80,8 +80,8 @@ void for_each_atom(const Scene& scene, const Visit& visit) {
     for (const Atom& atom : lattice.atoms) visit(atom);
 }
 
-/// What is wrong with a scene, or nothing: dimension, finite numbers, radii above zero, semiaxes complete.
-/// That the primitive vectors are independent is decided exactly by the oracle
+/// What is wrong with a scene, or nothing: dimension, finite numbers, radii above zero, semiaxes complete, nothing out
+/// of the plane. That the primitive vectors are independent is decided exactly by the oracle
 /// (include/lorentz/scene_check.hpp).
 std::optional<std::string> flaw_of(const Scene& scene);
 

@@ -318,11 +318,12 @@ bool are_dependent(const std::array<Vec, 3>& vectors, int count) {
 
 Walk::Walk(Scene scene, std::int64_t max_cells) : scene_(std::move(scene)), max_cells_(max_cells) {
   checked(scene_);
-  for (const Lattice& lattice : scene_.lattices)
+  for (const Lattice& lattice : scene_.lattices) {
+    bool dependent = are_dependent(lattice.vectors, lattice.rank(scene_.dimension));
     for (const Atom& atom : lattice.atoms)
-      if (are_dependent(lattice.vectors, lattice.rank(scene_.dimension)) ||
-          (!atom.is_ball() && are_dependent(columns_of(atom), scene_.dimension)))
-        throw InputError("scene: vectors of a lattice or semiaxes are linearly dependent");
+      dependent |= !atom.is_ball() && are_dependent(columns_of(atom), scene_.dimension);
+    if (dependent) throw InputError("scene: vectors of a lattice, or semiaxes, are linearly dependent");
+  }
 }
 
 Answer Walk::first_hit(const Query& query, double max_time) const {

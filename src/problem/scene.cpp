@@ -23,10 +23,22 @@ std::optional<std::string> flaw_of_atom(const Atom& atom, int dimension) {
   return std::nullopt;
 }
 
+bool leaves_plane(const Scene& scene) {
+  const auto leaves = [](const Vec& a) { return a[2] != 0; };
+  return std::ranges::any_of(scene.lattices, [&](const Lattice& lattice) {
+    return std::ranges::any_of(lattice.vectors, leaves) ||
+           std::ranges::any_of(lattice.atoms, [&](const Atom& atom) {
+             return leaves(atom.position) || std::ranges::any_of(atom.semiaxes, leaves);
+           });
+  });
+}
+
 }  // namespace
 
 std::optional<std::string> flaw_of(const Scene& scene) {
   if (scene.dimension != 2 && scene.dimension != 3) return "dimension must be 2 or 3";
+  if (scene.dimension == 2 && leaves_plane(scene))
+    return "vectors have two components in the plane: the third must be zero";
   if (scene.lattices.empty()) return "a scene needs at least one lattice";
   for (std::size_t l = 0; l < scene.lattices.size(); ++l) {
     const Lattice& lattice = scene.lattices[l];

@@ -63,6 +63,16 @@ std::vector<BadScene> flawed() {
            [](Scene& s) {
              s.lattices[0].atoms[0].semiaxes = {{1, 0, 0}};
            }),
+      with("two components in the plane", [](Scene& s) { s.lattices[0].vectors[0][2] = 0.5; }),
+      with("two components in the plane",
+           [](Scene& s) {
+             s.lattices[0].vectors[2] = {0, 0, 1};
+           }),
+      with("two components in the plane", [](Scene& s) { s.lattices[0].atoms[0].position[2] = 5e-324; }),
+      with("two components in the plane",
+           [](Scene& s) {
+             s.lattices[0].atoms[0].semiaxes = {{1, 0, 0}, {0, 1, 1}};
+           }),
       with("a semiaxis is not finite", [](Scene& s) {
         s.lattices[0].atoms[0].semiaxes = {{1, 0, 0}, {0, kNaN, 0}};
       })};
