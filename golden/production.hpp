@@ -55,7 +55,8 @@ runs::Plan plan_of(const Order& order);
 
 /// Makes the set and hands its text to `write`, line by line, from the header on. A set takes constant memory, but
 /// for 8 bytes a record (no id comes twice); given questions and their records are all in memory. Batches that
-/// `kept` has, a store of plan_of(order), are not made again, and the others are added. Throws std::logic_error if the opinions about an answer differ.
+/// `kept` has, a store of plan_of(order), are not made again, and the others are added. Throws std::logic_error if
+/// the opinions about an answer differ.
 RecordCounts produce(const Order& order, const std::function<void(std::string_view)>& write,
                      const OnProgress& progress, runs::PieceStore* kept = nullptr);
 

@@ -72,8 +72,8 @@ class Engine {
 /// The names that make_engine knows.
 std::vector<std::string> engine_names();
 
-/// The engine of this name for a scene, or null for an unknown name. Throws InputError for a scene with a flaw. A scene that the engine
-/// does not do gets an engine that answers every query with `unsupported`.
+/// The engine of this name for a scene, or null for an unknown name. A scene that the engine does not do gets an engine
+/// that answers every query with `unsupported`. Throws InputError for a scene with a flaw.
 std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene);
 
 /// Starts beyond this many cells from the origin are `unsupported` by `classical` and `published`, and

@@ -77,7 +77,8 @@ struct Crossing {
 /// may ask one.
 class Margins {
  public:
-  /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in). Ulps are those of `precision`.
+  /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in). Ulps are those of
+  /// `precision`.
   explicit Margins(const Scene& scene, NumberFormat precision = NumberFormat::binary64);
   Margins(Margins&&) noexcept;
   Margins& operator=(Margins&&) noexcept;
