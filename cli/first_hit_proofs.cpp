@@ -92,8 +92,8 @@ int write_records(GivenQueries& queries, const std::string& source) {
                         .tags = {{"given", "a query that was given"}}};
   std::size_t others = 0;
   const golden::GivenQuestions given = questions_in(queries, std::move(header), others);
-  const golden::Order order{.count = given.questions.size(), .given = &given};
-  const golden::RecordCounts counts = golden::produce(order, [](std::string_view text) { print(text); }, {});
+  const auto [text, counts] = made_set(given);
+  print(text);
   say_unproved(counts);
   return queries.had_bad_input() ? kBadInput : counts.left_out > 0 ? kDisagreement : kDone;
 }

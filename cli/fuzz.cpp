@@ -1,8 +1,6 @@
 // lorentz fuzz: runs a campaign, or goes on with one, and reports.
 #include "cli/fuzz.hpp"
 
-#include <algorithm>
-
 #include <lorentz/exchange.hpp>
 #include "cli/exit_status.hpp"
 #include "cli/fuzz_options.hpp"
@@ -51,9 +49,7 @@ void take_down(const FuzzReport& report, bool times, FailureLedger& ledger) {
                           (times && finding.kind == name_of(Kind::wrong_time));
       if (!counts || finding.target != target) continue;
       const fuzz::ReadCase found = fuzz::case_in(finding.text);
-      std::string kind = finding.kind;
-      std::ranges::replace(kind, ' ', '-');
-      ledger.take(target, golden::id_of(found.scene, found.query), kind);
+      ledger.take(target, golden::id_of(found.scene, found.query), tag_of(finding.kind));
       failed = true;
     }
     if (!failed) ledger.take(target, "no-failure", std::nullopt);

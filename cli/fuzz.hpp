@@ -34,6 +34,9 @@ struct FuzzReport {
   void add_targets(json::Members& object) const;
 };
 
+/// A kind of finding as a word: "wrong-time".
+std::string tag_of(const std::string& kind);
+
 /// Says what of a store cannot be read.
 void say_left_out(const std::string& message);
 

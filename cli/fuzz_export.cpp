@@ -8,6 +8,7 @@
 #include "cli/fuzz_options.hpp"
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
+#include "cli/set_output.hpp"
 #include "golden/production.hpp"
 #include "question/engines.hpp"
 #include "report/claim_words.hpp"
@@ -19,7 +20,7 @@ using fuzz::Store;
 using fuzz::Stored;
 
 struct ExportOptions {
-  std::string store;
+  std::string store, output = "-";
   bool all = false, queries = false;
 };
 
@@ -44,20 +45,15 @@ std::vector<ExportedCase> examples_in(const std::vector<Stored>& findings, bool 
   return examples;
 }
 
-void print_queries(const std::vector<ExportedCase>& examples) {
-  std::string scene;
+std::string queries_of(const std::vector<ExportedCase>& examples) {
+  std::string scene, lines;
   for (const ExportedCase& one : examples) {
     const fuzz::CaseText& text = one.stored->finding.shrunk;
-    if (text.scene != scene) print(text.scene + '\n');
+    if (text.scene != scene) lines += text.scene + '\n';
     scene = text.scene;
-    print(text.query + '\n');
+    lines += text.query + '\n';
   }
-}
-
-std::string tag_of(const std::string& kind) {
-  std::string tag = kind;
-  std::replace(tag.begin(), tag.end(), ' ', '-');
-  return tag;
+  return lines;
 }
 
 // What a set has to say of its tags: where there are no findings, what was aimed at.
@@ -85,8 +81,8 @@ golden::Header header_of(const std::vector<fuzz::Campaign>& campaigns) {
 }
 
 // Findings that shrank to the same question are one record.
-void print_golden_set(const std::vector<ExportedCase>& examples,
-                      const std::vector<fuzz::Campaign>& campaigns) {
+std::string golden_set_of(const std::vector<ExportedCase>& examples,
+                          const std::vector<fuzz::Campaign>& campaigns) {
   golden::GivenQuestions given(header_of(campaigns));
   std::map<std::string, std::string> tags;
   for (const ExportedCase& one : examples) {
@@ -99,19 +95,24 @@ void print_golden_set(const std::vector<ExportedCase>& examples,
   }
   if (examples.empty()) explain_targets(campaigns, tags);
   given.header.tags.assign(tags.begin(), tags.end());
-  const golden::Order order{.count = given.questions.size(), .given = &given};
-  const golden::RecordCounts counts = golden::produce(order, [](std::string_view text) { print(text); }, {});
-  say_unproved(counts);
+  MadeSet made = made_set(given);
+  say_unproved(made.counts);
+  return std::move(made.text);
 }
 
 int act(const ExportOptions& options) {
+  std::optional<SetOutput> output;
+  if (options.output != "-") output.emplace(options.output, "findings");
   const Store store(options.store, Store::Access::read, say_left_out);
   const std::vector<Stored> findings = store.findings();
   const std::vector<ExportedCase> examples = examples_in(findings, options.all);
-  if (options.queries)
-    print_queries(examples);
+  const auto text = [&] {
+    return options.queries ? queries_of(examples) : golden_set_of(examples, store.campaigns());
+  };
+  if (output)
+    output->write(text);
   else
-    print_golden_set(examples, store.campaigns());
+    print(text());
   return store.is_whole() ? kDone : kFailed;
 }
 
@@ -125,10 +126,11 @@ Command fuzz_export_command() {
               {"--store", &options->store, "FILE", "the store", kRequired},
               {"--all", &options->all, "", "of every finding"},
               {"--queries", &options->queries, "", "a query stream instead"},
+              {"-o,--output", &options->output, "FILE", kSetOutputHelp, kOutput},
           },
 
-          "Example:\n  lorentz fuzz export --store published.campaign > findings.ndjson\n"
-          "  lorentz golden check findings.ndjson --engine published",
+          "Example:\n  lorentz fuzz export --store published.campaign -o mine/; "
+          "lorentz golden check mine --engine published",
           [options] { return act(*options); }};
 }
 

@@ -44,10 +44,8 @@ bool GivenQueries::next_line(GivenQuery& given) {
       continue;
     }
     given.id = std::move(item.id);
-    if (item.kind == StreamItem::Kind::query)
-      given.query = std::move(item.query);
-    else
-      given.line = stream_->line();
+    if (item.kind == StreamItem::Kind::query) given.query = std::move(item.query);
+    given.line = stream_->line();
     return true;
   }
   return false;

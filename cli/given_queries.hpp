@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "cli/query_stream.hpp"
 #include "src/exchange/columns.hpp"
@@ -19,7 +20,7 @@ inline bool is_columns(const std::string& path) {
 struct GivenQuery {
   Id id = "null";  ///< of columns without ids the row's number, from 0
   std::optional<Query> query;
-  std::string line;        ///< of a bad line of a stream
+  std::string_view line;   ///< of a stream; until the next is read
   bool new_scene = false;  ///< the first in a scene
 };
 

@@ -8,7 +8,7 @@
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
-#include "files/whole_file.hpp"
+#include "cli/set_output.hpp"
 #include "golden/find_sets.hpp"
 #include "golden/selection.hpp"
 
@@ -30,19 +30,19 @@ std::uint64_t add_records(golden::Selection& selection, golden::GivenQuestions g
   std::erase_if(given.questions, [&](const golden::SetQuestion& question) {
     return selection.has(golden::id_of(golden::scene_line_of(question.scene), question.text));
   });
-  const golden::Order order{.count = given.questions.size(), .jobs = jobs, .given = &given};
-  std::string text;
-  Progress progress("new records", order.count, 1);
-  const golden::RecordCounts counts = golden::produce(
-      order, [&](std::string_view more) { text += more; }, [&](std::uint64_t done) { progress.at(done); });
-  golden::Reader made(text, "the new records");
-  selection.add(made, is_any);
-  if (order.count > 0) report("new", counts);
-  return counts.left_out;
+  if (given.questions.empty()) return 0;
+  Progress progress("new records", given.questions.size(), 1);
+  const MadeSet made = made_set(given, jobs, [&](std::uint64_t done) { progress.at(done); });
+  golden::Reader records(made.text, "the new records");
+  selection.add(records, is_any);
+  report("new", made.counts);
+  return made.counts.left_out;
 }
 
 int act(const AddOptions& options) {
   if (!options.questions.queries) throw InputError("--queries: name a file of queries (- is standard input)");
+  std::optional<SetOutput> output;
+  if (options.output != "-") output.emplace(options.output, "set");
   golden::Reader reader(golden::find_set(options.set));
   golden::Header header = reader.header();
   golden::Selection selection;
@@ -59,10 +59,10 @@ int act(const AddOptions& options) {
   header.generator = command_line();
   header.version = LORENTZ_VERSION;
   const std::string text = selection.text(header);
-  if (options.output == "-")
-    print(text);
+  if (output)
+    output->write([&] { return text; });
   else
-    write_whole(options.output, text);
+    print(text);
   return had_bad_input ? kBadInput : left_out > 0 ? kDisagreement : kDone;
 }
 
@@ -74,7 +74,7 @@ Command golden_add_command() {
       {"set", &options->set, "SET", "a file, or the name of a committed set", kRequired}};
   std::ranges::move(options->questions.rows(), std::back_inserter(rows));
   rows.push_back({"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads"});
-  rows.push_back({"-o,--output", &options->output, "FILE", "file to write (- is standard output)", kOutput});
+  rows.push_back({"-o,--output", &options->output, "FILE", kSetOutputHelp, kOutput});
   return {"add", "A set, and records of more queries: those that it has already are not answered again.",
           rows,
           "Example:\n  lorentz sample --scene square --kind grazing --count 20 | lorentz golden add ties "

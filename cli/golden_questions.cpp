@@ -7,6 +7,7 @@
 #include "files/messages.hpp"
 #include "files/scene_file.hpp"
 #include "golden/seen.hpp"
+#include "src/exchange/exchange_json.hpp"
 
 namespace lorentz::cli {
 
@@ -28,14 +29,19 @@ std::pair<std::string, std::string> tag_in(const std::string& text) {
   return {name, end == text.npos ? "given by --tag" : text.substr(end + 1)};
 }
 
+bool is_given_by_program(const std::string& tag) {
+  return tag == golden::kNeedsJudge ||
+         std::ranges::any_of(golden::seen_tags(), [&](const auto& seen) { return seen.first == tag; });
+}
+
 // Each once; none that the program gives itself.
 std::vector<std::pair<std::string, std::string>> tags_in(const std::vector<std::string>& texts) {
   std::vector<std::pair<std::string, std::string>> tags;
   for (const std::string& text : texts) {
     const auto tag = tag_in(text);
-    const auto is_it = [&](const auto& other) { return other.first == tag.first; };
-    if (tag.first == golden::kNeedsJudge || std::ranges::any_of(golden::seen_tags(), is_it) ||
-        std::ranges::any_of(tags, is_it))
+    const bool is_there =
+        std::ranges::any_of(tags, [&](const auto& other) { return other.first == tag.first; });
+    if (is_there || is_given_by_program(tag.first))
       throw InputError("--tag: " + tag.first + " is a tag already; name another");
     tags.push_back(tag);
   }
@@ -81,6 +87,39 @@ void check_set_name(const std::string& name) {
                      " is not a name of a set; expected small letters, digits and hyphens");
 }
 
+namespace {
+
+// The tags that a line gives its query, in the key `tags`, but those that the program gives itself. Throws InputError.
+std::vector<std::string> tags_in_line(const GivenQuery& given, const std::string& name) {
+  std::vector<std::string> tags;
+  if (given.line.find("\"tags\"") == given.line.npos) return tags;
+  try {
+    json::Document document;
+    document.open(given.line);
+    json::each_member(document.object(), [&](std::string_view key, json::Value value) {
+      if (key != "tags") return skip(value);
+      json::each_element(value.array(), [&](json::Value tag) { tags.emplace_back(tag.text()); });
+    });
+  } catch (const json::Error&) {
+    throw InputError(fmt::format("{}: query {}: tags: expected a list of texts", name, given.id));
+  }
+  for (const std::string& tag : tags)
+    if (!is_name(tag))
+      throw InputError(
+          fmt::format("{}: query {}: tags: {} is not a tag; expected small letters, digits and hyphens", name,
+                      given.id, json_quoted(tag)));
+  std::erase_if(tags, is_given_by_program);
+  return tags;
+}
+
+void add_tag(const std::string& tag, golden::SetQuestion& question, golden::Header& header) {
+  if (std::ranges::find(question.tags, tag) == question.tags.end()) question.tags.push_back(tag);
+  if (std::ranges::none_of(header.tags, [&](const auto& known) { return known.first == tag; }))
+    header.tags.emplace_back(tag, "given by the key tags of a query");
+}
+
+}  // namespace
+
 golden::GivenQuestions questions_in(GivenQueries& queries, golden::Header header, std::size_t& others) {
   golden::GivenQuestions all(std::move(header));
   std::vector<std::string> tags;
@@ -98,11 +137,22 @@ golden::GivenQuestions questions_in(GivenQueries& queries, golden::Header header
         continue;
       }
     }
-    if (!question.text.empty()) repeated += !all.add(std::move(question));
+    if (question.text.empty()) continue;
+    for (const std::string& tag : tags_in_line(given, queries.name())) add_tag(tag, question, all.header);
+    repeated += !all.add(std::move(question));
   }
   if (repeated > 0)
     say("{}: {} questions come more than once; a record has the id of the first", queries.name(), repeated);
   return all;
+}
+
+MadeSet made_set(const golden::GivenQuestions& given, std::uint64_t jobs,
+                 const golden::OnProgress& on_progress) {
+  MadeSet made;
+  const golden::Order order{.count = given.questions.size(), .jobs = jobs, .given = &given};
+  made.counts = golden::produce(
+      order, [&](std::string_view more) { made.text += more; }, on_progress);
+  return made;
 }
 
 void say_unproved(const golden::RecordCounts& counts) {

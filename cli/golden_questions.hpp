@@ -32,6 +32,14 @@ void check_set_name(const std::string& name);
 /// header's precision are complained of, and left out (`others` counts them).
 golden::GivenQuestions questions_in(GivenQueries& queries, golden::Header header, std::size_t& others);
 
+/// A set that is made of given questions, in memory.
+struct MadeSet {
+  std::string text;
+  golden::RecordCounts counts;
+};
+MadeSet made_set(const golden::GivenQuestions& given, std::uint64_t jobs = 1,
+                 const golden::OnProgress& on_progress = {});
+
 /// How many questions were left out, and why; on stderr, if any.
 void say_unproved(const golden::RecordCounts& counts);
 

@@ -9,11 +9,14 @@
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"
 #include "cli/exit_status.hpp"
+#include "cli/golden_questions.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/known_failures.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
+#include "cli/set_output.hpp"
 #include "cli/terminal.hpp"
+#include "files/text_file.hpp"
 #include "golden/production.hpp"
 #include "judge/baseline.hpp"
 #include "judge/judging.hpp"
@@ -176,16 +179,14 @@ std::string golden_set_of(const JudgeReport& report) {
       given.header.tags.emplace_back(tag, finding.summary());
     given.add({scene, golden::question_of(question.query, scene), question.query, {tag}});
   }
-  std::string text;
-  golden::produce({.count = given.questions.size(), .given = &given},
-                  [&](std::string_view more) { text += more; }, {});
-  return text;
+  return made_set(given).text;
 }
 
 int act(const JudgeOptions& options) {
   JudgeOrder order = order_of(options);
   if (options.html) report::page("{}");  // throws if the program has none: now rather than after two minutes
-  RequestedFile html(options.html), golden(options.golden);
+  RequestedFile html(options.html);
+  SetOutput golden(options.golden, "findings");
   for (const auto& [name, path] :
        {std::pair{"--write-baseline", &options.files.write_baseline}, {"--junit", &options.files.junit}})
     if (*path && !options.questions)
@@ -239,7 +240,8 @@ Command judge_command() {
           {"--html", &options->html, "FILE", "write the report there as a page, whole or not at all",
            kOutput},
           {"--golden", &options->golden, "FILE",
-           "write the simplest case of each fault there, as a golden set for the engine's own tests",
+           "write the simplest case of each fault there, as a golden set for the engine's own tests; FOLDER/ "
+           "gets it with its schema, an index and checksums",
            kOutput},
           {"--json", &options->json, "", "one JSON object instead of tables"},
           options->files.baseline_row("exit status 1 only for what is worse than in what --json printed "

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include <lorentz/errors.hpp>
-#include <lorentz/line_reader.hpp>
 #include "cli/output.hpp"
+#include "files/text_file.hpp"
 
 namespace lorentz::cli {
 
@@ -71,13 +71,6 @@ std::string JUnit::text(const std::string& engine) const {
     text += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n{}  </testsuite>\n",
                         in_xml(name), suite.cases, suite.failures, suite.text);
   return text + "</testsuites>\n";
-}
-
-std::string text_of_file(const std::string& path) {
-  std::string text;
-  LineReader lines(path);
-  for (LineReader::Line line; lines.next(line);) text.append(line.text) += '\n';
-  return text;
 }
 
 std::optional<KnownFailures> FailureFiles::known() const {

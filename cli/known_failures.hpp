@@ -52,9 +52,6 @@ class JUnit {
   std::map<std::string, Suite> suites_;
 };
 
-/// All of a file, or of standard input for "-". Throws FileError.
-std::string text_of_file(const std::string& path);
-
 /// The options --baseline, --write-baseline and --junit.
 struct FailureFiles {
   std::optional<std::string> baseline, write_baseline, junit;

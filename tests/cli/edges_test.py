@@ -73,7 +73,7 @@ EDGES = {
     "fuzz list": Edge("--store published.campaign", missing="--store /no/such/file"),
     "fuzz show": Edge("1/leaving/6 --store published.campaign", "", ["--svg", "--html"], "1 --store /no/such/file",
                       room=1000, report=True),
-    "fuzz export": Edge("--store published.campaign", missing="--store /no/such/file"),
+    "fuzz export": Edge("--store published.campaign", "", ["-o"], missing="--store /no/such/file"),
     "fuzz merge": Edge("published.campaign -o merged", "", ["-o"], "/no/such/file -o merged", prints=False),
     "flights": Edge("--count 1e4", "--count 1e10 --csv OUT", ["--csv", "--svg", "--density-svg", "--html", "--store"],
                     "--scene /no/such/file", reports=True),

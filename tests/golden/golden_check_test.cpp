@@ -386,113 +386,13 @@ TEST_CASE("golden check: known failures do not count, new ones do, and what no l
   CHECK(contains(folder.read("report.xml"),
                  "name=\"" + removed + "\"><failure message=\"wrong\"/></testcase>"));
   // A record that is not among the first 60 is stale only where all of the set is asked.
-  const std::string nobody = "smoke 0123456789abcdef";
+  const std::string gone = "smoke 0123456789abcdef";
   const std::string smoke = "golden check -e reduction " LORENTZ_SOURCE_DIR "/data/golden/smoke --baseline " +
-                            folder.write("known", nobody + "\n");
-  CHECK(contains(folder.lorentz(smoke).err, "stale: " + nobody));
+                            folder.write("known", gone + "\n");
+  CHECK(contains(folder.lorentz(smoke).err, "stale: " + gone));
   CHECK_FALSE(contains(folder.lorentz(smoke + " --first 60").err, "stale"));
   const Run bad = folder.lorentz(check + "--baseline " + folder.write("bad", "# one\nties\n"));
   CHECK(bad.status == 2);
   CHECK(contains(bad.err, "bad:2: expected a set and the id"));
   CHECK(folder.lorentz("golden check -e published,walk --baseline " + known + " ties").status == 2);
-}
-
-TEST_CASE("golden merge, filter and sample keep records as they are", "[golden][golden_check]") {
-  const Folder folder;
-  const auto made = [&](const std::string& arguments) {
-    const Run run = folder.lorentz("golden " + arguments);
-    INFO(run.err);
-    CHECK(run.status == 0);
-    const std::string set = folder.write("made.ndjson", run.out);
-    CHECK(folder.lorentz("golden verify " + set).status == 0);
-    std::set<std::string> records;
-    std::istringstream lines(run.out);
-    for (std::string line; std::getline(lines, line);)
-      if (line.starts_with("{\"id\"")) CHECK(records.insert(line).second);
-    return records;
-  };
-  const std::string smoke = LORENTZ_SOURCE_DIR "/data/golden/smoke/smoke.ndjson";
-  const auto ball = made("merge ball-2d"), both = made("merge ball-2d ball-3d " + smoke);
-  CHECK(ball.size() == 640);
-  CHECK((both.size() > 1280 && both.size() < 1380));  // those of smoke that are in one of them once
-  CHECK(std::ranges::includes(both, ball));
-  const auto close = made("filter --margin-below 4 ball-2d ball-3d");
-  CHECK((close.size() > 20 && std::ranges::includes(both, close)));
-  for (const std::string& record : close) {
-    double margin = 1e9;
-    std::sscanf(between(record, "\"margin\":", ",").c_str(), "%lf", &margin);
-    CHECK(margin < 4);
-  }
-  const auto tangent = made("filter --tag far-origin --without needs-judge ball-2d ball-3d");
-  CHECK((!tangent.empty() && tangent.size() < both.size()));
-  for (const std::string& record : tangent) CHECK(contains(record, "far-origin"));
-  const auto near = made("filter --without far-origin ball-2d ball-3d");
-  CHECK(near.size() + made("filter --tag far-origin ball-2d ball-3d").size() == 1280);
-  for (const std::string& record : near) CHECK_FALSE(contains(record, "far-origin"));
-  const auto few = made("sample --count 30 ball-2d ball-3d");
-  CHECK(few.size() == 30);
-  CHECK(made("sample --count 1000000 ball-2d").size() == 640);
-  // One of each of the seven tags of `ties`, of which some come first after hundreds of records.
-  std::string tags;
-  for (const std::string& record : made("sample --count 7 ties")) tags += between(record, "\"tags\":[", "]");
-  for (const char* tag : {"identical-atoms", "within-ulps", "mirrored", "overlapping-neighbours",
-                          "superposed", "needs-judge", "shared-point"})
-    CHECK_THAT(tags, Catch::Contains(tag));
-  for (const std::string& record : made("sample --count 7 --without needs-judge ties"))
-    CHECK_FALSE(contains(record, "needs-judge"));
-  CHECK(folder.lorentz("golden merge ball-2d ball-2d-binary32").status == 2);
-}
-
-TEST_CASE("golden index: index, schema and sums beside sets, and no other file overwritten",
-          "[golden][golden_check]") {
-  const Folder folder;
-  fs::create_directory(folder.file("sets"));
-  const std::string set = folder.lorentz("golden sample --count 9 ties").out;
-  folder.write("sets/two.ndjson", set);
-  folder.write("sets/one.ndjson", folder.lorentz("golden sample --count 4 grazing").out);
-  const std::string index = "golden index " + folder.file("sets");
-  CHECK(folder.lorentz(index).status == 0);
-  CHECK(std::system(("cd " + folder.file("sets") + " && sha256sum --quiet --check SHA256SUMS").c_str()) == 0);
-  const std::string sums = folder.read("sets/SHA256SUMS");
-  for (const char* name : {"one.ndjson\n", "two.ndjson\n", "index.json\n", "schema.json\n"})
-    CHECK_THAT(sums, Catch::Contains(std::string("  ") + name));
-  CHECK_THAT(folder.read("sets/index.json"),
-             Catch::Contains("\"file\":\"one.ndjson\"") && Catch::Contains("\"count\":9,"));
-  // Again, of a set that has changed; a schema of one's own stays.
-  folder.write("sets/two.ndjson", folder.lorentz("golden sample --count 8 ties").out);
-  folder.write("sets/schema.json", "{}");
-  CHECK(folder.lorentz(index).status == 0);
-  CHECK_THAT(folder.read("sets/index.json"), Catch::Contains("\"count\":8,"));
-  CHECK(folder.read("sets/schema.json") == "{}");
-  // What others wrote stays.
-  folder.write("sets/index.json", "{\"mine\":1}");
-  CHECK(folder.lorentz(index).status == 2);
-  CHECK(folder.read("sets/index.json") == "{\"mine\":1}");
-  fs::remove(folder.file("sets/index.json"));
-  folder.write("sets/SHA256SUMS", "of mine");
-  CHECK(folder.lorentz(index).status == 2);
-  CHECK(folder.read("sets/SHA256SUMS") == "of mine");
-}
-
-TEST_CASE("golden add: records of more queries, each question once", "[golden][golden_check]") {
-  const Folder folder;
-  const std::string queries = folder.write("queries", folder.lorentz("sample --scene square --count 5").out);
-  const std::string old = folder.write("old.ndjson", folder.lorentz("golden sample --count 9 ties").out);
-  const Run run = folder.lorentz("golden add " + old + " --queries " + queries + " --tag mine=of-me");
-  CHECK(run.status == 0);
-  const std::string set = folder.write("set.ndjson", run.out);
-  CHECK(contains(run.out, "\"count\":14,"));
-  CHECK(contains(run.out, "\"mine\":\"of-me\""));
-  CHECK(contains(run.out, folder.read("old.ndjson").substr(folder.read("old.ndjson").rfind("{\"id\""))));
-  CHECK(folder.lorentz("golden verify " + set).status == 0);
-  // Asked again, nothing is new; the set is never what is written.
-  const Run again = folder.lorentz("golden add " + set + " --queries " + queries + " --tag mine=of-me");
-  CHECK(again.status == 0);
-  CHECK(contains(again.err, "set.ndjson: has 5 of the questions already"));
-  CHECK_FALSE(contains(again.err, "answers agreed"));  // that is: nothing was answered
-  CHECK(again.out.substr(again.out.find('\n')) == run.out.substr(run.out.find('\n')));
-  CHECK(folder.lorentz("golden add " + set + " --queries " + queries + " -o " + set).status == 2);
-  CHECK(folder.read("set.ndjson") == run.out);
-  CHECK(folder.lorentz("golden add ties-binary32 --queries " + queries).status == 2);
-  CHECK(folder.lorentz("golden add " + set).status == 2);
 }

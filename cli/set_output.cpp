@@ -1,0 +1,77 @@
+#include "cli/set_output.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <lorentz/errors.hpp>
+#include "cli/output.hpp"
+#include "files/data_folder.hpp"
+#include "files/text_file.hpp"
+#include "golden/find_sets.hpp"
+#include "golden/index.hpp"
+#include "src/exchange/exchange_json.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kIndex = "index.json", *kSums = "SHA256SUMS", *kSchema = "schema.json";
+
+bool is_index(const fs::path& file) {
+  try {
+    json::Document document;
+    const std::string text = text_of_file(file);
+    document.open(text);
+    json::Object index = document.object();
+    return index["format"].natural() > 0 && (index["sets"].array(), true);
+  } catch (const json::Error&) {
+    return false;
+  }
+}
+
+// The sums of other files are not overwritten: sets have an index beside theirs.
+void check_folder(const fs::path& folder) {
+  if (fs::exists(folder / kIndex) && is_index(folder / kIndex)) return;
+  for (const char* name : {kIndex, kSums})
+    if (fs::exists(folder / name))
+      throw InputError((folder / name).string() +
+                       ": was not written by this command, and is left as it is; move it, or the sets");
+}
+
+// Copies the schema of the project's sets, unless the folder has one; returns its name.
+std::string add_schema(const fs::path& folder) {
+  if (fs::exists(folder / kSchema)) return kSchema;
+  const std::vector<std::string> schemas = data_files("golden", ".json");
+  const auto schema =
+      std::ranges::find(schemas, kSchema, [](const fs::path& file) { return file.filename(); });
+  if (schema == schemas.end()) throw FileError("there is no schema.json in " + data_places("golden"));
+  fs::copy_file(*schema, folder / kSchema);
+  return kSchema;
+}
+
+// The folder that a path means, made and looked at; nothing if it means a file.
+std::optional<std::string> folder_in(const std::optional<std::string>& path) {
+  if (!path || !path->ends_with('/')) return std::nullopt;
+  std::error_code error;
+  fs::create_directories(*path, error);
+  if (!fs::is_directory(*path)) throw FileError(*path + ": can't be made; name another folder");
+  check_folder(*path);
+  return path;
+}
+
+}  // namespace
+
+void write_beside_sets(const std::string& folder) {
+  if (!fs::is_directory(folder)) throw FileError(folder + ": is no folder");
+  check_folder(folder);
+  std::vector<std::string> names;
+  for (const std::string& file : golden::find_sets({folder})) names.push_back(fs::path(file).filename());
+  golden::write_index(folder, names, {add_schema(folder)});
+  say("{}: {}, {} and {} of {}", folder, kIndex, kSchema, kSums, fmt::join(names, ", "));
+}
+
+SetOutput::SetOutput(const std::optional<std::string>& path, const std::string& name)
+    : folder_(folder_in(path)), file_(folder_ ? *folder_ + name + ".ndjson" : path) {}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,11 @@
+// The text of a file.
+#pragma once
+
+#include <string>
+
+namespace lorentz {
+
+/// All of a file, or of standard input for "-". Throws FileError.
+std::string text_of_file(const std::string& path);
+
+}  // namespace lorentz
