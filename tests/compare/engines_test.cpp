@@ -124,7 +124,8 @@ TEST_CASE("Who answers many at a time does so scene by scene, and soon", "[compa
         CHECK(lines[0] == lines[1]);
         dimension = scene.dimension;
         for (int i = 0; i < 5; ++i) {
-          const Query query{{0.5, 0.5, 0.5}, {1, 0.1 * i, 0.01 * i * (dimension - 2)}, {}};
+          const double in_space = dimension - 2;
+          const Query query{{0.5, 0.5, 0.5 * in_space}, {1, 0.1 * i, 0.01 * i * in_space}, {}};
           together->ask("1", query), single->ask("1", query);
         }
       }

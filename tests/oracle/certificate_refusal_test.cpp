@@ -51,8 +51,8 @@ TEST_CASE("Garbage is refused with a reason, and in time", "[oracle][certificate
                              c.query.from = ObstacleId{0, 0, {0, 0, 1}};
                            }),
                   "more coordinates");
-  require_refused(tampered(good, [](Case& c) { c.query.x[2] = 1; }), "third coordinate");
-  require_refused(tampered(good, [](Case& c) { c.query.v = {0, 0, 1}; }), "third coordinate");
+  require_refused(tampered(good, [](Case& c) { c.query.x[2] = 1; }), "third must be zero");
+  require_refused(tampered(good, [](Case& c) { c.query.v = {0, 0, 1}; }), "third must be zero");
   require_refused(tampered(good, [](Case& c) { c.query.v = {}; }), "query: v is zero");
   require_refused(tampered(good, [&](Case& c) { c.query.x[0] = NAN; }), "query: x is not finite");
   require_refused(tampered(good, [](Case& c) { c.proof.rows.push_back({}); }), "rows prove `never` only");

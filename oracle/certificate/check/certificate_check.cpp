@@ -293,22 +293,9 @@ class Coverage {
 
 // ---- The check
 
-/// In two dimensions third coordinates mean nothing.
-Scene flattened(Scene scene) {
-  if (scene.dimension == 3) return scene;
-  for (Lattice& lattice : scene.lattices)
-    for (Vec& vector : lattice.vectors) vector[2] = 0;
-  for_each_atom(scene, [](Atom& atom) {
-    atom.position[2] = 0;
-    for (Vec& axis : atom.semiaxes) axis[2] = 0;
-  });
-  return scene;
-}
-
 class Check {
  public:
-  Check(const Scene& given, long most_steps) : most_steps_(most_steps), dimension_(given.dimension) {
-    const Scene scene = flattened(given);
+  Check(const Scene& scene, long most_steps) : most_steps_(most_steps), dimension_(scene.dimension) {
     CommonExponent exponent;
     for (const Lattice& lattice : scene.lattices) {
       for (const Vec& vector : lattice.vectors) see(exponent, vector);
@@ -387,8 +374,6 @@ class Check {
 };
 
 Check::Flight Check::flight_of(const Query& query) const {
-  if (dimension_ == 2 && (query.x[2] != 0 || query.v[2] != 0))
-    refute("the query has a third coordinate in two dimensions");
   CommonExponent of_query;
   see(of_query, query.x), see(of_query, query.v);
   const long unit = std::min(exponent_, of_query.get());
