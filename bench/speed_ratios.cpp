@@ -137,7 +137,7 @@ class Ground {
     return [this, r](std::size_t begin, std::size_t end) {
       const QueryColumns asked = table_.columns().part(begin, end - begin);
       double* const time = flights_.columns().part(begin).time;
-      for (std::size_t i = 0; i < asked.count; ++i) {
+      for (std::size_t i = 0; i < asked.size(); ++i) {
         double a = 0, b = 0, c = -r * r;
         for (int k = 0; k < 3; ++k) {
           const double x = asked.x[k][i], v = asked.v[k][i];

@@ -70,8 +70,8 @@ void BatchAnswerer::fly() {
 }
 
 double BatchAnswerer::limit(std::size_t i) const {
-  const double* const limits = queries_.columns().max_time;
-  return limits ? limits[i] : kForEver;
+  const std::span<const double> limits = queries_.columns().max_time;
+  return limits.empty() ? kForEver : limits[i];
 }
 
 Reply BatchAnswerer::reply_to(std::size_t i) const {

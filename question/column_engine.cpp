@@ -38,22 +38,26 @@ double ColumnEngine::limit(std::size_t i) const {
 }
 
 void ColumnEngine::fly(std::size_t first, const QueryRows& queries, AnswerRows& answers) {
+  const std::size_t count = queries.count;
   QueryColumns asked;
-  asked.count = queries.count;
   FlightColumns told;
-  stages_.resize(std::max(stages_.size(), queries.count));
-  told.outcome = answers.outcome.data() + first, told.stage = stages_.data();
-  told.time_is_rounded = answers.time_is_rounded.get() + first;
-  told.lattice = answers.lattice.data() + first, told.atom = answers.atom.data() + first;
-  told.time = answers.time.data() + first;
+  stages_.resize(std::max(stages_.size(), count));
+  told.outcome = std::span(answers.outcome).subspan(first, count);
+  told.stage = std::span(stages_).first(count);
+  told.time_is_rounded = {answers.time_is_rounded.get() + first, count};
+  told.lattice = std::span(answers.lattice).subspan(first, count);
+  told.atom = std::span(answers.atom).subspan(first, count);
+  told.time = std::span(answers.time).subspan(first, count);
   for (int k = 0; k < scene_.dimension; ++k) {
-    asked.x[k] = queries.x[k].data(), asked.v[k] = queries.v[k].data();
-    if (!queries.from_lattice.empty()) asked.from_cell[k] = queries.from_cell[k].data();
-    told.cell[k] = answers.cell[k] + first;
+    asked.x[k] = std::span(queries.x[k]).first(count), asked.v[k] = std::span(queries.v[k]).first(count);
+    if (!queries.from_lattice.empty()) asked.from_cell[k] = std::span(queries.from_cell[k]).first(count);
+    told.cell[k] = {answers.cell[k] + first, count};
   }
-  if (!limits_.empty()) asked.max_time = limits_.data();
-  if (!queries.from_lattice.empty())
-    asked.from_lattice = queries.from_lattice.data(), asked.from_atom = queries.from_atom.data();
+  if (!limits_.empty()) asked.max_time = std::span(limits_).first(count);
+  if (!queries.from_lattice.empty()) {
+    asked.from_lattice = std::span(queries.from_lattice).first(count);
+    asked.from_atom = std::span(queries.from_atom).first(count);
+  }
   together_->fly(asked, told, uncertain_, jobs_);
   std::transform(stages_.begin(), stages_.begin() + static_cast<std::ptrdiff_t>(queries.count),
                  answers.stage.begin() + static_cast<std::ptrdiff_t>(first),

@@ -30,13 +30,13 @@ ColumnFlyer::ColumnFlyer(const EngineInfo& engine, const Scene& scene)
 }
 
 void ColumnFlyer::fly(const QueryColumns& queries, FlightTable& flights) const {
-  flights.resize(queries.count);
+  flights.resize(queries.size());
   const FlightColumns columns = flights.columns();
   std::vector<std::size_t> rest;
   if (together_) {
     together_->fly(queries, columns, rest);
   } else {
-    rest.resize(queries.count);
+    rest.resize(queries.size());
     std::iota(rest.begin(), rest.end(), 0);
   }
   Answer answer;

@@ -16,15 +16,10 @@ void StartColumns::resize(std::size_t count, int dimension, bool with_from) {
 
 QueryColumns StartColumns::view() const {
   QueryColumns columns;
-  columns.count = size();
-  for (int i = 0; i < 3; ++i) {
-    columns.x[i] = x[i].data();
-    columns.v[i] = v[i].data();
-  }
+  for (int i = 0; i < 3; ++i) columns.x[i] = x[i], columns.v[i] = v[i];
   if (from_lattice.empty()) return columns;
-  columns.from_lattice = from_lattice.data();
-  columns.from_atom = from_atom.data();
-  for (int i = 0; i < 3; ++i) columns.from_cell[i] = from_cell[i].data();
+  columns.from_lattice = from_lattice, columns.from_atom = from_atom;
+  for (int i = 0; i < 3; ++i) columns.from_cell[i] = from_cell[i];
   return columns;
 }
 

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,40 +18,43 @@
 
 namespace lorentz {
 
-/// Queries of one scene in columns, each `count` long and owned by the caller. In 2D the third columns of
-/// vectors are not read.
+/// Queries of one scene in columns, owned by the caller: all of the same length but those that are left empty. In 2D the
+/// third columns of vectors are not read.
 struct QueryColumns {
-  std::size_t count = 0;
-  std::array<const double*, 3> x{}, v{};
+  std::array<std::span<const double>, 3> x{}, v{};
 
-  const double* max_time = nullptr;  ///< as in Reduction::fly; null: no query has a limit
+  std::span<const double> max_time{};  ///< as in Reduction::fly; empty: no query has a limit
 
-  /// The obstacle that a query leaves, which it ignores; a lattice below 0: none. All null: no query leaves
+  /// The obstacle that a query leaves, which it ignores; a lattice below 0: none. All empty: no query leaves
   /// one.
-  const std::int32_t *from_lattice = nullptr, *from_atom = nullptr;
-  std::array<const std::int64_t*, 3> from_cell{};
+  std::span<const std::int32_t> from_lattice{}, from_atom{};
+  std::array<std::span<const std::int64_t>, 3> from_cell{};
 
+  std::size_t size() const { return x[0].size(); }
   /// The query i, in so many dimensions.
   Query query(std::size_t i, int dimension) const;
   /// The queries [begin, begin + length).
   QueryColumns part(std::size_t begin, std::size_t length) const;
 };
 
-/// What they came to: the members of Flight, a column each. A null column is not wanted; `outcome` is. What
-/// Flight leaves at zero (the obstacle of `never`, the time of `inside`, the third cell coordinate in 2D) is
-/// zero here.
+/// What they came to: the members of Flight, a column each, at least as long as those of the queries. An empty column
+/// is not wanted; `outcome` is. What Flight leaves at zero (the obstacle of `never`, the time of `inside`, the third
+/// cell coordinate in 2D) is zero here.
 struct FlightColumns {
-  Outcome* outcome = nullptr;
-  Stage* stage = nullptr;
-  bool* time_is_rounded = nullptr;
-  std::int32_t *lattice = nullptr, *atom = nullptr;
-  std::array<std::int64_t*, 3> cell{};
-  double* time = nullptr;
+  std::span<Outcome> outcome{};
+  std::span<Stage> stage{};
+  std::span<bool> time_is_rounded{};
+  std::span<std::int32_t> lattice{}, atom{};
+  std::array<std::span<std::int64_t>, 3> cell{};
+  std::span<double> time{};
 
   FlightColumns part(std::size_t begin) const;
 };
 
-/// Queries as columns of its own, for who has them one at a time.
+/// What is wrong with columns of a scene in so many dimensions, or nothing: each is there if it must be, and long enough.
+std::optional<std::string> flaw_of(const QueryColumns& queries, const FlightColumns& flights, int dimension);
+
+/// Queries as columns of its own, filled one query at a time.
 class QueryTable {
  public:
   /// Removes all queries; what is allocated stays.
@@ -97,8 +102,10 @@ class FlightTable {
 ///             "The golden sets in batches, to the bit"
 ///  2. A query with a flaw (flaw_of) has the outcome `error`; the others are not disturbed.
 ///     held by "A query with a flaw is an error of its own in a batch"
-///  3. `fly` allocates nothing, beyond what starting threads takes, and throws nothing but what that throws.
-///     held by "A batch allocates nothing"
+///  3. `fly` allocates nothing, beyond what starting threads takes, and throws nothing but what that throws, and
+///     InputError for columns with a flaw.
+///     held by "A batch allocates nothing",
+///             "Columns that are missing or too short are refused"
 ///  4. Any number of threads may ask one batch engine.
 ///     held by "Threads share a batch engine"
 ///
@@ -119,7 +126,7 @@ class Batch {
   Batch& operator=(Batch&&) noexcept;
 
   /// Answers all queries, on `jobs` threads (at least 1). Returns how many of them lanes left to single
-  /// flights.
+  /// flights. Throws InputError for columns with a flaw.
   std::size_t fly(const QueryColumns& queries, const FlightColumns& flights, Time time = Time::close,
                   int jobs = 1) const;
 

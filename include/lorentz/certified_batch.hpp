@@ -24,8 +24,8 @@ class CertifiedBatch {
   /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in).
   explicit CertifiedBatch(const Scene& scene);
 
-  /// Answers the queries on `jobs` threads. Columns that are not null must include `outcome`, `time` and
-  /// `time_is_rounded`. A query with a limit before which nothing is entered is `later`. `uncertain`: the
+  /// Answers the queries on `jobs` threads; columns must include `outcome`, `time` and `time_is_rounded`. Throws
+  /// InputError for columns with a flaw. A query with a limit before which nothing is entered is `later`. `uncertain`: the
   /// numbers of the queries that the oracle has to be asked (Certified::first_hit), in order; of these the
   /// columns say nothing.
   void first_hits(const QueryColumns& queries, const FlightColumns& flights,
@@ -35,6 +35,7 @@ class CertifiedBatch {
 
  private:
   Certified certified_;
+  int dimension_;
   std::optional<Batch> batch_;  ///< nothing: the scene is beyond the fast engine
 };
 

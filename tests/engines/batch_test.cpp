@@ -7,9 +7,11 @@
 #include <cstring>
 #include <iostream>
 #include <map>
+#include <optional>
 
 #include <lorentz/certified_batch.hpp>
 #include <lorentz/collision.hpp>
+#include <lorentz/errors.hpp>
 #include "cases/families/target.hpp"
 #include "cases/random.hpp"
 #include "tests/engines/reduction_support.hpp"
@@ -123,12 +125,12 @@ FlightTable spoiled(std::size_t count) {
   FlightTable flights;
   flights.resize(count);
   const FlightColumns columns = flights.columns();
-  std::fill_n(columns.outcome, count, Outcome::error);
-  std::fill_n(columns.stage, count, Stage::undecided);
-  std::fill_n(columns.time_is_rounded, count, true);
-  for (std::int32_t* column : {columns.lattice, columns.atom}) std::fill_n(column, count, -7);
-  for (std::int64_t* column : columns.cell) std::fill_n(column, count, -7);
-  std::fill_n(columns.time, count, -7.0);
+  std::ranges::fill(columns.outcome, Outcome::error);
+  std::ranges::fill(columns.stage, Stage::undecided);
+  std::ranges::fill(columns.time_is_rounded, true);
+  for (const auto column : {columns.lattice, columns.atom}) std::ranges::fill(column, -7);
+  for (const auto column : columns.cell) std::ranges::fill(column, -7);
+  std::ranges::fill(columns.time, -7.0);
   return flights;
 }
 
@@ -407,10 +409,51 @@ TEST_CASE("The length of a batch, its columns and its threads do not matter", "[
   // Columns that nobody wants.
   std::vector<Outcome> outcomes(table.size());
   FlightColumns only_outcomes;
-  only_outcomes.outcome = outcomes.data();
+  only_outcomes.outcome = outcomes;
   batch.fly(table.columns(), only_outcomes);
   for (std::size_t i = 0; i < table.size(); ++i)
     REQUIRE(outcomes[i] == batch.one_at_a_time().fly(table[i]).outcome);
+}
+
+TEST_CASE("Columns that are missing or too short are refused", "[engines][batch]") {
+  const Scene scene = unit_scene(3, 0.1);
+  const Batch batch(scene);
+  QueryTable table;
+  for (int i = 0; i < 200; ++i)
+    table.push_back({{0.5, 0.4, 0.3}, {0.3, 0.7, 0.01 * i}, ObstacleId{0, 0, {1, 2, 3}}}, 100);
+  FlightTable flights = spoiled(table.size());
+  const auto refused = [&](const auto& spoil, const std::string& column) {
+    QueryColumns queries = table.columns();
+    FlightColumns told = flights.columns();
+    spoil(queries, told);
+    const std::optional<std::string> flaw = flaw_of(queries, told, 3);
+    REQUIRE(flaw);
+    CHECK_THAT(*flaw, Catch::StartsWith("the column " + column + " "));
+    CHECK_THROWS_AS(batch.fly(queries, told), InputError);
+  };
+  const auto shorter = [](auto& column) { column = column.first(199); };
+  const auto missing = [](auto& column) { column = {}; };
+  for (const std::size_t k : {0, 1, 2}) {
+    const std::string at = "[" + std::to_string(k) + "]";
+    if (k > 0) refused([&](auto& q, auto&) { missing(q.x[k]); }, "x" + at);
+    refused([&](auto& q, auto&) { shorter(q.v[k]); }, "v" + at);
+    refused([&](auto& q, auto&) { missing(q.v[k]); }, "v" + at);
+    refused([&](auto& q, auto&) { shorter(q.from_cell[k]); }, "from_cell" + at);
+    refused([&](auto& q, auto&) { missing(q.from_cell[k]); }, "from_cell" + at);
+    refused([&](auto&, auto& f) { shorter(f.cell[k]); }, "cell" + at);
+  }
+  refused([&](auto& q, auto&) { shorter(q.max_time); }, "max_time");
+  refused([&](auto& q, auto&) { shorter(q.from_lattice); }, "from_lattice");
+  refused([&](auto& q, auto&) { missing(q.from_atom); }, "from_atom");
+  refused([&](auto&, auto& f) { missing(f.outcome); }, "outcome");
+  refused([&](auto&, auto& f) { f.outcome = f.outcome.first(1); }, "outcome");
+  refused([&](auto&, auto& f) { shorter(f.stage); }, "stage");
+  refused([&](auto&, auto& f) { shorter(f.time_is_rounded); }, "time_is_rounded");
+  refused([&](auto&, auto& f) { shorter(f.lattice); }, "lattice");
+  refused([&](auto&, auto& f) { shorter(f.atom); }, "atom");
+  refused([&](auto&, auto& f) { shorter(f.time); }, "time");
+  CHECK_FALSE(flaw_of(table.columns(), flights.columns(), 3));
+  CHECK_NOTHROW(batch.fly(QueryColumns{}, FlightColumns{}));
 }
 
 TEST_CASE("A query with a flaw is an error of its own in a batch", "[engines][batch]") {

@@ -55,11 +55,12 @@ bool Batch::Inside::has_atom(int lattice, int atom) const {
 
 // The caller's columns, if they are of whole vectors; else copies, whose ends are of no query.
 void Batch::Inside::ask(const QueryColumns& queries, StretchBuffer& buffer, Stretch& stretch) const {
-  const std::size_t n = queries.count;
+  const std::size_t n = queries.size();
   const bool whole = n % kMaxLanes == 0;
-  const auto column = [&](const auto* given, auto* copy) -> const std::remove_pointer_t<decltype(copy)>* {
-    if (!given || whole) return given;
-    std::fill_n(std::copy_n(given, n, copy), kMaxLanes, 0);
+  const auto column = [&](const auto& given, auto* copy) -> const std::remove_pointer_t<decltype(copy)>* {
+    if (given.empty()) return nullptr;
+    if (whole) return given.data();
+    std::fill_n(std::copy_n(given.data(), n, copy), kMaxLanes, 0);
     return copy;
   };
   stretch.count = n, stretch.left_count = 0;
@@ -76,7 +77,9 @@ void Batch::Inside::ask(const QueryColumns& queries, StretchBuffer& buffer, Stre
 // `tell`.
 void set_told(const FlightColumns& flights, std::size_t n, StretchBuffer& buffer, Stretch& stretch) {
   const bool whole = n % kMaxLanes == 0;
-  const auto column = [&](auto* given, auto* own) { return given && whole ? given : own; };
+  const auto column = [&](const auto& given, auto* own) {
+    return given.empty() || !whole ? own : given.data();
+  };
   stretch.outcome = column(flights.outcome, buffer.outcome);
   stretch.stage = column(flights.stage, buffer.stage);
   stretch.time_is_rounded = column(flights.time_is_rounded, buffer.time_is_rounded);
@@ -88,18 +91,18 @@ void set_told(const FlightColumns& flights, std::size_t n, StretchBuffer& buffer
 void Batch::Inside::tell(const StretchBuffer& buffer, const FlightColumns& flights,
                          const Stretch& stretch) const {
   const std::size_t n = stretch.count;
-  const auto copy = [n](const auto* told, const auto* own, auto* wanted) {
-    if (wanted && told == own) std::copy_n(told, n, wanted);
+  const auto copy = [n](const auto* told, const auto* own, const auto& wanted) {
+    if (!wanted.empty() && told == own) std::copy_n(told, n, wanted.data());
   };
   copy(stretch.outcome, buffer.outcome, flights.outcome);
   copy(stretch.stage, buffer.stage, flights.stage);
   copy(stretch.time_is_rounded, buffer.time_is_rounded, flights.time_is_rounded);
   copy(stretch.time, buffer.time, flights.time);
   for (int k = 0; k < scene.dimension; ++k) copy(stretch.cell[k], buffer.cell[k], flights.cell[k]);
-  if (scene.dimension == 2 && flights.cell[2]) std::fill_n(flights.cell[2], n, 0);
-  const auto name = [&](std::int32_t* wanted, int Bravais::*which) {
-    if (!wanted) return;
-    if (prepared.atoms.size() == 1) return void(std::fill_n(wanted, n, 0));
+  if (scene.dimension == 2 && !flights.cell[2].empty()) std::fill_n(flights.cell[2].data(), n, 0);
+  const auto name = [&](std::span<std::int32_t> wanted, int Bravais::*which) {
+    if (wanted.empty()) return;
+    if (prepared.atoms.size() == 1) return void(std::fill_n(wanted.data(), n, 0));
     for (std::size_t i = 0; i < n; ++i) wanted[i] = prepared.atoms[stretch.atom[i]].*which;
   };
   name(flights.lattice, &Bravais::lattice);
@@ -111,17 +114,17 @@ void Batch::Inside::fly_single(const QueryColumns& queries, std::size_t i, const
   const Query query = queries.query(i, scene.dimension);
   Flight flight;
   if (!flaw_of(query, scene))
-    flight = single.fly(query, queries.max_time ? queries.max_time[i] : HUGE_VAL, time);
+    flight = single.fly(query, queries.max_time.empty() ? HUGE_VAL : queries.max_time[i], time);
   else
     flight.outcome = Outcome::error;
   flights.outcome[i] = flight.outcome;
-  if (flights.stage) flights.stage[i] = flight.stage;
-  if (flights.time_is_rounded) flights.time_is_rounded[i] = flight.time_is_rounded;
-  if (flights.lattice) flights.lattice[i] = flight.lattice;
-  if (flights.atom) flights.atom[i] = flight.atom;
+  if (!flights.stage.empty()) flights.stage[i] = flight.stage;
+  if (!flights.time_is_rounded.empty()) flights.time_is_rounded[i] = flight.time_is_rounded;
+  if (!flights.lattice.empty()) flights.lattice[i] = flight.lattice;
+  if (!flights.atom.empty()) flights.atom[i] = flight.atom;
   for (int k = 0; k < 3; ++k)
-    if (flights.cell[k]) flights.cell[k][i] = flight.cell[k];
-  if (flights.time) flights.time[i] = flight.time;
+    if (!flights.cell[k].empty()) flights.cell[k][i] = flight.cell[k];
+  if (!flights.time.empty()) flights.time[i] = flight.time;
 }
 
 std::size_t Batch::Inside::fly(const QueryColumns& queries, const FlightColumns& flights, Time time) const {
@@ -129,22 +132,22 @@ std::size_t Batch::Inside::fly(const QueryColumns& queries, const FlightColumns&
   Stretch stretch;
   StretchBuffer buffer;
   stretch.rounded = time == Time::rounded;
-  for (std::size_t begin = 0; begin < queries.count; begin += kStretch) {
-    const QueryColumns asked = queries.part(begin, std::min(kStretch, queries.count - begin));
+  for (std::size_t begin = 0; begin < queries.size(); begin += kStretch) {
+    const QueryColumns asked = queries.part(begin, std::min(kStretch, queries.size() - begin));
     const FlightColumns told = flights.part(begin);
     if (!kernel) {
-      for (std::size_t i = 0; i < asked.count; ++i) fly_single(asked, i, told, time);
-      left += asked.count;
+      for (std::size_t i = 0; i < asked.size(); ++i) fly_single(asked, i, told, time);
+      left += asked.size();
       continue;
     }
     ask(asked, buffer, stretch);
-    set_told(told, asked.count, buffer, stretch);
+    set_told(told, asked.size(), buffer, stretch);
     kernel(prepared, stretch);
     tell(buffer, told, stretch);
     for (std::size_t i = 0; i < stretch.left_count; ++i) fly_single(asked, stretch.left_over[i], told, time);
     left += stretch.left_count;
     // Lanes do not see that an obstacle which is left is of no atom.
-    for (std::size_t i = 0; asked.from_lattice && i < asked.count; ++i)
+    for (std::size_t i = 0; i < asked.from_lattice.size(); ++i)
       if (asked.from_lattice[i] >= 0 && !has_atom(asked.from_lattice[i], asked.from_atom[i]))
         fly_single(asked, i, told, time);
   }
@@ -162,13 +165,14 @@ const Reduction& Batch::one_at_a_time() const {
 }
 
 std::size_t Batch::fly(const QueryColumns& queries, const FlightColumns& flights, Time time, int jobs) const {
-  // Pieces are taken by whoever is free; each has its place in the columns, so that the order is kept.
+  if (const auto flaw = flaw_of(queries, flights, inside_->scene.dimension)) throw InputError(*flaw);
+  // Each free thread takes the next piece, which has its place in the columns, so that the order is kept.
   constexpr std::size_t kPiece = 16 * kStretch;
-  const std::size_t pieces = (queries.count + kPiece - 1) / kPiece;
+  const std::size_t pieces = (queries.size() + kPiece - 1) / kPiece;
   std::atomic<std::size_t> next = 0, left = 0;
   const auto work = [&] {
     for (std::size_t piece; (piece = next++) < pieces;) {
-      const std::size_t begin = piece * kPiece, length = std::min(kPiece, queries.count - begin);
+      const std::size_t begin = piece * kPiece, length = std::min(kPiece, queries.size() - begin);
       left += inside_->fly(queries.part(begin, length), flights.part(begin), time);
     }
   };

@@ -1,23 +1,39 @@
 // Columns: parts of them, and columns of one's own.
-#include <algorithm>
-#include <cmath>
-
 #include <lorentz/batch.hpp>
 
 namespace lorentz {
 namespace {
 
 template <class T>
-void advance(T*& column, std::size_t by) {
-  if (column) column += by;
+std::span<T> part_of(std::span<T> column, std::size_t begin, std::size_t length = std::dynamic_extent) {
+  return column.empty() ? column : column.subspan(begin, length);
 }
+
+// Looks at one column after the other.
+class ColumnCheck {
+ public:
+  explicit ColumnCheck(std::size_t size) : size_(size) {}
+
+  template <class T>
+  void see(std::span<T> column, const std::string& name, bool needed) {
+    if (flaw_ || column.size() >= size_ || (column.empty() && !needed)) return;
+    flaw_ = column.empty() ? "the column " + name + " is missing"
+                           : "the column " + name + " has " + std::to_string(column.size()) + " rows, not " +
+                                 std::to_string(size_);
+  }
+  const std::optional<std::string>& flaw() const { return flaw_; }
+
+ private:
+  std::size_t size_;
+  std::optional<std::string> flaw_;
+};
 
 }  // namespace
 
 Query QueryColumns::query(std::size_t i, int dimension) const {
   Query query;
   for (int k = 0; k < dimension; ++k) query.x[k] = x[k][i], query.v[k] = v[k][i];
-  if (!from_lattice || from_lattice[i] < 0) return query;
+  if (from_lattice.empty() || from_lattice[i] < 0) return query;
   query.from.emplace();
   query.from->lattice = from_lattice[i], query.from->atom = from_atom[i];
   for (int k = 0; k < dimension; ++k) query.from->cell[k] = from_cell[k][i];
@@ -25,20 +41,47 @@ Query QueryColumns::query(std::size_t i, int dimension) const {
 }
 
 QueryColumns QueryColumns::part(std::size_t begin, std::size_t length) const {
-  QueryColumns part = *this;
-  part.count = length;
-  for (int k = 0; k < 3; ++k)
-    advance(part.x[k], begin), advance(part.v[k], begin), advance(part.from_cell[k], begin);
-  advance(part.max_time, begin), advance(part.from_lattice, begin), advance(part.from_atom, begin);
+  QueryColumns part;
+  for (int k = 0; k < 3; ++k) {
+    part.x[k] = part_of(x[k], begin, length), part.v[k] = part_of(v[k], begin, length);
+    part.from_cell[k] = part_of(from_cell[k], begin, length);
+  }
+  part.max_time = part_of(max_time, begin, length);
+  part.from_lattice = part_of(from_lattice, begin, length);
+  part.from_atom = part_of(from_atom, begin, length);
   return part;
 }
 
 FlightColumns FlightColumns::part(std::size_t begin) const {
-  FlightColumns part = *this;
-  advance(part.outcome, begin), advance(part.stage, begin), advance(part.time_is_rounded, begin);
-  advance(part.lattice, begin), advance(part.atom, begin), advance(part.time, begin);
-  for (int k = 0; k < 3; ++k) advance(part.cell[k], begin);
+  FlightColumns part;
+  part.outcome = part_of(outcome, begin), part.stage = part_of(stage, begin);
+  part.time_is_rounded = part_of(time_is_rounded, begin);
+  part.lattice = part_of(lattice, begin), part.atom = part_of(atom, begin);
+  part.time = part_of(time, begin);
+  for (int k = 0; k < 3; ++k) part.cell[k] = part_of(cell[k], begin);
   return part;
+}
+
+std::optional<std::string> flaw_of(const QueryColumns& queries, const FlightColumns& flights, int dimension) {
+  ColumnCheck check(queries.size());
+  const bool any_from = !queries.from_lattice.empty();
+  for (int k = 0; k < dimension; ++k) {
+    const std::string component = "[" + std::to_string(k) + "]";
+    check.see(queries.x[k], "x" + component, true);
+    check.see(queries.v[k], "v" + component, true);
+    check.see(queries.from_cell[k], "from_cell" + component, any_from);
+  }
+  for (int k = 0; k < 3; ++k) check.see(flights.cell[k], "cell[" + std::to_string(k) + "]", false);
+  check.see(queries.max_time, "max_time", false);
+  check.see(queries.from_lattice, "from_lattice", false);
+  check.see(queries.from_atom, "from_atom", any_from);
+  check.see(flights.outcome, "outcome", true);
+  check.see(flights.stage, "stage", false);
+  check.see(flights.time_is_rounded, "time_is_rounded", false);
+  check.see(flights.lattice, "lattice", false);
+  check.see(flights.atom, "atom", false);
+  check.see(flights.time, "time", false);
+  return check.flaw();
 }
 
 void QueryTable::clear() {
@@ -68,12 +111,11 @@ Query QueryTable::operator[](std::size_t i) const {
 
 QueryColumns QueryTable::columns() const {
   QueryColumns columns;
-  columns.count = size();
-  for (int k = 0; k < 3; ++k) columns.x[k] = x_[k].data(), columns.v[k] = v_[k].data();
-  if (any_limit_) columns.max_time = max_time_.data();
+  for (int k = 0; k < 3; ++k) columns.x[k] = x_[k], columns.v[k] = v_[k];
+  if (any_limit_) columns.max_time = max_time_;
   if (!any_from_) return columns;
-  columns.from_lattice = from_lattice_.data(), columns.from_atom = from_atom_.data();
-  for (int k = 0; k < 3; ++k) columns.from_cell[k] = from_cell_[k].data();
+  columns.from_lattice = from_lattice_, columns.from_atom = from_atom_;
+  for (int k = 0; k < 3; ++k) columns.from_cell[k] = from_cell_[k];
   return columns;
 }
 
@@ -95,11 +137,11 @@ Flight FlightTable::operator[](std::size_t i) const {
 
 FlightColumns FlightTable::columns() {
   FlightColumns columns;
-  columns.outcome = outcome_.data(), columns.stage = stage_.data();
-  columns.time_is_rounded = time_is_rounded_.get();
-  columns.lattice = lattice_.data(), columns.atom = atom_.data();
-  for (int k = 0; k < 3; ++k) columns.cell[k] = cell_[k].data();
-  columns.time = time_.data();
+  columns.outcome = outcome_, columns.stage = stage_;
+  columns.time_is_rounded = {time_is_rounded_.get(), outcome_.size()};
+  columns.lattice = lattice_, columns.atom = atom_;
+  for (int k = 0; k < 3; ++k) columns.cell[k] = cell_[k];
+  columns.time = time_;
   return columns;
 }
 

@@ -51,16 +51,16 @@ void Particles::Inside::ask(const Particle& particle, std::size_t k, double unti
 void Particles::Inside::fly(std::size_t count, bool limited) {
   QueryColumns queries;
   FlightColumns flights;
-  queries.count = count;
+  const auto some = [count](auto& column) { return std::span(column).first(count); };
   for (int i = 0; i < 3; ++i) {
-    queries.x[i] = x[i].data(), queries.v[i] = v[i].data();
-    queries.from_cell[i] = from_cell[i].data();
-    flights.cell[i] = cell[i].data();
+    queries.x[i] = some(x[i]), queries.v[i] = some(v[i]);
+    queries.from_cell[i] = some(from_cell[i]);
+    flights.cell[i] = some(cell[i]);
   }
-  queries.max_time = limited ? max_time.data() : nullptr;
-  queries.from_lattice = from_lattice.data(), queries.from_atom = from_atom.data();
-  flights.outcome = outcome.data();
-  flights.lattice = lattice.data(), flights.atom = atom.data();
+  if (limited) queries.max_time = some(max_time);
+  queries.from_lattice = some(from_lattice), queries.from_atom = some(from_atom);
+  flights.outcome = some(outcome);
+  flights.lattice = some(lattice), flights.atom = some(atom);
   engine.fly(queries, flights);
 }
 
