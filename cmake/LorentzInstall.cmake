@@ -10,7 +10,7 @@ set(LORENTZ_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/lorentz)
 
 set(LORENTZ_ENGINE_TARGETS lorentz_problem lorentz_engine_base lorentz_classical lorentz_published lorentz_reduction
   lorentz_engine lorentz_trajectory)
-set(LORENTZ_ENGINE_HEADERS problem vec scene obstacle query answer geometry errors pimpl environment engine engine_base
+set(LORENTZ_ENGINE_HEADERS version problem vec scene obstacle query answer geometry errors pimpl environment engine engine_base
   collision flight reduction trajectory rational claim)
 set(LORENTZ_BATCH_TARGETS lorentz_batch lorentz_trajectory_batch)
 set(LORENTZ_BATCH_HEADERS batch trajectory_batch)
@@ -91,3 +91,7 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/lorentz-config.cmake.i
 write_basic_package_version_file(lorentz-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/lorentz-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/lorentz-config-version.cmake
   DESTINATION ${LORENTZ_CMAKE_DIR} COMPONENT development)
+
+# What `cmake --install` noted that it had written: cmake --build build --target uninstall
+add_custom_target(uninstall
+  COMMAND ${CMAKE_COMMAND} -DMANIFEST=${PROJECT_BINARY_DIR}/install_manifest.txt -P ${PROJECT_SOURCE_DIR}/cmake/uninstall.cmake)

@@ -1,10 +1,11 @@
 """The public headers are clean under many warnings, alone and together in either order; together for
-each compiler that is here.
+each compiler that is here. The version that they say is the project's.
 
 public_headers_test.py INCLUDE
 """
 import concurrent.futures
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -19,6 +20,12 @@ def complaint(include, compiler, headers):
     return "" if done.returncode == 0 else f"{compiler}, {', '.join(headers)}:\n{done.stderr}"
 
 
+def version_complaint(include):
+    numbers = re.findall(r"#define LORENTZ_VERSION_\w+ (\d+)", (include / "lorentz" / "version.hpp").read_text())
+    project = re.search(r"project\(lorentz VERSION ([0-9.]+)", (include.parent / "CMakeLists.txt").read_text())[1]
+    return "" if ".".join(numbers) == project else f"version.hpp says {numbers}, the project is {project}"
+
+
 def main():
     include = pathlib.Path(sys.argv[1])
     headers = sorted(path.name for path in (include / "lorentz").glob("*.h*"))
@@ -29,7 +36,7 @@ def main():
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         jobs = [pool.submit(complaint, include, compiler, group)
                 for compiler in compilers for group in together + (alone if compiler == compilers[0] else [])]
-    complaints = [job.result() for job in jobs if job.result()]
+    complaints = [text for text in [*(job.result() for job in jobs), version_complaint(include)] if text]
     print("\n".join(complaints) or f"{len(headers)} headers, {', '.join(compilers)}")
     return 1 if complaints else 0
 

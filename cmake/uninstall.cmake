@@ -1,0 +1,10 @@
+# Removes what an install manifest lists.
+if(NOT EXISTS ${MANIFEST})
+  message(FATAL_ERROR "${MANIFEST} is not there: nothing was installed from this build")
+endif()
+file(STRINGS ${MANIFEST} installed)
+foreach(path ${installed})
+  file(REMOVE "$ENV{DESTDIR}${path}")
+endforeach()
+list(LENGTH installed count)
+message(STATUS "removed ${count} files")
