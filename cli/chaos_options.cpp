@@ -3,27 +3,26 @@
 #include <chrono>
 #include <cmath>
 
+#include <lorentz/errors.hpp>
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "files/messages.hpp"
-#include "files/scene_file.hpp"
 #include "runs/piece_store.hpp"
-#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 
-std::vector<Option> chaos_rows(ChaosOptions& options) {
-  return {
-      {"--scene", &options.scene, "SCENE", "a file, or a name of the catalogue"},
-      {"--radius", Positive{&options.radius}, "R", "radius of every ball"},
-      {"--seed", Whole{&options.seed}, "N", "of the starts"},
-      {"--jobs", Whole{&options.jobs, 1, 1024}, "N", "threads; the result is the same"},
-      {"--store", &options.store, "FILE", "where parts that are done are kept, and gone on from", kOutput},
-      {"--json", &options.json, "", "one JSON object instead of a table"}};
+std::vector<Option> chaos_rows(ChaosOptions& options, const std::string& rows_of_csv) {
+  return joined(scan_rows(options, rows_of_csv),
+                {
+                    {"--jobs", Whole{&options.jobs, 1, 1024}, "N", "threads; the result is the same"},
+                    {"--store", &options.store, "FILE",
+                     "where parts that are done are kept, and gone on from", kOutput},
+                });
 }
 
-Scene scene_of(const ChaosOptions& options) {
-  return load_crystal(options.scene, options.radius, "means of trajectories are taken");
+void check_store(const ChaosOptions& options) {
+  if (options.store && options.is_of_several())
+    throw InputError("--store: parts are kept of one scene at one radius; run several one by one");
 }
 
 void with_work(const ChaosOptions& options, const std::string& kind, const runs::Plan& plan,
@@ -45,20 +44,6 @@ void with_work(const ChaosOptions& options, const std::string& kind, const runs:
   if (Interrupt::came())
     say("{}; {}", Interrupt::what(),
         store.is_file() ? "the same command goes on" : "without --store nothing is kept to go on with");
-}
-
-std::string name_with_radius(const std::string& name, const Scene& scene) {
-  std::optional<double> radius;
-  bool same = true;
-  for_each_atom(scene, [&](const Atom& atom) {
-    same = same && atom.is_ball() && (!radius || *radius == atom.radius);
-    radius = atom.radius;
-  });
-  return same && radius ? fmt::format("{}, r = {:g}", name, *radius) : name;
-}
-
-std::string remark_on_end(bool is_whole) {
-  return is_whole ? "" : "interrupted: only the parts that were done by then\n";
 }
 
 }  // namespace lorentz::cli

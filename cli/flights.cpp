@@ -244,7 +244,7 @@ Command flights_command() {
            "radius of every ball; several, with commas between them, are flown one after the other "
            "from the same drawn numbers: each gives what it gives alone",
            kCommas},
-          {"--from", &options->from, "uniform|surface",
+          {"--from,--start", &options->from, "uniform|surface",
            "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle, as from one "
            "collision to the next (cosine law)"},
           {"-e,--engine", &options->engine, "ENGINE",

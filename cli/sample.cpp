@@ -124,7 +124,7 @@ Command sample_command() {
       {
           {"--scene", &options->scene, "SCENE", "a scene file, or a name of the catalogue"},
           {"--radius", Positive{&options->radius}, "R", "radius of every ball"},
-          {"--kind", &options->kind, "uniform|surface|near-rational|grazing",
+          {"--kind,--start", &options->kind, "uniform|surface|near-rational|grazing",
            "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle by "
            "the cosine law, with `from`; near-rational: along a lattice vector but for ulps to "
            "2^-40; grazing: at an obstacle's edge but for ulps to 2^-10"},

@@ -7,7 +7,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
-#include "cli/trajectory_rival.hpp"
+#include "cli/terminal.hpp"
 #include "files/messages.hpp"
 #include "files/scene_file.hpp"
 #include "files/whole_file.hpp"
@@ -17,6 +17,7 @@
 #include "src/exchange/exchange_number.hpp"
 #include "src/exchange/exchange_write.hpp"
 #include "src/exchange/nearest_name.hpp"
+#include "statistics/survival/rival.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -26,6 +27,7 @@ using oracle::CertifiedCollision;
 using oracle::Itinerary;
 using oracle::Journey;
 using oracle::JourneyEnd;
+using survival::Rival;
 
 constexpr std::uint64_t kMostBits = 1u << 26;
 
@@ -180,7 +182,7 @@ class Picture {
   }
   void collision(const CertifiedCollision& c) {
     ++drawing_.collisions;
-    drawing_.path.push_back(place_of(drawing_.scene, c));
+    drawing_.path.push_back(survival::place_of(drawing_.scene, c));
   }
 
   void end(const Arrival& arrival, Rival* rival, const std::string& engine) {
@@ -213,7 +215,7 @@ struct TrajectoryRun {
 
 void follow(TrajectoryRun& run, const Id& id, const RationalScene& scene, const Start& start) {
   std::unique_ptr<Rival> rival;
-  if (run.engine) rival = std::make_unique<Rival>(*run.engine, run.precision, scene, start);
+  if (run.engine) rival = std::make_unique<Rival>(*run.engine, run.precision, scene, start, terminal());
   Picture* picture = nullptr;
   if (run.options.svg && !run.drawn) {
     if (scene.dimension != 2) throw InputError("--svg: draws paths in two dimensions");
@@ -298,7 +300,7 @@ Command trajectory_command() {
           {"--radius", &options->radius, "R", "radius of every ball of --scene, exactly: 1/3, 0.1"},
           {"--collisions", Whole{&options->collisions, 0, 1u << 30}, "N",
            "follow each start for N collisions"},
-          {"--time", &options->time, "T", "or to this time, exactly: 10, 1/3"},
+          {"--time,--max-time", &options->time, "T", "or to this time, exactly: 10, 1/3"},
           {"--digits", Whole{&options->digits, 1, 100'000}, "N",
            "digits of times, places and velocities (default: 17)"},
           {"--detail", &options->detail, "", "place and velocity at each collision, too"},

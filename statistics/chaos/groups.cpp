@@ -104,4 +104,8 @@ GroupShare share_of(std::uint64_t group, std::uint64_t count) {
   return {first, first + part + (group < rest ? 1 : 0)};
 }
 
+std::string remark_on_end(bool is_whole) {
+  return is_whole ? "" : "interrupted: only the parts that were done by then\n";
+}
+
 }  // namespace lorentz::chaos

@@ -50,6 +50,9 @@ std::vector<std::optional<Sums>> for_each_group(
     const Work& work, const std::function<Sums(std::uint64_t)>& act,
     const std::function<bool(std::uint64_t, const Sums&)>& is_possible);
 
+/// What a result that is not whole says of itself, or nothing.
+std::string remark_on_end(bool is_whole);
+
 /// [first, last) of `count` things for a group.
 struct GroupShare {
   std::uint64_t first, last;

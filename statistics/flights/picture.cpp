@@ -5,6 +5,7 @@
 #include <lorentz/errors.hpp>
 #include "files/messages.hpp"
 #include "pictures/free_path_plot.hpp"
+#include "report/scene_name.hpp"
 #include "statistics/flights/findings.hpp"
 
 namespace lorentz::flights {
@@ -20,9 +21,10 @@ FreePathPlot plot_of(const std::vector<FlightsReport>& reports) {
   if (std::all_of(reports.begin(), reports.end(), nothing_hit))
     throw InputError("nothing was hit: there is nothing to draw");
   FreePathPlot plot;
-  plot.title =
-      fmt::format("Free paths: {}, {} starts", first.radius ? first.scene_name : first.name_with_radius(),
-                  name_of(first.plan.from));
+  plot.title = fmt::format(
+      "Free paths: {}, {} starts",
+      first.radius ? first.scene_name : report::name_with_radius(first.scene_name, first.plan.scene),
+      name_of(first.plan.from));
   const Laws laws = laws_of(first.plan.scene, first.plan.from);
   plot.note = fmt::format("{} flights{}, bars of one standard error, engine {}, seed {}{}",
                           first.account.tally.flights(), first.radius ? " each" : "", first.plan.engine,

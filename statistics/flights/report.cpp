@@ -7,6 +7,7 @@
 #include "files/messages.hpp"
 #include "report/curves.hpp"
 #include "report/manifest.hpp"
+#include "report/scene_name.hpp"
 #include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
 
@@ -104,18 +105,6 @@ std::optional<double> exact_mean(const FlightsReport& report, const FlightsFindi
   return report.plan.from == Ensemble::surface ? found.mean.value : std::nullopt;
 }
 
-// Of all obstacles, if it is one.
-std::optional<double> common_radius(const Scene& scene) {
-  std::optional<double> radius;
-  bool same = true;
-  for (const Lattice& lattice : scene.lattices)
-    for (const Atom& atom : lattice.atoms) {
-      same = same && atom.is_ball() && (!radius || *radius == atom.radius);
-      radius = atom.radius;
-    }
-  return same ? radius : std::nullopt;
-}
-
 // Of one hit there is no standard error.
 std::string line_of_mean(const FlightsReport& report, const FlightsFindings& found) {
   const double mean = report.account.tally.mean(), error = report.account.tally.standard_error();
@@ -129,6 +118,12 @@ std::string line_of_mean(const FlightsReport& report, const FlightsFindings& fou
                        found.mean.how);
   if (report.plan.from == Ensemble::surface) text += fmt::format("; no exact mean: {}", found.mean.how);
   return text;
+}
+
+// A first flight from anywhere is another one than a flight between collisions, which "mean free path" means.
+std::string line_of_mean_free_path(const FlightsFindings& found) {
+  const std::string value = found.mean.value ? fmt::format("{:.10g}", *found.mean.value) : "not known";
+  return fmt::format("mean free path between collisions (--from surface): {} ({})\n", value, found.mean.how);
 }
 
 void add_theory(json::Members& object, const FlightsFindings& found) {
@@ -151,16 +146,12 @@ void add_theory(json::Members& object, const FlightsFindings& found) {
 
 }  // namespace
 
-std::string FlightsReport::name_with_radius() const {
-  const auto radius = common_radius(plan.scene);
-  return radius ? fmt::format("{}, r = {:g}", scene_name, *radius) : scene_name;
-}
-
 std::string FlightsReport::table() const {
   const FlightsFindings found(*this);
   const FlightTally& tally = account.tally;
-  std::string text = fmt::format("scene {}, {} starts, engine {}, seed {}\n", name_with_radius(),
-                                 name_of(plan.from), plan.engine, plan.seed);
+  std::string text = fmt::format("scene {}, {} starts, engine {}, seed {}\n",
+                                 report::name_with_radius(scene_name, plan.scene), name_of(plan.from),
+                                 plan.engine, plan.seed);
   text += fmt::format("{} flights", tally.flights());
   if (!is_whole())
     text += fmt::format(" of {} ({} of {} blocks)", plan.count, account.done.size(), plan.blocks());
@@ -169,6 +160,7 @@ std::string FlightsReport::table() const {
                   tally.hits, tally.never, tally.undecided, tally.inside);
   if (tally.hits == 0) return text + "nothing was hit: there are no free paths to speak of\n";
   text += '\n' + line_of_mean(*this, found) + '\n';
+  if (plan.from == Ensemble::uniform) text += line_of_mean_free_path(found);
   text += fmt::format("mean of ln tau {:.8g}; shortest {:.6g}, longest {:.6g}\n", tally.mean_log(),
                       tally.shortest, tally.longest);
   if (const std::string remark = remark_on_mean(plan.from, found.tails.back()); !remark.empty())
@@ -192,9 +184,9 @@ std::string FlightsReport::json() const {
                "asked", plan.count, "hits", tally.hits, "never", tally.never, "undecided", tally.undecided,
                "drawn_anew", tally.inside);
     object.add("mean", if_any(tally.mean()), "mean_error", if_any(tally.standard_error()), "mean_exact",
-               finite(exact_mean(*this, found)), "mean_remark", remark_on_mean(plan.from, found.tails.back()),
-               "mean_log", if_any(tally.mean_log()), "shortest", if_any(tally.shortest), "longest",
-               if_any(tally.longest));
+               finite(exact_mean(*this, found)), "mean_free_path", finite(found.mean.value), "mean_remark",
+               remark_on_mean(plan.from, found.tails.back()), "mean_log", if_any(tally.mean_log()),
+               "shortest", if_any(tally.shortest), "longest", if_any(tally.longest));
     object.add("tail_exponent", e ? finite(e->exponent) : std::nullopt, "tail_interval",
                e ? std::optional(std::array{finite(e->low), finite(e->high)}) : std::nullopt, "tail_from",
                e ? finite(e->from) : std::nullopt, "tail_count", e ? e->count : 0);
@@ -242,7 +234,7 @@ std::string csv_names(const FlightsFindings& found, bool with_radius) {
 namespace {
 
 std::optional<double> radius_of(const FlightsReport& report) {
-  return report.radius ? report.radius : common_radius(report.plan.scene);
+  return report.radius ? report.radius : report::common_radius(report.plan.scene);
 }
 
 // At every other bin, where there is chance for a point.
@@ -274,8 +266,8 @@ std::string page_json(const std::vector<FlightsReport>& reports, const std::stri
     const FlightsFindings found(report);
     curves.push_back(curve_of(report, found));
     const FlightTally& tally = report.account.tally;
-    line +=
-        fmt::format("{}{}: {} flights", line.empty() ? "" : "; ", report.name_with_radius(), tally.flights());
+    line += fmt::format("{}{}: {} flights", line.empty() ? "" : "; ",
+                        report::name_with_radius(report.scene_name, report.plan.scene), tally.flights());
     if (tally.hits > 0) line += fmt::format(", mean {:.6g}", tally.mean());
     if (std::isfinite(tally.standard_error()) && found.tails.back().open == false)
       line += fmt::format(" ± {:.2g}", tally.standard_error());

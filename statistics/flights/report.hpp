@@ -20,9 +20,6 @@ struct FlightsReport {
   /// False: stopped early, or a shard's.
   bool is_whole() const { return account.done.size() == plan.blocks(); }
 
-  /// The scene's name, and the radius if all obstacles have the same.
-  std::string name_with_radius() const;
-
   std::string table() const;
   std::string json() const;  ///< one object, in a line
 };

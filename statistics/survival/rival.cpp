@@ -1,14 +1,13 @@
-#include "cli/trajectory_rival.hpp"
+#include "statistics/survival/rival.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "cli/terminal.hpp"
 #include "question/engines.hpp"
 #include "src/exchange/exchange_number.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::survival {
 namespace {
 
 constexpr double kForEver = std::numeric_limits<double>::infinity();
@@ -25,12 +24,6 @@ AskFirstHit ask_command(question::Answerer& program) {
     program.on_reply([&](const question::Reply& reply) { answer = reply.answer; });
     program.ask("0", query);
     program.drain();
-  };
-}
-
-AskFirstHit ask_engine(const question::EngineInfo& engine, const Scene& scene) {
-  return [first_hit = engine.first_hit(scene)](const Query& query, double max_time, Answer& answer) {
-    first_hit(query, request_until(max_time), answer);
   };
 }
 
@@ -53,18 +46,24 @@ double bits_in_common(const Vec& a, const Vec& b) {
 
 }  // namespace
 
+AskFirstHit asking(const question::EngineInfo& engine, const Scene& scene) {
+  return [first_hit = engine.first_hit(scene)](const Query& query, double max_time, Answer& answer) {
+    first_hit(query, request_until(max_time), answer);
+  };
+}
+
 Rival::Rival(const question::EngineInfo& engine, Precision precision, const RationalScene& scene,
-             const Start& start)
+             const Start& start, question::Listener listener)
     : scene_(oracle::nearest(scene)) {
   AskFirstHit ask;
   if (engine.runs_apart()) {
     question::AnswererOptions options;
-    options.listener = terminal();
+    options.listener = std::move(listener);
     command_ = engine.answerer(options);
     command_->set_scene(scene_);
     ask = ask_command(*command_);
   } else {
-    ask = ask_engine(engine, scene_);
+    ask = asking(engine, scene_);
   }
   const Query query = oracle::nearest(start);
   try {
@@ -117,4 +116,4 @@ Vec place_of(const Scene& scene, const oracle::CertifiedCollision& collision) {
   return place;
 }
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::survival

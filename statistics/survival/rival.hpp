@@ -11,15 +11,19 @@
 #include "question/answerer.hpp"
 #include "question/engines.hpp"
 
-namespace lorentz::cli {
+namespace lorentz::survival {
+
+/// An engine of this program as trajectories ask it.
+AskFirstHit asking(const question::EngineInfo& engine, const Scene& scene);
 
 /// A trajectory with the flights of an engine by name (`cmd:` too), from the binary64 nearest to the start,
 /// in the binary64 scene nearest to the scene.
 class Rival {
  public:
-  /// Throws InputError for a start that the engine's trajectory cannot have.
+  /// Throws InputError for a start that the engine's trajectory cannot have. `listener`: is told what became of
+  /// another program.
   Rival(const question::EngineInfo& engine, Precision precision, const RationalScene& scene,
-        const Start& start);
+        const Start& start, question::Listener listener = {});
 
   /// The next certified collision: the rival makes its own, and is compared, as long as it has not diverged.
   void meet(const oracle::CertifiedCollision& truth);
@@ -52,4 +56,4 @@ class Rival {
 /// Where a certified collision is, rounded.
 Vec place_of(const Scene& scene, const oracle::CertifiedCollision& collision);
 
-}  // namespace lorentz::cli
+}  // namespace lorentz::survival

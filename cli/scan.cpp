@@ -1,0 +1,74 @@
+#include "cli/scan.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/exit_status.hpp"
+#include "cli/numbers.hpp"
+#include "cli/output.hpp"
+#include "files/scene_file.hpp"
+#include "files/whole_file.hpp"
+#include "src/exchange/csv_table.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+std::vector<ScanPlace> places_of(const ScanOptions& options, const std::string& what) {
+  std::vector<std::optional<double>> radii;
+  for (const std::string& radius : options.radii) radii.push_back(positive_number(radius, "--radius"));
+  if (radii.empty()) radii.emplace_back();
+  std::vector<ScanPlace> places;
+  for (const std::string& name : options.scenes)
+    for (const std::optional<double>& radius : radii)
+      places.push_back({name, radius, load_crystal(name, radius, what)});
+  return places;
+}
+
+// A table with the same columns before each row.
+std::string with_columns(const std::string& csv, const std::string& names, const std::string& values,
+                         bool is_first) {
+  std::string table;
+  for (std::size_t begin = 0; begin < csv.size();) {
+    const std::size_t end = csv.find('\n', begin) + 1;
+    const bool is_header = begin == 0;
+    if (!is_header || is_first) table += (is_header ? names : values) + csv.substr(begin, end - begin);
+    begin = end;
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<Option> scan_rows(ScanOptions& options, const std::string& rows_of_csv) {
+  return {
+      {"--scene", &options.scenes, "SCENE",
+       "a file, or a name of the catalogue; several, with commas between them, one after the other", kCommas},
+      {"--radius", &options.radii, "R", "radius of every ball; several, with commas between them", kCommas},
+      {"--seed", Whole{&options.seed}, "N", "of the starts"},
+      {"--csv", &options.csv, "FILE",
+       rows_of_csv + ", to a file; of several scenes or radii one table, with both in its first columns",
+       kOutput},
+      {"--json", &options.json, "", "one JSON object a line instead of a table"}};
+}
+
+int scan(const ScanOptions& options, const std::string& what,
+         const std::function<std::optional<ScanFinding>(const ScanPlace&)>& find) {
+  const std::vector<ScanPlace> places = places_of(options, what);
+  RequestedFile csv(options.csv);
+  std::string rows;
+  int status = kDone;
+  for (const ScanPlace& place : places) {
+    const std::optional<ScanFinding> found = find(place);
+    status = found && found->is_whole ? kDone : kFailed;
+    if (!found) break;
+    const bool is_first = &place == &places[0];
+    print((is_first || options.json ? "" : "\n") + found->text);
+    const std::string values =
+        fmt::format("{},{},", csv_field(place.name), place.radius ? fmt::format("{}", *place.radius) : "");
+    rows += places.size() == 1 ? found->csv : with_columns(found->csv, "scene,radius,", values, is_first);
+    if (status != kDone) break;
+  }
+  if (!rows.empty()) csv.write([&] { return rows; });
+  return status;
+}
+
+}  // namespace lorentz::cli

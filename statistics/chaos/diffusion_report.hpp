@@ -1,0 +1,37 @@
+// Mean squared displacements for people and for programs, with theory beside them.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "statistics/chaos/diffusion.hpp"
+#include "statistics/theory/laws.hpp"
+
+namespace lorentz::chaos {
+
+struct DiffusionReport {
+  DiffusionReport(std::string scene_name, DiffusionPlan its_plan, Diffusion what_was_found);
+
+  std::string scene;  ///< its name, as it was asked for
+  DiffusionPlan plan;
+  Diffusion found;
+  std::optional<double> random_walk;  ///< Machta and Zwanzig's coefficient
+  flights::Tail tail;                 ///< of free paths from uniform starts, t -> infinity
+
+  /// False: no particle got beyond its first obstacle, or no part was done. Those that are left after others
+  /// ended are the ones that met nothing.
+  bool has_content() const { return found.particles > 0 && !(found.collisions == 0 && found.stopped > 0); }
+
+  std::string table() const;
+  std::string csv() const;   ///< the displacements, a line each
+  std::string json() const;  ///< one object, in a line
+
+ private:
+  bool is_uniform() const { return plan.from == flights::Ensemble::uniform; }
+  bool has_corridors() const { return tail.open.value_or(false); }
+  Estimate rate(const Displacement& at) const;  ///< MSD / (2 d t)
+  std::string lines_of_coefficient() const;
+  std::string lines_of_theory() const;
+};
+
+}  // namespace lorentz::chaos

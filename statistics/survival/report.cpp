@@ -1,0 +1,115 @@
+// What many trajectories came to, for people, programs, pictures and pages.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "pictures/free_path_plot.hpp"
+#include "report/curves.hpp"
+#include "report/manifest.hpp"
+#include "src/exchange/json_writer.hpp"
+#include "statistics/survival/survival.hpp"
+
+namespace lorentz::survival {
+
+std::string Arithmetic::name(const std::string& engine) const {
+  if (bits == 53) return engine + ", binary64";
+  if (bits == 106) return engine + ", double-double";
+  return fmt::format("{} bits", bits);
+}
+
+double Arithmetic::mean() const {
+  double sum = 0;
+  for (const std::uint64_t collisions : right) sum += static_cast<double>(collisions);
+  return sum / static_cast<double>(right.size());
+}
+
+double Arithmetic::share(std::uint64_t k) const {
+  const auto lasting = std::count_if(right.begin(), right.end(), [k](std::uint64_t n) { return n >= k; });
+  return static_cast<double>(lasting) / static_cast<double>(right.size());
+}
+
+// Up to where a share is shown: its first 0, or the last collision that was looked at.
+std::uint64_t Survival::last_of(const Arithmetic& one) const {
+  return std::min(plan.collisions, *std::max_element(one.right.begin(), one.right.end()) + 1);
+}
+
+std::string Survival::table() const {
+  std::string text =
+      fmt::format("right collisions from {} starts (of {} at most)\n\n", starts(), plan.collisions);
+  text += fmt::format("{:<28} {:>8} {:>8} {:>8}\n", "arithmetic", "mean", "least", "most");
+  for (const Arithmetic& one : arithmetics) {
+    const auto [least, most] = std::minmax_element(one.right.begin(), one.right.end());
+    text +=
+        fmt::format("{:<28} {:>8.2f} {:>8} {:>8}\n", one.name(plan.engine.name), one.mean(), *least, *most);
+  }
+  const bool is_cut = std::any_of(arithmetics.begin(), arithmetics.end(),
+                                  [&](const Arithmetic& one) { return one.share(plan.collisions) > 0; });
+  if (is_cut)
+    text += fmt::format("some starts were right to the end, {} collisions: there the mean is too small\n",
+                        plan.collisions);
+  return text;
+}
+
+std::string Survival::json() const {
+  return json::line_of([&](json::Members& object) {
+    object.add("scene", plan.scene_name, "engine", plan.engine.name, "seed", plan.seed, "count", starts(),
+               "arithmetics",
+               json::objects(arithmetics, [](json::Members& one, const Arithmetic& arithmetic) {
+                 one.add("bits", arithmetic.bits, "mean", json::Raw{fmt::format("{:.6g}", arithmetic.mean())},
+                         "right", arithmetic.right);
+               }));
+  });
+}
+
+std::string Survival::csv() const {
+  std::string text = "collision";
+  for (const Arithmetic& one : arithmetics) text += fmt::format(",bits{}", one.bits);
+  text += '\n';
+  std::uint64_t last = 0;
+  for (const Arithmetic& one : arithmetics) last = std::max(last, last_of(one));
+  for (std::uint64_t k = 1; k <= last; ++k) {
+    text += std::to_string(k);
+    for (const Arithmetic& one : arithmetics) text += fmt::format(",{}", one.share(k));
+    text += '\n';
+  }
+  return text;
+}
+
+std::string Survival::svg() const {
+  pictures::FreePathPlot plot;
+  plot.title = fmt::format("trajectories that are still right: {}", plan.scene_name);
+  plot.axes = pictures::AxisScale::linear;
+  plot.t_label = "collisions";
+  plot.value_label = "share of starts";
+  for (const Arithmetic& one : arithmetics) {
+    pictures::PlotSeries series{one.name(plan.engine.name), {}};
+    for (std::uint64_t k = 1; k <= last_of(one); ++k)
+      series.points.push_back({static_cast<double>(k), one.share(k), 0});
+    plot.series.push_back(std::move(series));
+  }
+  return pictures::draw_free_paths(plot);
+}
+
+std::string Survival::page_json(const std::string& command) const {
+  const std::size_t count = starts();
+  std::vector<report::SurvivalCurve> curves;
+  std::string line = fmt::format("{} starts; right collisions, the mean:", count);
+  for (const Arithmetic& one : arithmetics) {
+    report::SurvivalCurve curve{plan.scene_name, one.name(plan.engine.name), plan.radius, {}};
+    for (std::uint64_t k = 1; k <= last_of(one); ++k) {
+      const double share = one.share(k);
+      const auto right = static_cast<std::size_t>(std::llround(share * static_cast<double>(count)));
+      curve.points.push_back({k, share, report::share_of(right, count)});
+    }
+    line += fmt::format("{} {:.3g} in {}", &one == &arithmetics[0] ? "" : ",", one.mean(),
+                        one.name(plan.engine.name));
+    curves.push_back(std::move(curve));
+  }
+  return json::line_of([&](json::Members& page) {
+    page.add("format", 1, "kind", "survival", "title", "How long trajectories stay right: " + plan.scene_name,
+             "line", line, "manifest", report::manifest_of(plan.seed, command), "survival", curves);
+  });
+}
+
+}  // namespace lorentz::survival
