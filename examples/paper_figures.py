@@ -16,24 +16,24 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from lorentz import Outcome
+from matplotlib.axes import Axes
 
 SEED = 20161115
 LATTICES = ("square", "superposition-pi-5", "superposition-pi-5-pi-7")
 
 
-def axes(x_label, y_label):
+def axes(x_label: str, y_label: str) -> Axes:
     ax = plt.subplots(figsize=(6, 4.2), layout="constrained")[1]
     ax.set_xlabel(x_label)
     ax.set_ylabel(y_label)
     return ax
 
 
-def first_free_flight(count=3_000_000, radius=1e-4):
+def first_free_flight(count: int = 3_000_000, radius: float = 1e-4) -> Axes:
     """Its density falls like t^-2, t^-3, t^-4: the paper's lines beside the histograms."""
     ax = axes("first free flight t", "density")
     for number, name in enumerate(LATTICES, start=1):
-        paths = lorentz.flights(name, count, radius, seed=SEED)
+        paths = lorentz.flights(name, radius, count=count, seed=SEED)
         enough = paths.counts[1:-1] >= 10
         t = np.sqrt(paths.edges[1:] * paths.edges[:-1])[enough]
         density = paths.density()[enough]
@@ -46,20 +46,19 @@ def first_free_flight(count=3_000_000, radius=1e-4):
     return ax
 
 
-def first_disc_over_directions(count=90_000, radius=0.1):
+def first_disc_over_directions(count: int = 90_000, radius: float = 0.1) -> Axes:
     """From the paper's example, x = (0, 0.445): near discs hide most, far ones stand in corridors between."""
     degrees = np.linspace(0, 90, count, endpoint=False)
     v = np.column_stack([np.cos(np.radians(degrees)), np.sin(np.radians(degrees))])
-    x = np.broadcast_to([0, 0.445], v.shape)
-    answers = lorentz.first_hit("square", x, v, radius, engine="certified-batch")
-    hits = answers.outcome == Outcome.HIT
+    answers = lorentz.first_hit("square", [0, 0.445], v, radius)
+    hits = answers.hit
     ax = axes("direction, degrees", "distance of the first disc")
     ax.semilogy(degrees[hits], answers.time[hits], ",", color=lorentz.plot.FLIGHT)
     ax.set_title(f"{len(np.unique(answers.cell[hits], axis=0))} discs")
     return ax
 
 
-def time_against_radius(dimension=2, count=2000):
+def time_against_radius(dimension: int = 2, count: int = 2000) -> Axes:
     """Means over the same drawn flights; classical grows like 1 / r."""
     radii = np.geomspace(1e-1, 1e-3, 7)
     ax = axes("radius", "time of a query, s")
@@ -70,7 +69,7 @@ def time_against_radius(dimension=2, count=2000):
     return ax
 
 
-def mean_time(scene, engine, count):
+def mean_time(scene: lorentz.Scene, engine: str, count: int) -> float:
     x, v, _ = lorentz.draw_starts(scene, count, seed=SEED)
     ready = lorentz.Engine(scene, engine)
     ready.first_hit(x[:100], v[:100])
@@ -79,7 +78,7 @@ def mean_time(scene, engine, count):
     return (time.process_time() - begin) / count
 
 
-def main(folder):
+def main(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for figure in (first_free_flight, first_disc_over_directions, time_against_radius):
         file = folder / f"figure-{figure.__name__.replace('_', '-')}.svg"

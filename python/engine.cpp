@@ -12,8 +12,8 @@ namespace {
 
 // Rows that are flown together: so few that they stay in the cache, so many that threads have enough; and of
 // engines that take their time with each row, so few that Ctrl-C does not wait.
-std::size_t rows_together(const question::EngineInfo& engine, int threads) {
-  return engine.traits.in_bulk ? std::size_t{4096} * static_cast<std::size_t>(threads) : 16;
+std::size_t rows_together(const question::EngineInfo& engine, int jobs) {
+  return engine.traits.in_bulk ? std::size_t{4096} * static_cast<std::size_t>(jobs) : 16;
 }
 
 std::string shape_text(const py::array& array) {
@@ -55,18 +55,21 @@ void copy_vectors(const py::array& array, std::size_t first, std::size_t count,
 }
 
 // A column engine.
-question::EngineInfo checked(const std::string& name, int threads) {
+question::EngineInfo checked(const std::string& name, int jobs) {
   question::EngineInfo engine = own_engine(name);
-  if (threads < 1 || threads > 1024) throw InputError("threads: needs a number from 1 to 1024");
-  if (threads > 1 && !engine.traits.in_bulk)
-    throw InputError("threads: only the engines batch and certified-batch use more than one");
+  if (jobs < 1 || jobs > 1024) throw InputError("jobs: needs a number from 1 to 1024");
+  if (jobs > 1 && !engine.traits.in_bulk)
+    throw InputError("jobs: only the engines batch and certified-batch use more than one thread");
   return engine;
 }
 
+// What is wrong with the first row from reason `begin` on that is an error.
 void refuse_first(const AnswerRows& answers, std::size_t begin) {
-  for (std::size_t i = begin; i < answers.reasons.size(); ++i)
-    if (const AnswerRows::Reason& reason = answers.reasons[i]; !reason.unsupported)
-      throw InputError("row " + std::to_string(reason.row) + ": " + reason.message);
+  if (begin == answers.reasons.size()) return;
+  const AnswerRows::Reason& reason = answers.reasons[begin];
+  const std::string text = "row " + std::to_string(reason.row) + ": " + reason.message;
+  if (reason.unsupported) throw UnsupportedError(text);
+  throw InputError(text);
 }
 
 }  // namespace
@@ -120,11 +123,11 @@ void QueryArrays::copy(std::size_t first, std::size_t most, QueryRows& rows) con
     rows.large_from.emplace_back(one->first - first, one->second);
 }
 
-PyEngine::PyEngine(const PyScene& scene, const std::string& name, std::optional<double> max_time, int threads)
-    : info_(checked(name, threads)),
+PyEngine::PyEngine(const PyScene& scene, const std::string& name, std::optional<double> max_time, int jobs)
+    : info_(checked(name, jobs)),
       dimension_(scene.dimension()),
-      together_(rows_together(info_, threads)),
-      engine_(info_, scene.scene(), max_time, threads) {}
+      together_(rows_together(info_, jobs)),
+      engine_(info_, scene.scene(), max_time, jobs) {}
 
 std::shared_ptr<AnswerRows> PyEngine::first_hit(const QueryArrays& queries, bool refuse,
                                                 std::shared_ptr<AnswerRows> out) {

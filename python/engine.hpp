@@ -38,7 +38,7 @@ struct QueryArrays {
 class PyEngine {
  public:
   /// Throws InputError for an unknown engine, or a number of threads that it does not use.
-  PyEngine(const PyScene& scene, const std::string& name, std::optional<double> max_time, int threads);
+  PyEngine(const PyScene& scene, const std::string& name, std::optional<double> max_time, int jobs);
 
   /// All answers. Lets other threads of Python run, and looks for Ctrl-C now and then. Throws InputError,
   /// naming the row, for the first that is no query, if `refuse`; else such rows are errors.

@@ -69,9 +69,7 @@ void bind_first_hit(py::module_& module) {
       return column((self.cast<const AnswerRows&>().*member).data(), self);
     };
   };
-  py::class_<AnswerRows, Answers>(module, "Answers",
-                                  "First hits in columns: read-only views of what the engine wrote, without "
-                                  "a copy. lorentz.first_hit says what they are.")
+  py::class_<AnswerRows, Answers>(module, "Answers", "Memory of lorentz.Answers.")
       .def("__len__", [](const AnswerRows& answers) { return answers.count; })
       .def_readonly("dimension", &AnswerRows::dimension)
       .def_property_readonly("outcome", outcome)
@@ -90,7 +88,7 @@ void bind_first_hit(py::module_& module) {
 
   py::class_<PyEngine>(module, "Engine")
       .def(py::init<const PyScene&, const std::string&, std::optional<double>, int>(), py::arg("scene"),
-           py::arg("name"), py::arg("max_time"), py::arg("threads"))
+           py::arg("name"), py::arg("max_time"), py::arg("jobs"))
       .def_property_readonly("name", &PyEngine::name)
       .def(
           "first_hit",

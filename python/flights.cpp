@@ -17,10 +17,10 @@ py::array_t<Number> array_of(const std::vector<Number>& numbers) {
 }
 
 // Flies while other threads of Python run; Ctrl-C ends it.
-void fly(const flights::FlightsPlan& plan, unsigned threads, flights::Account& account) {
+void fly(const flights::FlightsPlan& plan, unsigned jobs, flights::Account& account) {
   std::atomic<bool> stop = false;
   flights::FlightBounds bounds;
-  bounds.jobs = threads, bounds.stop = &stop;
+  bounds.jobs = jobs, bounds.stop = &stop;
   {
     const py::gil_scoped_release release;
     flights::run(plan, bounds, account, [&](const flights::Account&) {
@@ -33,16 +33,16 @@ void fly(const flights::FlightsPlan& plan, unsigned threads, flights::Account& a
 
 // What `lorentz flights --json` says, and its counts: bins, and paths beyond each edge.
 py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::string& start, std::uint64_t seed,
-                     const std::string& engine, unsigned threads) {
+                     const std::string& engine, unsigned jobs) {
   own_engine(engine);
   if (count < 1 || count > std::uint64_t{1} << 52) throw InputError("count: needs a number from 1 to 2^52");
-  if (threads < 1 || threads > 1024) throw InputError("threads: needs a number from 1 to 1024");
+  if (jobs < 1 || jobs > 1024) throw InputError("jobs: needs a number from 1 to 1024");
   flights::FlightsReport report;
-  report.plan.scene = scene.scene(), report.plan.engine = engine,
+  report.plan.scene = scene.crystal("flights are counted"), report.plan.engine = engine,
   report.plan.from = starts::ensemble_named(start, "start");
   report.plan.seed = seed, report.plan.count = count;
   report.account = flights::Account::begun(report.plan);
-  fly(report.plan, threads, report.account);
+  fly(report.plan, jobs, report.account);
   const flights::FlightsFindings found(report);
   return py::make_tuple(report.json(), array_of(found.edges), array_of(found.counts), array_of(found.beyond));
 }
@@ -64,7 +64,7 @@ std::pair<std::optional<double>, std::string> mean_free_path(const PyScene& scen
 
 void bind_flights(py::module_& module) {
   module.def("flights", flights_of, py::arg("scene"), py::arg("count"), py::arg("start"), py::arg("seed"),
-             py::arg("engine"), py::arg("threads"));
+             py::arg("engine"), py::arg("jobs"));
   module.def("laws", laws_of, py::arg("scene"), py::arg("start"), py::arg("times"));
   module.def("mean_free_path", mean_free_path, py::arg("scene"));
 }

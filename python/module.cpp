@@ -24,6 +24,10 @@ void bind_errors(py::module_& module) {
       module, "FileError", py::make_tuple(error, py::reinterpret_borrow<py::object>(PyExc_OSError)));
   file_error.attr("__module__") = "lorentz";
   file_error.attr("__doc__") = "A file that cannot be opened, read or written.";
+  static py::exception<UnsupportedError> unsupported(module, "UnsupportedError", error);
+  unsupported.attr("__module__") = "lorentz";
+  unsupported.attr("__doc__") =
+      "A good question, but not for this engine. The text says what it does not do.";
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
@@ -32,7 +36,7 @@ void bind_errors(py::module_& module) {
     } catch (const InputError& failure) {
       error(text_of(failure).c_str());
     } catch (const UnsupportedError& failure) {
-      error(text_of(failure).c_str());
+      unsupported(text_of(failure).c_str());
     } catch (const std::invalid_argument& failure) {
       error(text_of(failure).c_str());
     }
@@ -58,4 +62,5 @@ PYBIND11_MODULE(_lorentz, module) {
   bind_horizon(module);
   bind_golden(module);
   bind_judge(module);
+  bind_statistics(module);
 }

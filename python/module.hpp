@@ -22,5 +22,6 @@ void bind_flights(py::module_& module);
 void bind_horizon(py::module_& module);
 void bind_golden(py::module_& module);
 void bind_judge(py::module_& module);
+void bind_statistics(py::module_& module);
 
 }  // namespace lorentz::python

@@ -10,6 +10,7 @@
 #include "python/signals.hpp"
 #include "question/engines.hpp"
 #include "starts/free_starts.hpp"
+#include "statistics/survival/rival.hpp"
 
 namespace lorentz::python {
 namespace {
@@ -18,11 +19,24 @@ constexpr double kForEver = std::numeric_limits<double>::infinity();
 
 // ---- Particles
 
-// Collisions in rows, a particle each; what did not happen is 0, its numbers NaN.
+// Which collisions of C are kept: every k-th, or the last alone (k = 0).
+struct Kept {
+  std::size_t collisions, every;
+
+  std::size_t columns() const {
+    return every > 0 ? collisions / every : std::min<std::size_t>(collisions, 1);
+  }
+  std::optional<std::size_t> column_of(std::size_t collision) const {  // from 1 on
+    if (every == 0) return 0;
+    return collision % every == 0 ? std::optional(collision / every - 1) : std::nullopt;
+  }
+};
+
+// Kept collisions in rows, a particle each; what did not happen is 0, its numbers NaN.
 struct Paths {
-  Paths(std::size_t particles, std::size_t collisions, int dimension)
-      : particles(particles), collisions(collisions), dimension(dimension) {
-    const std::size_t all = particles * collisions, components = all * static_cast<std::size_t>(dimension);
+  Paths(std::size_t particles, Kept kept, int dimension)
+      : particles(particles), kept(kept), columns(kept.columns()), dimension(dimension) {
+    const std::size_t all = particles * columns, components = all * static_cast<std::size_t>(dimension);
     const double none = std::numeric_limits<double>::quiet_NaN();
     time.resize(all, none), place.resize(components, none), velocity.resize(components, none);
     lattice.resize(all), atom.resize(all), cell.resize(components);
@@ -30,17 +44,21 @@ struct Paths {
   }
 
   void set(std::size_t i, const Scene& scene, const Particle& particle) {
-    const std::size_t k = i * collisions + particle.collisions - 1;
+    count[i] = static_cast<std::int64_t>(particle.collisions);
+    const std::optional<std::size_t> column = kept.column_of(particle.collisions);
+    if (!column) return;
+    const std::size_t k = i * columns + *column;
     time[k] = particle.time, lattice[k] = particle.lattice, atom[k] = particle.atom;
     const Vec at = place_of(scene, particle);
     for (int c = 0; c < dimension; ++c) {
       const std::size_t n = k * static_cast<std::size_t>(dimension) + static_cast<std::size_t>(c);
       place[n] = at[c], velocity[n] = particle.velocity[c], cell[n] = particle.cell[c];
     }
-    count[i] = static_cast<std::int64_t>(particle.collisions);
   }
 
-  std::size_t particles, collisions;
+  std::size_t particles;
+  Kept kept;
+  std::size_t columns;
   int dimension;
   std::vector<double> time, place, velocity;
   std::vector<std::int32_t> lattice, atom;
@@ -54,6 +72,7 @@ std::vector<Query> starts_of(const QueryArrays& arrays, const Scene& scene) {
   QueryRows rows;
   arrays.copy(0, arrays.count(), rows);
   std::vector<Query> starts;
+  starts.reserve(rows.count);
   for (std::size_t i = 0; i < rows.count; ++i) {
     starts.push_back(rows.query(i, scene.dimension));
     if (auto flaw = flaw_of(starts[i], scene)) throw InputError("row " + std::to_string(i) + ": " + *flaw);
@@ -63,7 +82,7 @@ std::vector<Query> starts_of(const QueryArrays& arrays, const Scene& scene) {
 
 void follow_together(const Scene& scene, const std::vector<Query>& starts, double until, Precision precision,
                      Paths& paths) {
-  if (const auto why_not = Reduction::beyond(scene)) throw InputError("the engine batch " + *why_not);
+  if (const auto why_not = Reduction::beyond(scene)) throw UnsupportedError("the engine batch " + *why_not);
   const Batch engine(scene);
   Particles particles(engine, scene, precision);
   for (const Query& start : starts) particles.add(start);
@@ -72,28 +91,20 @@ void follow_together(const Scene& scene, const std::vector<Query>& starts, doubl
     return true;
   };
   SignalWatch watch;
-  for (std::size_t k = 0; k < paths.collisions && particles.advance(until, visit) > 0; ++k) watch.look();
+  for (std::size_t k = 0; k < paths.kept.collisions && particles.advance(until, visit) > 0; ++k) watch.look();
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const Stop stop = particles.stop(i);
     paths.stop[i] = static_cast<std::uint8_t>(stop == Stop::none ? Stop::collisions : stop);
   }
 }
 
-AskFirstHit asked(const question::EngineInfo& engine, const Scene& scene) {
-  return [first_hit = engine.first_hit(scene)](const Query& query, double max_time, Answer& answer) {
-    oracle::Request request;
-    if (max_time < kForEver) request.max_time = max_time;
-    first_hit(query, request, answer);
-  };
-}
-
 void follow_one_by_one(const question::EngineInfo& engine, const Scene& scene,
                        const std::vector<Query>& starts, double until, Precision precision, Paths& paths) {
-  const AskFirstHit ask = asked(engine, scene);
+  const AskFirstHit ask = survival::asking(engine, scene);
   SignalWatch watch;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     Trajectory trajectory(ask, scene, starts[i], precision);
-    const Stop stop = trajectory.run(paths.collisions, until, [&](const Trajectory& now) {
+    const Stop stop = trajectory.run(paths.kept.collisions, until, [&](const Trajectory& now) {
       paths.set(i, scene, now.state());
       watch.look();
       return true;
@@ -102,11 +113,11 @@ void follow_one_by_one(const question::EngineInfo& engine, const Scene& scene,
   }
 }
 
-std::shared_ptr<Paths> follow(const PyScene& scene, const QueryArrays& arrays, std::size_t collisions,
-                              double until, const std::string& engine, bool double_double) {
+std::shared_ptr<Paths> follow(const PyScene& scene, const QueryArrays& arrays, Kept kept, double until,
+                              const std::string& engine, bool double_double) {
   const question::EngineInfo info = own_engine(engine);
   const std::vector<Query> starts = starts_of(arrays, scene.scene());
-  auto paths = std::make_shared<Paths>(starts.size(), collisions, scene.dimension());
+  auto paths = std::make_shared<Paths>(starts.size(), kept, scene.dimension());
   const Precision precision = double_double ? Precision::double_double : Precision::binary64;
   const py::gil_scoped_release release;
   if (info.traits.in_bulk && !info.traits.is_exact)
@@ -215,7 +226,7 @@ auto array_of(std::vector<Number> Paths::*member, ArrayShape shape) {
   return [=](const py::object& self) {
     const auto& paths = self.cast<const Paths&>();
     std::vector<std::size_t> lengths{paths.particles};
-    if (shape != ArrayShape::particles) lengths.push_back(paths.collisions);
+    if (shape != ArrayShape::particles) lengths.push_back(paths.columns);
     if (shape == ArrayShape::vectors) lengths.push_back(static_cast<std::size_t>(paths.dimension));
     return shown(paths.*member, lengths, self);
   };
@@ -224,9 +235,7 @@ auto array_of(std::vector<Number> Paths::*member, ArrayShape shape) {
 }  // namespace
 
 void bind_paths(py::module_& module) {
-  py::class_<Paths, std::shared_ptr<Paths>>(module, "Paths",
-                                            "Collisions of N particles, C of each: read-only views, without "
-                                            "a copy. lorentz.trajectories says what they are.")
+  py::class_<Paths, std::shared_ptr<Paths>>(module, "Paths", "Memory of lorentz.Paths.")
       .def("__len__", [](const Paths& paths) { return paths.particles; })
       .def_readonly("dimension", &Paths::dimension)
       .def_property_readonly("count", array_of(&Paths::count, ArrayShape::particles))
@@ -240,12 +249,13 @@ void bind_paths(py::module_& module) {
   module.def(
       "follow",
       [](const PyScene& scene, Numbers x, Numbers v, const py::object& from, std::size_t collisions,
-         double until, const std::string& engine, bool double_double) {
-        return follow(scene, QueryArrays::of(std::move(x), std::move(v), std::nullopt, from), collisions,
-                      until, engine, double_double);
+         std::size_t every, double until, const std::string& engine, bool double_double) {
+        return follow(scene, QueryArrays::of(std::move(x), std::move(v), std::nullopt, from),
+                      {collisions, every}, until, engine, double_double);
       },
       py::arg("scene"), py::arg("x"), py::arg("v"), py::arg("start_from"), py::arg("collisions"),
-      py::arg("until"), py::arg("engine"), py::arg("double_double"));
+      py::arg("every"), py::arg("until"), py::arg("engine"), py::arg("double_double"));
+  module.attr("BYTES_OF_START") = sizeof(Query) + sizeof(Particle) + sizeof(Stop) + sizeof(std::size_t);
   module.def("itinerary", itinerary, py::arg("scene"), py::arg("start"), py::arg("collisions"),
              py::arg("time"), py::arg("digits"), py::arg("states"), py::arg("most_bits"));
   module.def("draw", draw, py::arg("scene"), py::arg("count"), py::arg("kind"), py::arg("seed"),

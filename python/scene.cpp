@@ -9,7 +9,7 @@
 namespace lorentz::python {
 namespace {
 
-Scene checked(Scene scene) {
+Scene independent(Scene scene) {
   if (auto flaw = oracle::dependence_in(scene)) throw InputError(*flaw);
   return scene;
 }
@@ -73,17 +73,24 @@ PyScene PyScene::either(const ReadBinary64& binary64, const ReadRational& ration
 }
 
 PyScene PyScene::from_json(const std::string& text) {
-  return either([&] { return checked(read_scene(text)); }, [&] { return read_rational_scene(text); });
+  return either([&] { return independent(read_scene(text)); }, [&] { return read_rational_scene(text); });
 }
 
 PyScene PyScene::load(const std::string& name_or_file) {
   const std::string file = find_scene(name_or_file);
   try {
-    return either([&] { return checked(read_scene_file(file, refuse_key)); },
+    return either([&] { return independent(read_scene_file(file, refuse_key)); },
                   [&] { return read_rational_scene_file(file, refuse_key); });
   } catch (const InputError& error) {
     throw InputError(name_or_file + ": " + error.what());
   }
+}
+
+const Scene& PyScene::crystal(const std::string& what) const {
+  if (!is_crystal(scene()))
+    throw InputError("scene: " + what +
+                     " in crystals only; this one has lattices that repeat in fewer directions");
+  return scene();
 }
 
 const Scene& PyScene::nearest() const {

@@ -28,6 +28,10 @@ class PyScene {
   /// Throws InputError if that is not so.
   const Scene& scene() const;
 
+  /// The same of lattices in all directions. Throws InputError for another: `what` ("flights are counted") is done in
+  /// crystals only.
+  const Scene& crystal(const std::string& what) const;
+
   /// With every number rounded, if need be. Throws InputError where that is no scene: a number beyond the
   /// range of binary64, a radius that becomes 0, vectors that become dependent.
   const Scene& nearest() const;

@@ -1,35 +1,45 @@
 """The periodic Lorentz gas, exactly: which obstacle is hit first?
 
 `first_hit` answers for arrays, `oracle` exactly, one question at a time; `trajectories` and `itinerary` follow
-particles, `flights` counts free paths, `horizon` finds the ways that are free for ever; `judge` says what an
-engine gets wrong, and `golden` has what breaks them. docs/python.md shows all of it.
+particles, `flights` counts free paths, `lyapunov`, `diffusion` and `survival` are statistics of trajectories, `horizon`
+finds the ways that are free for ever; `judge` says what an engine gets wrong, and `golden` has what breaks them. docs/python.md shows all of it.
 """
 
 from __future__ import annotations
 
 import os as _os
+from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from . import _lorentz
 from ._answer import Answer, ExactTime, hit, inside, never, undecided, unsupported
-from ._first_hit import Engine, Outcome, engines, first_hit
+from ._answers import Answers, Outcome
+from ._first_hit import Engine, engines, first_hit
 from ._flights import FreePaths, flights, horizon, laws, mean_free_path
 from ._golden import GoldenRecord, GoldenSet, golden, golden_sets
 from ._judge import judge
-from ._lorentz import Answers, Certificate, Error, FileError, Paths
+from ._lorentz import Certificate, Error, FileError, UnsupportedError
 from ._numbers import Number, Obstacle, Vector
-from ._paths import STOPS, CertifiedCollision, Itinerary, Starts, draw_starts, itinerary, trajectories
+from ._paths import (STOPS, CertifiedCollision, Itinerary, Paths, Starts, draw_starts, itinerary,
+                     memory_of_trajectories, trajectories)
 from ._scene import Scene, SceneLike, catalogue, unit_scene
+from ._statistics import (Diffusion, Estimate, Lyapunov, Survival, diffusion, lyapunov, scan,
+                          survival)
 from . import oracle
 from .oracle import judge_answer
+
+if _TYPE_CHECKING:  # imported when it is first named: it needs Matplotlib, nothing else does
+    from . import plot
 
 __version__: str = _lorentz.VERSION
 
 __all__ = [
-    "Answer", "Answers", "Certificate", "CertifiedCollision", "Engine", "Error", "ExactTime", "FileError",
-    "FreePaths", "GoldenRecord", "GoldenSet", "Itinerary", "Number", "Obstacle", "Outcome", "Paths", "STOPS",
-    "Scene", "SceneLike", "Starts", "Vector", "catalogue", "draw_starts", "engines", "first_hit", "flights",
-    "golden", "golden_sets", "hit", "horizon", "inside", "itinerary", "judge", "judge_answer", "laws",
-    "mean_free_path", "never", "oracle", "plot", "trajectories", "undecided", "unit_scene", "unsupported",
+    "Answer", "Answers", "Certificate", "CertifiedCollision", "Diffusion", "Engine", "Error", "Estimate",
+    "ExactTime", "FileError", "FreePaths", "GoldenRecord", "GoldenSet", "Itinerary", "Lyapunov", "Number",
+    "Obstacle", "Outcome", "Paths", "STOPS", "Scene", "SceneLike", "Starts", "Survival", "UnsupportedError",
+    "Vector", "catalogue", "diffusion", "draw_starts", "engines", "first_hit", "flights", "golden", "golden_sets",
+    "hit", "horizon", "inside", "itinerary", "judge", "judge_answer", "laws", "lyapunov", "mean_free_path",
+    "memory_of_trajectories", "never", "oracle", "plot", "scan", "survival", "trajectories", "undecided",
+    "unit_scene", "unsupported",
 ]
 
 # Scenes and golden sets: those in the package itself (pip's), or beside it, as Debian has them.
@@ -40,7 +50,7 @@ for _folder in (_os.path.join(_here, "data"), _os.path.join(_here, "..", "..", "
 
 
 def __getattr__(name: str) -> object:
-    """`lorentz.plot` when it is first named: it needs Matplotlib, nothing else does."""
+    """`lorentz.plot`."""
     if name == "plot":
         import importlib
 

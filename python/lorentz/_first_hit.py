@@ -2,42 +2,30 @@
 
 from __future__ import annotations
 
-from enum import IntEnum
 from typing import Any, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _lorentz
-from ._lorentz import Answers, Error
-from ._numbers import integer, rational, whole
+from ._answers import Answers, Floats, Outcome
+from ._lorentz import Error
+from ._numbers import integer, rational, whole, word
 from ._scene import SceneLike, native
 
-Floats = npt.NDArray[np.float64]
 #: What queries leave: None, one obstacle (lattice, atom, cell) of all, or columns of the three; a lattice
 #: below 0 means none; or a list of N obstacles and None. Answers will do: then each query leaves what was hit.
 StartFrom = Union[None, Answers, tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike], list[Any]]
 
 
-class Outcome(IntEnum):
-    """The codes of ``Answers.outcome`` (docs/formats.md)."""
-
-    HIT = 0
-    NEVER = 1
-    INSIDE = 2
-    LATER = 3
-    UNDECIDED = 4
-    ERROR = 5
-
-
 class Engine:
-    """An engine made ready for one scene: for who asks about it in many small arrays.
+    """An engine made ready for one scene: for many small arrays.
 
     Args:
         scene: whatever `Scene` takes.
-        name: one of `engines`. ``batch`` is the fastest, and says UNDECIDED where it does not know;
-            ``certified-batch`` is always exact, at nearly the same speed; ``oracle`` is the exact one.
-        threads: for ``batch`` and ``certified-batch``; the answers are the same, to the bit.
+        name: one of `engines`. ``certified-batch`` is always exact; ``batch`` is a little faster, and says
+            UNDECIDED where it does not know; ``oracle`` is the exact one.
+        jobs: threads, of ``batch`` and ``certified-batch``; the answers are the same, to the bit.
 
     Any number of threads may use one; they wait for each other.
 
@@ -45,11 +33,12 @@ class Engine:
         Error: an unknown engine; a scene whose numbers are not all floats.
     """
 
-    def __init__(self, scene: SceneLike, name: str = "batch", *, threads: int = 1) -> None:
+    def __init__(self, scene: SceneLike, name: str = "certified-batch", *, jobs: int = 1) -> None:
         self._scene = native(scene)
-        if not isinstance(name, str):
-            raise Error(f"engine: {name!r} is no name")
-        self._engine = _lorentz.Engine(self._scene, name, None, whole(threads, "threads", 1, 1024))
+        self._engine = _lorentz.Engine(self._scene, word(name, "engine"), None, whole(jobs, "jobs", 1, 1024))
+
+    def __repr__(self) -> str:
+        return f"Engine({self._engine.name!r}, {self._scene.dimension}D)"
 
     def first_hit(self, x: npt.ArrayLike, v: npt.ArrayLike, *, max_time: npt.ArrayLike | None = None,
                   start_from: StartFrom = None, on_error: str = "raise", out: Answers | None = None) -> Answers:
@@ -59,48 +48,48 @@ class Engine:
             out: Answers of as many queries, which are written over and returned, with what looks at them: new
                 memory costs as much as some of the flights. After an exception all of its outcomes are ERROR.
         """
-        if on_error not in ("raise", "mark"):
-            raise Error(f'on_error: "{on_error}" is none; there are "raise" and "mark"')
-        if out is not None and not isinstance(out, Answers):
-            raise Error(f"out: {type(out).__name__} is no Answers")
-        positions, velocities = _vectors(x, "x"), _vectors(v, "v")
+        if word(on_error, "on_error") not in ("raise", "mark"):
+            raise Error(f'on_error: "{on_error}" is unknown; expected "raise" or "mark"')
+        if out is not None and (not isinstance(out, Answers) or out._native is None):
+            raise Error(f"out: needs the Answers of an earlier call, whole; got {type(out).__name__}")
+        positions, velocities = vectors_of(x, v, self._scene.dimension)
         count = len(positions)
         limits = None if max_time is None else _limits(max_time, count)
-        return self._engine.first_hit(positions, velocities, limits,
-                                      _columns(start_from, count, self._scene), on_error == "raise", out)
+        rows = self._engine.first_hit(positions, velocities, limits, _columns(start_from, count, self._scene),
+                                      on_error == "raise", None if out is None else out._native)
+        return Answers(rows) if out is None else out
 
 
 def first_hit(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, radius: float | None = None, *,
-              engine: str = "batch", threads: int = 1, max_time: npt.ArrayLike | None = None,
+              engine: str = "certified-batch", jobs: int = 1, max_time: npt.ArrayLike | None = None,
               start_from: StartFrom = None, on_error: str = "raise") -> Answers:
     """Which obstacle is hit first, and when?
 
     Args:
         scene: whatever `Scene` takes: a Scene, a dict, a file, a name of the catalogue.
-        x: places, shape (N, d), in the scene's unit of length. Any layout; nothing is copied as a whole.
-        v: velocities, shape (N, d), of any length but 0.
+        x: places, shape (N, d) or (d,), in the scene's unit of length. Any layout; nothing is copied as a whole.
+        v: velocities, shape (N, d) or (d,), of any length but 0. One place and many velocities, or the other way
+            round, are broadcast.
         radius: every ball gets this radius.
-        engine, threads: as in `Engine`.
+        engine, jobs: as in `Engine`.
         max_time: a number, or shape (N,): the outcome is LATER where nothing is entered before.
         start_from: the obstacle that a query leaves, which it ignores: see `StartFrom`.
-        on_error: ``"raise"``, or ``"mark"``: then a row that is no query has the outcome ERROR.
+        on_error: ``"raise"``, or ``"mark"``: then a row that is not a query, or that the engine does not do, has
+            the outcome ERROR.
 
     Returns:
-        Answers, in columns of N: ``outcome`` (codes of `Outcome`), ``lattice``, ``atom``, ``cell`` (N, d) of
-        what is hit (or contains x), ``time`` in units in which x + t v is the place, NaN without a hit;
-        ``time_is_rounded``: it is known to be correctly rounded; ``stage``: how it was decided
-        (docs/formats.md). They are views of what the engine wrote, read-only. ``large_cells`` has the rows
-        whose cells 64 bits do not hold, ``reasons`` why rows are errors, and whether only unsupported.
+        Answers, in columns of N.
 
     Raises:
-        Error: a row that is no query, by its number (``row 17: v is zero``); shapes that do not fit; an
+        Error: a row that is not a query, by its number (``row 17: v is zero``); shapes that do not fit; an
             unknown engine.
+        UnsupportedError: a row that is a query, but not for this engine.
     """
     from ._scene import Scene
 
     place = scene if radius is None else Scene(scene, radius)
-    return Engine(place, engine, threads=threads).first_hit(x, v, max_time=max_time, start_from=start_from,
-                                                            on_error=on_error)
+    return Engine(place, engine, jobs=jobs).first_hit(x, v, max_time=max_time, start_from=start_from,
+                                                      on_error=on_error)
 
 
 def engines() -> list[str]:
@@ -108,18 +97,31 @@ def engines() -> list[str]:
     return _lorentz.engines()
 
 
-def _vectors(numbers: npt.ArrayLike, name: str) -> Floats:
-    return np.atleast_2d(_floats(numbers, name))
+def vectors_of(x: npt.ArrayLike, v: npt.ArrayLike, dimension: int) -> tuple[Floats, Floats]:
+    """Places and velocities of shape (N, d): one of either, alone, is that of all."""
+    places, velocities = (_rows(floats_of(numbers, name), name, dimension) for numbers, name in ((x, "x"), (v, "v")))
+    count = max(len(places), len(velocities)) if len(places) and len(velocities) else 0
+    for numbers, name in ((places, "x"), (velocities, "v")):
+        if len(numbers) not in (1, count):
+            raise Error(f"{name}: has {len(numbers)} rows, the other {count}; they need as many, or one")
+    return np.broadcast_to(places, (count, dimension)), np.broadcast_to(velocities, (count, dimension))
+
+
+def _rows(numbers: Floats, name: str, dimension: int) -> Floats:
+    if numbers.ndim not in (1, 2) or numbers.shape[-1] != dimension:
+        raise Error(f"{name}: has the shape {numbers.shape}, needs (N, {dimension}) or ({dimension},)")
+    return np.atleast_2d(numbers)
 
 
 def _limits(max_time: npt.ArrayLike, count: int) -> Floats:
-    limits = _floats(max_time, "max_time")
+    limits = floats_of(max_time, "max_time")
     if limits.ndim > 1 or limits.ndim == 1 and limits.shape != (count,):
         raise Error(f"max_time: has the shape {limits.shape}, needs one number or ({count},)")
     return np.broadcast_to(limits, (count,))
 
 
-def _floats(numbers: npt.ArrayLike, name: str) -> Floats:
+def floats_of(numbers: npt.ArrayLike, name: str) -> Floats:
+    """The array of floats that these numbers are. Raises Error for what is not an array of numbers, or would be rounded."""
     if isinstance(numbers, np.ma.MaskedArray):
         raise Error(f"{name}: is a masked array; fill it first")
     try:
@@ -129,18 +131,18 @@ def _floats(numbers: npt.ArrayLike, name: str) -> Floats:
         floats = np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
         raise Error(f"{name}: is no array of numbers: {error}") from None
-    if not _is_kept(numbers, given, floats):
+    if not _is_kept(numbers, given, floats, name):
         raise Error(f"{name}: has numbers that floats would round; lorentz.oracle takes them as they are")
     return floats
 
 
-def _is_kept(numbers: npt.ArrayLike, given: npt.NDArray[Any], floats: Floats) -> bool:
+def _is_kept(numbers: npt.ArrayLike, given: npt.NDArray[Any], floats: Floats, name: str) -> bool:
     """Is every number the float that it became? (Integers beyond 2**53, Fractions and long doubles may not be.)"""
     if isinstance(numbers, (list, tuple)) and given.dtype == np.float64:
         given = np.asarray(numbers, dtype=object)  # what was an int there is a float in `given`
     if given.dtype == object:
         pairs = zip(given.ravel().tolist(), floats.ravel().tolist())
-        return all(isinstance(number, float) or rational(number) == value for number, value in pairs)
+        return all(isinstance(number, float) or rational(number, name) == value for number, value in pairs)
     if given.dtype.kind in "iu" and given.dtype.itemsize == 8:
         return bool((abs(floats) < 2.0**53).all())
     return given.dtype.itemsize <= 8 or bool(((given == floats) | np.isnan(floats)).all())

@@ -11,9 +11,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _lorentz
-from ._first_hit import Floats
+from ._answers import Floats
+from ._first_hit import floats_of
 from ._lorentz import Error
-from ._numbers import Vector, finite, vector, whole
+from ._numbers import Vector, finite, vector, whole, word
 from ._scene import Scene, SceneLike, native
 
 
@@ -21,7 +22,7 @@ def _known(number: float | None) -> float:
     return math.nan if number is None else float(number)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FreePaths:
     """What many free flights came to. Lengths are in the scene's unit, the speed is 1.
 
@@ -52,9 +53,15 @@ class FreePaths:
         """One standard error of it, by chance alone; nan of fewer than two flights."""
         return _known(self.report["mean_error"])
 
-    def survival(self) -> Floats:
+    def survival_function(self) -> Floats:
         """P(path > t) at ``edges``, shape (K,)."""
         return self.beyond / max(self.count - int(self.report["undecided"]), 1)
+
+    @property
+    def mean_free_path(self) -> float | None:
+        """The exact mean from collision to collision, of starts on the obstacles (``surface``), whatever the starts of
+        these flights are; None where no formula is known."""
+        return mean_free_path(self.scene)
 
     def density(self) -> Floats:
         """Of the path, in each bin between two edges, shape (K - 1,)."""
@@ -64,32 +71,45 @@ class FreePaths:
         """P(path > t) at ``edges`` by each law that theory has of the scene, by name."""
         return laws(self.scene, self.edges, start=self.start)
 
+    def to_dict(self) -> dict[str, Any]:
+        """The numbers of the report that are single: one row of a table."""
+        return single_numbers(self.report)
 
-def flights(scene: SceneLike, count: int = 1_000_000, radius: float | None = None, *, start: str = "uniform",
-            seed: int = 20161115, engine: str = "batch", threads: int = 1) -> FreePaths:
+    def __repr__(self) -> str:
+        return f"FreePaths({self.count} flights, start={self.start!r}, mean {self.mean:.6g} +- {self.mean_error:.2g})"
+
+
+def single_numbers(report: dict[str, Any]) -> dict[str, Any]:
+    """What a table has of a report: numbers and texts, without lists of them."""
+    return {key: value for key, value in report.items() if key != "scene" and not isinstance(value, (list, dict))}
+
+
+def flights(scene: SceneLike, radius: float | None = None, *, count: int = 1_000_000, start: str = "uniform",
+            seed: int = 20161115, engine: str = "batch", jobs: int = 1) -> FreePaths:
     """Flies drawn starts, and counts their free paths; constant memory, 10^7 flights a second and thread in 2D.
 
     Args:
+        scene, radius: as of `lorentz.first_hit`.
+        count: how many.
         start: ``uniform`` (anywhere, in any direction), or ``surface`` (off an obstacle by the cosine law:
-            paths from collision to collision).
-        seed: start n depends on scene, start, seed and n alone, and the counts on no number of threads.
+            paths from collision to collision). Their means differ: `mean_free_path` is that of ``surface``.
+        seed: start n depends on scene, start, seed and n alone.
+        engine: ``batch`` leaves a few flights undecided and counts them; ``certified-batch`` leaves none.
+        jobs: threads; the counts are the same.
 
     Source: docs/free_paths.md. Raises Error where the scene leaves nothing free, or the engine cannot fly it.
     """
     place = Scene(scene, radius)
     report, edges, counts, beyond = _lorentz.flights(
-        native(place), whole(count, "count", 1, 2**52), start, whole(seed, "seed", 0, 2**64 - 1), engine,
-        whole(threads, "threads", 1, 1024))
+        native(place), whole(count, "count", 1, 2**52), word(start, "start"), whole(seed, "seed", 0, 2**64 - 1), word(engine, "engine"),
+        whole(jobs, "jobs", 1, 1024))
     return FreePaths(place, start, edges, counts, beyond, json.loads(report))
 
 
 def laws(scene: SceneLike, times: npt.ArrayLike, *, start: str = "uniform") -> dict[str, Floats]:
     """P(path > t) by each law that is known for the scene, by name, in the shape of `times`; often none is."""
-    try:
-        t = np.asarray(times, np.float64)
-    except (TypeError, ValueError) as error:
-        raise Error(f"times: is no array of numbers: {error}") from None
-    return {name: np.asarray(survival) for name, _, survival in _lorentz.laws(native(scene), start, t)}
+    t = floats_of(times, "times")
+    return {name: np.asarray(survival) for name, _, survival in _lorentz.laws(native(scene), word(start, "start"), t)}
 
 
 def mean_free_path(scene: SceneLike, radius: float | None = None) -> float | None:

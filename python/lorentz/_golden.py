@@ -8,7 +8,7 @@ from typing import Iterator
 
 from . import _lorentz
 from ._answer import Answer
-from ._lorentz import Certificate
+from ._lorentz import Certificate, Error
 from ._numbers import Obstacle
 from ._scene import Scene, wrapped
 
@@ -43,6 +43,8 @@ class GoldenSet:
     """
 
     def __init__(self, name_or_file: str | os.PathLike[str]) -> None:
+        if not isinstance(name_or_file, (str, os.PathLike)):
+            raise Error(f"name_or_file: {name_or_file!r} is not the name of a set, or a file")
         reader = _lorentz.GoldenReader(os.fspath(name_or_file))
         self.path, self.name, self.description = reader.path, reader.name, reader.description
         self._count = reader.count

@@ -8,9 +8,9 @@ import os
 from typing import Any, Callable, Iterable, Union
 
 from . import _lorentz
-from ._answer import Answer
-from ._first_hit import Outcome
-from ._lorentz import Answers, Error
+from ._answer import Answer, unsupported
+from ._answers import Answers, Outcome
+from ._lorentz import Error, UnsupportedError
 from ._numbers import Obstacle, claim, finite, integer, whole
 from ._scene import Scene, wrapped
 
@@ -21,7 +21,7 @@ FirstHitFunction = Callable[..., Any]
 
 def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vectorized: bool = False,
           quick: bool = True, time: float | None = None, questions: int | None = None, seed: int = 20161115,
-          threads: int = 1, ulps: float = 4, precision: str = "binary64", time_tolerance: float | None = None,
+          jobs: int = 1, ulps: float = 4, precision: str = "binary64", time_tolerance: float | None = None,
           times: bool = False, html: str | os.PathLike[str] | None = None) -> dict[str, Any]:
     """All that can be said of one engine: what it gets wrong, why, and how fast it is (docs/judge.md).
 
@@ -30,7 +30,7 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
             library (docs/command_engines.md), or a function ``f(scene, x, v, start_from)`` of a `Scene`, a place and a velocity of shape (d,), and the obstacle
             (lattice, atom, cell) that the particle leaves, or None. It returns an `Answer`: `hit`, `never`,
             `inside`, `undecided`, `unsupported`; or arrays of one row, as below. An exception is an error of
-            the engine, and so counted.
+            the engine, and so counted, but an UnsupportedError.
         vectorized: the function takes x and v of shape (N, d), a list of N start_from, and returns N answers,
             or the `Answers` of `first_hit`, or a dict of such columns: ``outcome`` (codes of `Outcome`),
             ``cell`` (N, d), ``time``, ``lattice``, ``atom`` where these are not all 0, and ``reasons``, as
@@ -40,7 +40,7 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
         time: about so many seconds instead.
         questions: the number of questions of each row, instead of a time: every machine asks the same.
         seed: of all that is drawn.
-        threads: of the campaign, if not `questions`; a function of Python runs one at a time all the same.
+        jobs: threads of the campaign, if not `questions`; a function of Python runs one at a time all the same.
         ulps: the tolerance of the verdicts; 0 forgives nothing.
         precision: of the engine's numbers, "binary64" or "binary32": it is asked what consists of such numbers, and an
             ulp is one of them.
@@ -70,7 +70,7 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
     report, text = _lorentz.judge(
         function, called, command, quick, seconds,
         None if questions is None else whole(questions, "questions", 1, 10**9), whole(seed, "seed", 0, 2**64 - 1),
-        whole(threads, "threads", 1, 1024), finite(ulps, "ulps"), times, page,
+        whole(jobs, "jobs", 1, 1024), finite(ulps, "ulps"), times, page,
         *claim(precision, time_tolerance))
     result: dict[str, Any] = json.loads(report)
     if function is not None and function.failed:
@@ -120,12 +120,15 @@ class _Asked:
             lines = [answer.to_line() for answer in _answers(self.function(place, x, v, start_from))]
             if len(lines) == len(x):
                 return lines
-            message = f"{len(lines)} answers to {len(x)} queries"
+            raise Error(f"{len(lines)} answers to {len(x)} queries")
+        except UnsupportedError as error:
+            if len(x) == 1:
+                return [unsupported(str(error)).to_line()]
         except Exception as error:
             message = _message(error)
-        if len(x) == 1:
-            return [_error(message)]
-        self.failed, self.failure = self.failed + 1, self.failure or message
+            if len(x) == 1:
+                return [_error(message)]
+            self.failed, self.failure = self.failed + 1, self.failure or message
         # Which of them is at fault? One by one only those fail that have to.
         return [line for i in range(len(x)) for line in self(scene, x[i:i + 1], v[i:i + 1], start_from[i:i + 1])]
 
@@ -146,15 +149,13 @@ def _line(function: FirstHitFunction, scene: Scene, x: Any, v: Any, start_from: 
         if not isinstance(answer, Answer):
             return _error(f"{type(answer).__name__} is no Answer")
         return answer.to_line()
+    except UnsupportedError as error:
+        return unsupported(str(error)).to_line()
     except Exception as error:
         return _error(_message(error))
 
 
 def _answers(given: Any) -> Iterable[Answer]:
-    if isinstance(given, Answers):
-        columns = {name: getattr(given, name) for name in ("outcome", "lattice", "atom", "time", "reasons")}
-        large = given.large_cells
-        return _answers(columns | {"cell": [large.get(i, cell) for i, cell in enumerate(given.cell.tolist())]})
     if isinstance(given, dict):
         count = len(given["outcome"])
         for name, column in given.items():

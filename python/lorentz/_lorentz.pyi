@@ -8,6 +8,7 @@ import numpy.typing as npt
 VERSION: str
 HAS_PAGE: bool
 STOPS: tuple[str, ...]
+BYTES_OF_START: int
 
 Floats = npt.NDArray[np.float64]
 Obstacle = tuple[int, int, tuple[int, ...]]
@@ -17,6 +18,9 @@ class Error(ValueError):
 
 class FileError(Error, OSError):
     """A file that cannot be opened, read or written."""
+
+class UnsupportedError(Error):
+    """A good question, but not for this engine. The text says what it does not do."""
 
 class Scene:
     @staticmethod
@@ -59,7 +63,7 @@ class Answers:
     def _addresses(self) -> dict[str, int]: ...
 
 class Engine:
-    def __init__(self, scene: Scene, name: str, max_time: float | None, threads: int) -> None: ...
+    def __init__(self, scene: Scene, name: str, max_time: float | None, jobs: int) -> None: ...
     @property
     def name(self) -> str: ...
     def first_hit(
@@ -134,6 +138,7 @@ def follow(
     v: Floats,
     start_from: tuple[Any, Any, Any, list[Any]] | None,
     collisions: int,
+    every: int,
     until: float,
     engine: str,
     double_double: bool,
@@ -143,12 +148,15 @@ def itinerary(
 ) -> dict[str, Any]: ...
 def draw(scene: Scene, count: int, kind: str, seed: int, first: int) -> dict[str, Any]: ...
 def flights(
-    scene: Scene, count: int, start: str, seed: int, engine: str, threads: int
+    scene: Scene, count: int, start: str, seed: int, engine: str, jobs: int
 ) -> tuple[str, Floats, npt.NDArray[np.uint64], npt.NDArray[np.uint64]]: ...
 def laws(scene: Scene, start: str, times: Floats) -> list[tuple[str, str, Floats]]: ...
 def mean_free_path(scene: Scene) -> tuple[float | None, str]: ...
 def horizon(scene: Scene, min_width: float, cylinders: bool) -> tuple[str, str]: ...
 def open_direction(scene: Scene, direction: list[float]) -> str: ...
+def lyapunov(scene: Scene, collisions: int, spectrum: bool, seed: int, jobs: int) -> str: ...
+def diffusion(scene: Scene, count: int, time: float, start: str, seed: int, jobs: int) -> str: ...
+def survival(scene: Scene, count: int, collisions: int, bits: list[int], engine: str, seed: int) -> str: ...
 def golden_sets() -> list[str]: ...
 def judge(
     function: Any,
@@ -158,7 +166,7 @@ def judge(
     time: float | None,
     questions: int | None,
     seed: int,
-    threads: int,
+    jobs: int,
     ulps: float,
     times: bool,
     html: str | None,

@@ -70,6 +70,23 @@ def text(value: Any) -> str:
     return json.dumps(plain(value), allow_nan=False)
 
 
+def word(value: Any, name: str) -> str:
+    """A name. Raises Error for what is not a text."""
+    if not isinstance(value, str):
+        raise Error(f"{name}: {value!r} is not a name")
+    return value
+
+
+def items(values: Any, name: str) -> list[Any]:
+    """A list of what is in a sequence. Raises Error for a single thing."""
+    if isinstance(values, (str, bytes, dict)):
+        raise Error(f"{name}: {values!r} is not a list")
+    try:
+        return list(values)
+    except TypeError:
+        raise Error(f"{name}: {values!r} is not a list") from None
+
+
 def vector(numbers: Any, name: str) -> list[Any]:
     """The components of a place or a velocity. Raises Error where these are none."""
     if isinstance(numbers, (str, bytes, dict)) or np.ndim(numbers) != 1:
@@ -80,11 +97,13 @@ def vector(numbers: Any, name: str) -> list[Any]:
 def integer(value: Any, name: str) -> int:
     """The int that an int, a NumPy integer or a float without a fraction is. Raises Error for all else."""
     try:
+        if np.ndim(value) or isinstance(value, (str, bytes, complex, np.complexfloating)):
+            raise TypeError
         number = int(value)
     except (TypeError, ValueError, OverflowError):
-        raise Error(f"{name}: {value!r} is no integer") from None
+        raise Error(f"{name}: {value!r} is not an integer") from None
     if number != value:
-        raise Error(f"{name}: {value!r} is no integer; round it, if that is meant")
+        raise Error(f"{name}: {value!r} is not an integer; round it, if that is meant")
     return number
 
 
@@ -122,9 +141,9 @@ def finite(value: Any, name: str) -> float:
 def claim(precision: Any, time_tolerance: Any) -> tuple[str, float | None]:
     """What an engine claims: "binary64" or "binary32", and a tolerance of times, 0 or above, perhaps infinite. Raises
     Error."""
-    if precision not in ("binary64", "binary32"):
+    if word(precision, "precision") not in ("binary64", "binary32"):
         raise Error(f"precision: {precision!r} is neither 'binary64' nor 'binary32'")
-    if time_tolerance is None or time_tolerance == math.inf:
+    if time_tolerance is None or isinstance(time_tolerance, float) and time_tolerance == math.inf:
         return precision, time_tolerance
     tolerance = finite(time_tolerance, "time_tolerance")
     if tolerance < 0:
@@ -135,17 +154,17 @@ def claim(precision: Any, time_tolerance: Any) -> tuple[str, float | None]:
 def time_limit(value: Any, name: str) -> Any:
     """A limit of time: above 0, perhaps infinite; or None. Raises Error."""
     try:
-        if value is None or (exact(value) or 0 if isinstance(value, str) else value) > 0:
+        if value is None or np.ndim(value) == 0 and (exact(value) or 0 if isinstance(value, str) else value) > 0:
             return value
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, ArithmeticError):
         pass
-    raise Error(f"{name}: {value!r} is no time above 0")
+    raise Error(f"{name}: {value!r} is not a time above 0")
 
 
-def exact(number: Any) -> Fraction | None:
+def exact(number: Any, name: str = "number") -> Fraction | None:
     """The rational number that it is; None of a text with a square root."""
     if not isinstance(number, str):
-        return rational(number)
+        return rational(number, name)
     if _DECIMAL.fullmatch(number):
         return Fraction(str(number))
     hexadecimal = _HEXADECIMAL.fullmatch(number)

@@ -3,52 +3,178 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import NamedTuple
+from dataclasses import asdict, dataclass
+from typing import Any, ClassVar, Literal, NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _lorentz
-from ._first_hit import Floats, StartFrom, _columns, _vectors
-from ._lorentz import Error, Paths
-from ._numbers import Number, Obstacle, Vector, obstacle_dict, plain, text, time_limit, whole
+from ._answers import Floats
+from ._columns import Array, Columns, by_component
+from ._first_hit import StartFrom, _columns, vectors_of
+from ._lorentz import Error
+from ._memory import free_memory
+from ._numbers import Number, Obstacle, Vector, obstacle_dict, plain, text, time_limit, whole, word
 from ._scene import SceneLike, native
 
 #: What ``Paths.stop_code`` says: why a particle does not go on (docs of the C++ header trajectory.hpp).
 STOPS: tuple[str, ...] = _lorentz.STOPS
+#: Which collisions are kept: each k-th, or the last alone.
+Every = Union[int, Literal["last"]]
+
+
+class Paths(Columns):
+    """Collisions of N particles, K kept of each, in columns: what `lorentz.trajectories` returns. What did not
+    happen is NaN, or 0 of integers."""
+
+    __slots__ = ("every",)
+    _NAMES: ClassVar[tuple[str, ...]] = ("count", "stop_code", "time", "lattice", "atom", "cell", "place", "velocity")
+
+    def __init__(self, native: Any, columns: dict[str, Array] | None = None, every: Every = 1) -> None:
+        super().__init__(native, columns)
+        self.every = every  #: which collisions are kept
+
+    @property
+    def dimension(self) -> int:
+        """2 or 3."""
+        return int(self.place.shape[2])
+
+    @property
+    def count(self) -> npt.NDArray[np.int64]:
+        """(N,): how many collisions there were, kept or not."""
+        return self._columns["count"]
+
+    @property
+    def stop_code(self) -> npt.NDArray[np.uint8]:
+        """(N,): why a particle does not go on, an index into `STOPS`."""
+        return self._columns["stop_code"]
+
+    @property
+    def time(self) -> Floats:
+        """(N, K): of each collision, from the start on."""
+        return self._columns["time"]
+
+    @property
+    def lattice(self) -> npt.NDArray[np.int32]:
+        """(N, K): number of the lattice of what is hit."""
+        return self._columns["lattice"]
+
+    @property
+    def atom(self) -> npt.NDArray[np.int32]:
+        """(N, K): number of the atom in its lattice."""
+        return self._columns["atom"]
+
+    @property
+    def cell(self) -> npt.NDArray[np.int64]:
+        """(N, K, d): its cell."""
+        return self._columns["cell"]
+
+    @property
+    def place(self) -> Floats:
+        """(N, K, d): where the collision is."""
+        return self._columns["place"]
+
+    @property
+    def velocity(self) -> Floats:
+        """(N, K, d): after it."""
+        return self._columns["velocity"]
+
+    def kept(self) -> npt.NDArray[np.int64]:
+        """(N,): how many collisions of each particle are kept."""
+        kept: npt.NDArray[np.int64] = np.minimum(self.count, 1) if self.every == "last" else self.count // self.every
+        return kept
+
+    def to_dict(self) -> dict[str, Array]:
+        """A row for each collision that is kept, by particle: ``particle``, ``collision`` (from 1 on), and what
+        it was, by columns; ``place`` becomes ``place_0``, ``place_1`` .."""
+        kept = self.kept()
+        happened = np.arange(self.time.shape[1]) < kept[:, None]
+        particle, column = np.nonzero(happened)
+        number = self.count[particle] if self.every == "last" else (column + 1) * self.every
+        table = {"particle": particle, "collision": number}
+        for name in self._NAMES[2:]:
+            values = self._columns[name][happened]
+            table |= {name: values} if values.ndim == 1 else by_component(name, values)
+        return table
+
+    def _row(self, i: int) -> Paths:
+        return self._part(np.array([i]))
+
+    def _part(self, rows: Array) -> Paths:
+        columns = {name: column[rows] for name, column in self._columns.items()}
+        for column in columns.values():
+            column.setflags(write=False)
+        return Paths(None, columns, self.every)
+
+    def _row_text(self, i: int) -> str:
+        text = f"{self.count[i]} collisions, then {STOPS[self.stop_code[i]]}"
+        last = int(self.kept()[i]) - 1
+        return text if last < 0 else f"{text}; at time {self.time[i, last]:.6g} at {self.place[i, last].tolist()}"
+
+    def _headline(self) -> str:
+        return f"Paths of {len(self)} particles in {self.dimension}D, {self.time.shape[1]} collisions of each kept at most"
+
+    def _rest(self) -> tuple[Any, ...]:
+        return (self.every,)
 
 
 def trajectories(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, collisions: int, *,
-                 start_from: StartFrom = None, until: float = math.inf, engine: str = "batch",
+                 start_from: StartFrom = None, max_time: float = math.inf, every: Every = 1, engine: str = "batch",
                  precision: str = "binary64") -> Paths:
     """Follows N particles, each for so many collisions or until a time, in floating point.
 
     Args:
         scene, x, v, start_from: as of `lorentz.first_hit`.
         collisions: C, of each particle, at most.
-        until: a time after which nothing is recorded.
+        max_time: a time after which nothing is recorded.
+        every: k: each k-th collision is kept, K = C // k of each particle; ``"last"``: the last alone, K = 1.
         engine: whose first hits; ``batch`` flies all particles together.
         precision: of the state, ``"binary64"`` or ``"double-double"``.
 
     Returns:
-        Paths: ``time`` (N, C), ``place`` and ``velocity`` after it (N, C, d), ``lattice``, ``atom`` (N, C),
-        ``cell`` (N, C, d) of each collision; ``count`` (N,), how many there were, and ``stop_code`` (N,), an
-        index into `STOPS`. What did not happen is NaN, or 0 of integers. Read-only views.
+        Paths: ``time`` (N, K), ``place`` and ``velocity`` after it (N, K, d), ``lattice``, ``atom`` (N, K),
+        ``cell`` (N, K, d) of each collision that is kept; ``count`` (N,), how many there were, and ``stop_code``
+        (N,), an index into `STOPS`.
 
-    A Lorentz gas is chaotic: in floats a path is right for some collisions only. `itinerary` is certain.
+    A Lorentz gas is chaotic: in floats a path is right for some collisions only (`survival` says how many).
+    `itinerary` is certain.
 
     Raises:
-        Error: a start that is none, by its row; a scene that the engine does not do.
+        Error: a row that is not a start, by its number; more memory than there is (`memory_of_trajectories`).
+        UnsupportedError: a scene that the engine does not do.
     """
-    if precision not in ("binary64", "double-double"):
-        raise Error(f'precision: "{precision}" is none; there are "binary64", "double-double"')
-    most = whole(collisions, "collisions", 0, 2**31 - 1)
-    last = time_limit(until, "until")
-    place, positions = native(scene), _vectors(x, "x")
+    if word(precision, "precision") not in ("binary64", "double-double"):
+        raise Error(f'precision: "{precision}" is unknown; expected "binary64" or "double-double"')
+    most, stride = whole(collisions, "collisions", 0, 2**31 - 1), _stride(every)
+    last = time_limit(max_time, "max_time")
+    place = native(scene)
+    positions, velocities = vectors_of(x, v, place.dimension)
+    _check_memory(len(positions), most, every, place.dimension)
     left = _columns(start_from, len(positions), place)
-    return _lorentz.follow(place, positions, _vectors(v, "v"), left, most, math.inf if last is None else float(last),
-                           engine, precision == "double-double")
+    return Paths(_lorentz.follow(place, positions, velocities, left, most, stride,
+                                 math.inf if last is None else float(last), word(engine, "engine"), precision == "double-double"),
+                 every=every)
+
+
+def memory_of_trajectories(particles: int, collisions: int, *, every: Every = 1, dimension: int = 2) -> int:
+    """The bytes that `trajectories` takes, at most, for so many particles and collisions."""
+    count, most = whole(particles, "particles"), whole(collisions, "collisions", 0, 2**31 - 1)
+    stride, dimension = _stride(every), whole(dimension, "dimension", 2, 3)
+    columns = most // stride if stride else min(most, 1)
+    a_collision, a_particle = 16 + 24 * dimension, 9 + _lorentz.BYTES_OF_START + 32 * dimension
+    return count * (columns * a_collision + a_particle)
+
+
+def _stride(every: Every) -> int:
+    return 0 if isinstance(every, str) and every == "last" else whole(every, "every", 1, 2**31 - 1)
+
+
+def _check_memory(particles: int, collisions: int, every: Every, dimension: int) -> None:
+    needed, free = memory_of_trajectories(particles, collisions, every=every, dimension=dimension), free_memory()
+    if needed > free:
+        raise Error(f"collisions: {collisions} of {particles} particles need {needed / 1e9:.3g} GB, and {free / 1e9:.3g} GB "
+                    'are free; every="last" keeps the last ones alone, every=k each k-th')
 
 
 @dataclass(frozen=True)
@@ -84,15 +210,19 @@ class Itinerary:
     v: list[str]
     distance: str
 
+    def to_dict(self) -> dict[str, Any]:
+        """All of it in dicts, lists and numbers."""
+        return asdict(self)
+
 
 def itinerary(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | None = None,
-              collisions: int | None = None, time: Number | None = None, digits: int = 17, states: bool = False,
+              collisions: int | None = None, max_time: Number | None = None, digits: int = 17, states: bool = False,
               most_bits: int = 0) -> Itinerary:
     """Follows one particle, certainly: every obstacle is the true one, every digit correctly rounded.
 
     Args:
         scene, x, v: numbers are floats, ints, Fractions, or texts: "1/3", and in v also "sqrt(2)", "golden".
-        collisions, time: how far; at least one of them.
+        collisions, max_time: how far; at least one of them.
         digits: significant decimal digits of times, places and velocities.
         states: place and velocity at each collision, too.
         most_bits: the precision at which to give up; 0: 2**18, or what the digits need.
@@ -100,16 +230,16 @@ def itinerary(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
     Source: docs/itineraries.md. Cost: 1000 collisions in 2D at r = 1e-3 some 0.4 s.
 
     Raises:
-        Error: it is no scene or no start; neither collisions nor time.
+        Error: not a scene, or not a start; neither collisions nor max_time.
     """
-    if collisions is None and time is None:
-        raise Error("needs collisions or time: how far to follow the particle")
+    if collisions is None and max_time is None:
+        raise Error("needs collisions or max_time: how far to follow the particle")
     digits, most_bits = whole(digits, "digits", 1, 100_000), whole(most_bits, "most_bits", 0, 2**40)
     if collisions is not None:
         collisions = whole(collisions, "collisions", 1, 2**31 - 1)
-    time_limit(time, "time")
+    time_limit(max_time, "max_time")
     start = {"x": x, "v": v} | ({} if start_from is None else {"from": obstacle_dict(start_from)})
-    until = plain(time, "time")
+    until = plain(max_time, "max_time")
     limit = until.hex() if isinstance(until, float) else until  # as a text a float would be another number
     path = _lorentz.itinerary(native(scene), text(start), collisions, limit, digits, states, most_bits)
     path["collisions"] = [CertifiedCollision(**one) for one in path["collisions"]]
@@ -124,17 +254,17 @@ class Starts(NamedTuple):
     start_from: tuple[npt.NDArray[np.int32], npt.NDArray[np.int32], npt.NDArray[np.int64]] | None
 
 
-def draw_starts(scene: SceneLike, count: int, kind: str = "uniform", *, seed: int = 20161115,
+def draw_starts(scene: SceneLike, count: int, start: str = "uniform", *, seed: int = 20161115,
                 first: int = 0) -> Starts:
-    """Starts in no obstacle, decided exactly; start n depends on scene, kind, seed and n alone.
+    """Starts in no obstacle, decided exactly; start n depends on scene, start, seed and n alone.
 
     Args:
-        kind: ``uniform`` (anywhere, in any direction), ``surface`` (off an obstacle by the cosine law),
+        start: ``uniform`` (anywhere, in any direction), ``surface`` (off an obstacle by the cosine law),
             ``near-rational`` (beside small lattice vectors), ``grazing`` (past the edge of an obstacle).
         first: the number of the first.
 
     Velocities have length 1 up to rounding, but those of ``near-rational``. Raises Error where the obstacles
     leave nothing free.
     """
-    return Starts(**_lorentz.draw(native(scene), whole(count, "count"), kind, whole(seed, "seed", 0, 2**64 - 1),
+    return Starts(**_lorentz.draw(native(scene), whole(count, "count"), word(start, "start"), whole(seed, "seed", 0, 2**64 - 1),
                                   whole(first, "first")))

@@ -7,7 +7,7 @@ from typing import Any, Mapping, Union
 
 from . import _lorentz
 from ._lorentz import Error
-from ._numbers import Number, text
+from ._numbers import Number, text, whole
 
 SceneLike = Union["Scene", Mapping[str, Any], str, "os.PathLike[str]"]
 
@@ -72,6 +72,7 @@ class Scene:
 
 def unit_scene(dimension: int, radius: Number) -> Scene:
     """The unit square (2) or cubic (3) lattice with a ball of this radius at each of its points."""
+    dimension = whole(dimension, "dimension", 2, 3)
     vectors = [[int(i == k) for k in range(dimension)] for i in range(dimension)]
     atom = {"position": [0] * dimension, "radius": radius}
     return Scene({"dimension": dimension, "lattices": [{"vectors": vectors, "atoms": [atom]}]})
@@ -99,6 +100,8 @@ def _read(source: SceneLike) -> _lorentz.Scene:
         return source._scene
     if isinstance(source, Mapping):
         return _lorentz.Scene.from_json(text({"scene": dict(source)}))
+    if not isinstance(source, (str, os.PathLike)):
+        raise Error(f"scene: {source!r} is not a Scene, a dict, a file or a name of the catalogue")
     scene = _lorentz.Scene.load(os.fspath(source))
     # A text like "0.25" in a file is a float, too.
     return scene if scene.is_binary64 else _lorentz.Scene.from_json(text({"scene": scene.to_dict()}))

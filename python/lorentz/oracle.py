@@ -51,7 +51,7 @@ def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
         max_time = None
     place = _scene(scene)
     query = _query(x, v, start_from)
-    limit = None if max_time is None else exact(max_time)
+    limit = None if max_time is None else exact(max_time, "max_time")
     if not (place.is_binary64 and _floats_only(query) and (limit is None or is_binary64(limit))):
         return _first_hit_of_rationals(place, x, v, start_from, digits, detail, limit)
     answer = Answer.from_line(
@@ -242,8 +242,8 @@ def _first_hit_of_rationals(scene: Scene, x: Vector, v: Vector, start_from: Obst
 
     if detail:
         raise Error("detail: is of queries whose numbers are floats")
-    def follow(time: Fraction | None, decimals: int) -> Itinerary:
-        return itinerary(scene, x, v, start_from=start_from, collisions=1, time=time, digits=decimals)
+    def follow(limit: Fraction | None, decimals: int) -> Itinerary:
+        return itinerary(scene, x, v, start_from=start_from, collisions=1, max_time=limit, digits=decimals)
 
     path = follow(limit, max(digits, 17))
     if path.end == "undecided" and limit is not None:  # that may be the very time of the hit

@@ -2,13 +2,16 @@
 
     ax = lorentz.plot.scene("honeycomb")
     lorentz.plot.flights("honeycomb", x, v, answers, ax=ax)
-    ax.figure.savefig("honeycomb.svg")
+    ax.set_title("Honeycomb")
+    ax.figure.savefig("honeycomb.pdf")  # or .svg, .png
+
+Axes of other sizes: ``plt.subplots(figsize=(4, 3))[1]`` as ``ax``.
 """
 
 from __future__ import annotations
 
 from itertools import product
-from typing import Any, Iterator
+from typing import Any, Iterator, Sequence, Union
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -16,20 +19,25 @@ import numpy.typing as npt
 from matplotlib.collections import LineCollection, PatchCollection
 from matplotlib.patches import Ellipse
 
-from ._first_hit import Outcome
+from ._answers import Answers, Outcome
 from ._flights import FreePaths
-from ._lorentz import Answers, Error, Paths
+from ._lorentz import Error
 from ._numbers import finite
+from ._paths import Paths
 from ._scene import Scene, SceneLike
+from ._statistics import Diffusion, Survival
 
-__all__ = ["flights", "free_paths", "scene", "survival", "trajectory"]
+__all__ = ["displacements", "flights", "free_paths", "scene", "survival", "survival_function", "trajectory"]
 
 #: Obstacles of lattice 0, 1, ..; lines are drawn in the other colours.
 OBSTACLES = ("#9db4c8", "#d8b48c", "#a9c9a4", "#c9a9c6")
 FLIGHT, HIT = "#b3362b", "#202020"
+COLOURS = ("#b3362b", "#2b62b3", "#3a8a4d", "#8a5ba8", "#b37f2b", "#2b9a9a")
 MOST_OBSTACLES = 20_000
 
 Box = tuple[float, float, float, float]
+#: One run of flights, or several in one figure.
+Runs = Union[FreePaths, Sequence[FreePaths]]
 
 
 def scene(of: SceneLike, box: Box | None = None, *, ax: Any = None) -> Any:
@@ -74,49 +82,112 @@ def flights(of: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, answers: Answers,
 
 
 def trajectory(of: SceneLike, start: npt.ArrayLike, paths: Paths, particle: int = 0, *, ax: Any = None) -> Any:
-    """The path of one particle in 2D, from its start through its collisions; without axes with the scene."""
+    """The path of one particle, from its start through the collisions that are kept; without axes with the scene in
+    2D, with the obstacles that it hits in 3D."""
     if not 0 <= particle < len(paths):
         raise Error(f"particle: there is no {particle}; there are {len(paths)}, from 0 on")
-    count = int(paths.count[particle])
-    points = np.concatenate([np.reshape(np.asarray(start, float), (1, 2)), paths.place[particle, :count]])
+    place, kept = of if isinstance(of, Scene) else Scene(of), int(paths.kept()[particle])
+    points = np.concatenate([np.reshape(np.asarray(start, float), (1, paths.dimension)), paths.place[particle, :kept]])
     if ax is None:
-        ax = scene(of, _around(points))
+        ax = scene(of, _around(points)) if place.dimension == 2 else _met_in_space(place, paths[particle], kept)
     ax.plot(*points.T, "-", color=FLIGHT, linewidth=1, zorder=2)
     ax.plot(*points[1:].T, ".", color=HIT, markersize=4, zorder=3)
-    ax.plot(*points[0], "o", color=FLIGHT, markersize=5, zorder=3)
+    ax.plot(*points[:1].T, "o", color=FLIGHT, markersize=5, zorder=3)
     return ax
 
 
-def free_paths(paths: FreePaths, *, ax: Any = None) -> Any:
-    """The density of free paths on logarithmic axes, from counts."""
+def free_paths(runs: Runs, *, ax: Any = None) -> Any:
+    """The density of free paths on logarithmic axes, from counts; of several runs each in a colour of its own."""
     ax = _axes(ax)
-    density = paths.density()
-    seen = density > 0
-    middle = np.sqrt(paths.edges[1:] * paths.edges[:-1])
-    ax.loglog(middle[seen], density[seen], ".", color=FLIGHT, markersize=4, label=_label(paths))
+    for number, (run, label) in enumerate(_labelled(runs)):
+        density = run.density()
+        seen = density > 0
+        middle = np.sqrt(run.edges[1:] * run.edges[:-1])
+        ax.loglog(middle[seen], density[seen], ".", color=_colour(number), markersize=4, label=label)
     ax.set_xlabel("free path t")
     ax.set_ylabel("density")
     ax.legend(frameon=False)
     return ax
 
 
-def survival(paths: FreePaths, *, ax: Any = None) -> Any:
-    """P(path > t) on logarithmic axes, with the laws that theory has of the scene."""
+def survival_function(runs: Runs, *, ax: Any = None) -> Any:
+    """P(path > t) on logarithmic axes, with the laws that theory has of each scene as lines; of several runs each in a
+    colour of its own."""
     ax = _axes(ax)
-    measured = paths.survival()
-    seen = (measured > 0) & (measured < 1)
-    t = paths.edges[seen]
-    for number, (name, law) in enumerate(paths.laws().items()):
-        ax.loglog(t, law[seen], "-", color="#404040", alpha=1 / (number + 1), linewidth=1, label=name)
-    ax.loglog(t, measured[seen], ".", color=FLIGHT, markersize=4, label=_label(paths))
+    for number, (run, label) in enumerate(_labelled(runs)):
+        measured = run.survival_function()
+        seen = (measured > 0) & (measured < 1)
+        t = run.edges[seen]
+        for count, (name, law) in enumerate(run.laws().items()):
+            ax.loglog(t, law[seen], "-", color=_colour(number), alpha=0.6 / (count + 1), linewidth=1.5,
+                      label=name if number == 0 else None)
+        ax.loglog(t, measured[seen], ".", color=_colour(number), markersize=4, label=label)
     ax.set_xlabel("t")
     ax.set_ylabel("P(free path > t)")
     ax.legend(frameon=False)
     return ax
 
 
-def _label(paths: FreePaths) -> str:
-    return f"{paths.count:.3g} flights"
+def survival(found: Survival, *, ax: Any = None) -> Any:
+    """The share of trajectories that are still right, by collisions, in each arithmetic."""
+    ax = _axes(ax)
+    for number, (bits, right) in enumerate(found.right.items()):
+        collisions = np.arange(1, max(right) + 2)
+        shares = [(np.asarray(right) >= k).mean() for k in collisions]
+        ax.plot(collisions, shares, "-", color=_colour(number), label=f"{bits} bits")
+    ax.set_xlabel("collisions")
+    ax.set_ylabel("share of starts still right")
+    ax.legend(frameon=False)
+    return ax
+
+
+def displacements(found: Diffusion, *, ax: Any = None) -> Any:
+    """MSD / (2 d t) over time, with standard errors: level where there is a diffusion coefficient."""
+    ax = _axes(ax)
+    scale = 2 * found.scene.dimension * np.asarray(found.times)
+    values = [np.array([np.nan if number is None else number for number in column]) / scale
+              for column in zip(*found.displacements)]
+    ax.errorbar(found.times, values[0], values[1], fmt=".-", color=FLIGHT, linewidth=1, capsize=2)
+    ax.set_xscale("log")
+    ax.set_xlabel("t")
+    ax.set_ylabel(f"MSD / ({2 * found.scene.dimension} t)")
+    return ax
+
+
+def _labelled(runs: Runs) -> list[tuple[FreePaths, str]]:
+    """Each run with what it is called: its radius, where they have several, else how many flights it has."""
+    several = [runs] if isinstance(runs, FreePaths) else list(runs)
+    radii = [_radius(run.scene) for run in several]
+    if len(several) == 1 or None in radii:
+        return [(run, f"{run.count:.3g} flights") for run in several]
+    return [(run, f"r = {radius:g}") for run, radius in zip(several, radii)]
+
+
+def _radius(of: Scene) -> float | None:
+    radii = {atom.get("radius") for lattice in of.to_dict()["lattices"] for atom in lattice["atoms"]}
+    radius = radii.pop()
+    return None if radii or radius is None else float(radius)
+
+
+def _colour(number: int) -> str:
+    return COLOURS[number % len(COLOURS)]
+
+
+def _met_in_space(place: Scene, path: Paths, kept: int) -> Any:
+    """Axes in space with the obstacles that a path meets."""
+    ax = plt.figure(layout="constrained").add_subplot(projection="3d")
+    lattices = place.nearest().to_dict()["lattices"]
+    met = {(int(path.lattice[0, k]), int(path.atom[0, k]), tuple(path.cell[0, k].tolist())) for k in range(kept)}
+    turn, tilt = np.meshgrid(np.linspace(0, 2 * np.pi, 25), np.linspace(0, np.pi, 13))
+    sphere = np.stack([np.cos(turn) * np.sin(tilt), np.sin(turn) * np.sin(tilt), np.cos(tilt)])
+    for lattice, atom, cell in sorted(met):
+        obstacle, vectors = lattices[lattice]["atoms"][atom], np.reshape(lattices[lattice]["vectors"], (-1, 3))
+        centre = np.asarray(obstacle["position"], float) + np.asarray(cell[:len(vectors)], float) @ vectors
+        axes = obstacle["radius"] * np.eye(3) if "radius" in obstacle else np.transpose(obstacle["semiaxes"])
+        surface = centre[:, None, None] + np.tensordot(axes, sphere, 1)
+        ax.plot_surface(*surface, color=OBSTACLES[lattice % len(OBSTACLES)], alpha=0.5, linewidth=0)
+    ax.set_aspect("equal")
+    return ax
 
 
 def _axes(ax: Any) -> Any:

@@ -55,11 +55,11 @@ def test_every_engine_of_the_program_answers():
 def test_nothing_is_copied():
     x, v, _ = lorentz.draw_starts("square", 1_000_000, seed=SEED)
     answers = lorentz.first_hit("square", x, v)
-    for name, address in answers._addresses.items():
+    for name, address in answers._native._addresses.items():
         column = getattr(answers, name)
         assert column.__array_interface__["data"][0] == address, name
         assert not column.flags.owndata and not column.flags.writeable, name
-        assert column.base is answers, name
+        assert column.base is answers._native, name
     assert answers.cell.shape == (1_000_000, 2) and len(answers) == 1_000_000
 
 
@@ -77,9 +77,9 @@ def test_memory_is_used_again():
     engine = lorentz.Engine("square")
     x, v, _ = lorentz.draw_starts("square", 5000, seed=SEED)
     first = engine.first_hit(x, v)
-    times, addresses = first.time, first._addresses
+    times, addresses = first.time, first._native._addresses
     again = engine.first_hit(x[::-1], v[::-1], out=first)
-    assert again is first and again._addresses == addresses and np.array_equal(times, again.time)
+    assert again is first and again._native._addresses == addresses and np.array_equal(times, again.time)
     assert same(again, engine.first_hit(x[::-1], v[::-1]))
     with pytest.raises(lorentz.Error, match="out: is of 5000 queries in 2"):
         engine.first_hit(x[1:], v[1:], out=first)
@@ -114,7 +114,7 @@ def test_any_layout_and_type_of_input():
 
 def test_threads_change_nothing():
     x, v, _ = lorentz.draw_starts("cubic", 20000, seed=SEED)
-    assert same(lorentz.first_hit("cubic", x, v, threads=3), lorentz.first_hit("cubic", x, v))
+    assert same(lorentz.first_hit("cubic", x, v, jobs=3), lorentz.first_hit("cubic", x, v))
 
 
 def test_limits_of_all_and_of_each():
@@ -179,11 +179,15 @@ def test_an_obstacle_beyond_64_bits_can_be_left(engine):
     assert one.large_cells == {0: then.large_cells[7], 1: then.large_cells[7]}
 
 
-def test_a_bad_row_behind_one_that_is_not_supported_is_named():
+def test_the_first_row_at_fault_is_named():
     x, v = [[1e300, 0.5], [0.5, 0.5]], [[1, 0.25], [0, 0]]
-    assert lorentz.first_hit("square", x[:1], v[:1], engine="classical").outcome[0] == Outcome.ERROR
-    with pytest.raises(lorentz.Error, match="row 1: "):
-        lorentz.first_hit("square", x, v, engine="classical", on_error="raise")
+    marked = lorentz.first_hit("square", x, v, engine="classical", on_error="mark")
+    assert marked.outcome.tolist() == [Outcome.ERROR] * 2 and [marked.reasons[i][1] for i in (0, 1)] == [True, False]
+    with pytest.raises(lorentz.UnsupportedError, match="row 0: "):
+        lorentz.first_hit("square", x, v, engine="classical")
+    with pytest.raises(lorentz.Error, match="row 0: ") as raised:
+        lorentz.first_hit("square", x[::-1], v[::-1], engine="classical")
+    assert not isinstance(raised.value, lorentz.UnsupportedError)
 
 
 @pytest.mark.parametrize("engine", ["batch", "certified-batch", "oracle"])
@@ -203,18 +207,21 @@ def test_a_bad_row_is_named(engine):
 
 
 def test_what_an_engine_does_not_do_is_no_fault_of_the_row():
-    answers = lorentz.first_hit(lorentz.unit_scene(2, 0.6), [[0.5, 0.5]], [[1, 0.1]])
+    query = lorentz.unit_scene(2, 0.6), [[0.5, 0.5]], [[1, 0.1]]
+    with pytest.raises(lorentz.UnsupportedError, match="row 0: .*radi"):
+        lorentz.first_hit(*query, engine="batch")
+    answers = lorentz.first_hit(*query, engine="batch", on_error="mark")
     assert answers.outcome.tolist() == [Outcome.ERROR] and answers.reasons[0][1]
 
 
 @pytest.mark.parametrize("arguments, text", [
-    (dict(x=[[0, 0]], v=[[1, 0], [0, 1]]), r"v: has the shape \(2, 2\), needs \(1, 2\)"),
-    (dict(x=[[0, 0, 0]], v=[[1, 0, 0]]), r"x: has the shape \(1, 3\), needs \(1, 2\)"),
+    (dict(x=[[0, 0]] * 3, v=[[1, 0], [0, 1]]), "v: has 2 rows, the other 3"),
+    (dict(x=[[0, 0, 0]], v=[[1, 0, 0]]), r"x: has the shape \(1, 3\), needs \(N, 2\) or \(2,\)"),
     (dict(x=[["a", 0]], v=[[1, 0]]), "x: is no array of numbers"),
     (dict(x=[[0, 0]], v=[[1, 0]], engine="bach"), "did you mean batch"),
     (dict(x=[[0, 0]], v=[[1, 0]], engine="cmd:cat"), "judge"),
-    (dict(x=[[0, 0]], v=[[1, 0]], engine="oracle", threads=2), "threads: only the engines batch"),
-    (dict(x=[[0, 0]], v=[[1, 0]], threads=0), "threads: 0 is not from 1 to 1024"),
+    (dict(x=[[0, 0]], v=[[1, 0]], engine="oracle", jobs=2), "jobs: only the engines batch"),
+    (dict(x=[[0, 0]], v=[[1, 0]], jobs=0), "jobs: 0 is not from 1 to 1024"),
     (dict(x=[[0, 0]], v=[[1, 0]], on_error="ignore"), "on_error"),
     (dict(x=[[0, 0]], v=[[1, 0]], start_from=(0, 7, [0, 0]), on_error="raise"), "row 0"),
     (dict(x=[[0, 0]], v=[[1, 0]], start_from=(0.5, 0, [0, 0])), "start_from: .* no type of integers"),
@@ -275,8 +282,11 @@ MANY = np.full((2_000_000, 2), 0.5), np.full((2_000_000, 2), 0.3)
     lambda: lorentz.draw_starts("cubic", 20_000_000, "grazing"),
     lambda: lorentz.trajectories("square", [[0.5, 0.5]], [[1, 0.3]], 1_000_000, engine="oracle"),
     lambda: lorentz.itinerary("square", [0.5, 0.5], [1, 0.3], collisions=100_000),
-    lambda: lorentz.flights("square", 10**9),
+    lambda: lorentz.flights("square", count=10**9),
     lambda: lorentz.judge("reduction", time=60),
+    lambda: lorentz.lyapunov("square", 0.2, collisions=10**9),
+    lambda: lorentz.diffusion("square", 0.2, count=10**8),
+    lambda: lorentz.survival("square", 0.1, count=10**6),
 ])
 def test_an_interrupt_comes_through(work):
     begin = []

@@ -8,17 +8,17 @@ SEED = 20161115
 
 
 def test_the_mean_is_the_exact_one():
-    paths = lorentz.flights("square", 300_000, 0.2, start="surface", seed=SEED)
+    paths = lorentz.flights("square", 0.2, count=300_000, start="surface", seed=SEED)
     exact = lorentz.mean_free_path("square", 0.2)
     assert exact == pytest.approx((1 - np.pi * 0.04) / 0.4, rel=1e-14)
     assert paths.count == 300_000 and abs(paths.mean - exact) < 5 * paths.mean_error
     assert 0 < paths.mean_error < 0.01
-    assert np.isnan(lorentz.flights("square", 1, 0.2, start="surface", seed=SEED).mean_error)
+    assert np.isnan(lorentz.flights("square", 0.2, count=1, start="surface", seed=SEED).mean_error)
 
 
 def test_survival_follows_the_law():
-    paths = lorentz.flights("square", 300_000, 1e-3, seed=SEED)
-    laws, measured = paths.laws(), paths.survival()
+    paths = lorentz.flights("square", 1e-3, count=300_000, seed=SEED)
+    laws, measured = paths.laws(), paths.survival_function()
     assert list(laws) == ["Boca-Zaharescu"]
     expected = laws["Boca-Zaharescu"]
     error = np.sqrt(np.maximum(expected * (1 - expected), 1e-12) / paths.count)
@@ -31,9 +31,9 @@ def test_survival_follows_the_law():
 
 
 def test_threads_and_seeds():
-    one = lorentz.flights("cubic", 200_000, 0.2, seed=1)
-    two = lorentz.flights("cubic", 200_000, 0.2, seed=1, threads=2)
-    other = lorentz.flights("cubic", 200_000, 0.2, seed=2)
+    one = lorentz.flights("cubic", 0.2, count=200_000, seed=1)
+    two = lorentz.flights("cubic", 0.2, count=200_000, seed=1, jobs=2)
+    other = lorentz.flights("cubic", 0.2, count=200_000, seed=2)
     assert np.array_equal(one.counts, two.counts) and one.mean == two.mean
     assert not np.array_equal(one.counts, other.counts)
 
@@ -48,11 +48,11 @@ def test_horizons():
 
 
 @pytest.mark.parametrize("call, text", [
-    (lambda: lorentz.flights("square", 0), "count"),
-    (lambda: lorentz.flights("square", 10, start="nowhere"), "start"),
-    (lambda: lorentz.flights("square", 10, engine="bach"), "did you mean batch"),
-    (lambda: lorentz.flights("square", 10, threads=0), "threads"),
-    (lambda: lorentz.flights("square", 10, 0.9), "overlap|inside|batch"),
+    (lambda: lorentz.flights("square", count=0), "count"),
+    (lambda: lorentz.flights("square", count=10, start="nowhere"), "start"),
+    (lambda: lorentz.flights("square", count=10, engine="bach"), "did you mean batch"),
+    (lambda: lorentz.flights("square", count=10, jobs=0), "jobs"),
+    (lambda: lorentz.flights("square", 0.9, count=10), "overlap|inside|batch"),
     (lambda: lorentz.horizon("square", 1e-9), "min_width"),
 ])
 def test_bad_arguments(call, text):

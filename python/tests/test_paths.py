@@ -11,15 +11,15 @@ SEED = 20161115
 
 def test_problem_2_of_the_100_digit_challenge():
     scene, start = lorentz.Scene("square", Fraction(1, 3)), dict(x=[Fraction(1, 2), Fraction(1, 10)], v=[1, 0])
-    path = lorentz.itinerary(scene, **start, time=10, digits=50, states=True)
+    path = lorentz.itinerary(scene, **start, max_time=10, digits=50, states=True)
     assert path.distance == "0.99526291944335416089031180942672162102946692273415"
     assert path.end == "time" and len(path.collisions) == 14 and path.collisions[0].cell == (1, 0)
     assert len(path.collisions[0].x) == 2 and path.collisions[-1].bits > path.collisions[0].bits
     # 1/3 and 1/10 are no floats: those next to them are another problem.
-    rounded = lorentz.itinerary(scene.nearest(), [0.5, 0.1], [1.0, 0.0], time=10, digits=20)
+    rounded = lorentz.itinerary(scene.nearest(), [0.5, 0.1], [1.0, 0.0], max_time=10, digits=20)
     assert rounded.distance.startswith("0.9952621335999704")
     # The time is the rational number that a float is.
-    assert lorentz.itinerary(scene, **start, time=Fraction(1, 10)).x != lorentz.itinerary(scene, **start, time=0.1,
+    assert lorentz.itinerary(scene, **start, max_time=Fraction(1, 10)).x != lorentz.itinerary(scene, **start, max_time=0.1,
                                                                                        digits=40).x
     golden = lorentz.itinerary("square", [0.5, 0.5], ["1", "golden"], collisions=2)
     assert len(golden.collisions) == 2
@@ -75,7 +75,7 @@ def test_paths_that_end():
     starts = dict(x=[[0.5, 0], [0, 0.5], [0, 0]], v=[[1, 0], [1, 0], [1, 0]], collisions=3)
     free = lorentz.trajectories(scene, **starts)
     assert [lorentz.STOPS[code] for code in free.stop_code] == ["collisions", "never", "inside"]
-    paths = lorentz.trajectories(scene, **starts, until=1.0)
+    paths = lorentz.trajectories(scene, **starts, max_time=1.0)
     assert [lorentz.STOPS[code] for code in paths.stop_code] == ["time", "time", "inside"]
     assert paths.count.tolist() == [2, 0, 0]
     assert paths.time[0, :2].tolist() == [0.25, 0.75] and np.isnan(paths.time[0, 2])
@@ -96,9 +96,9 @@ def test_bad_starts():
         lorentz.trajectories("square", [[0.5, 0.5], [0.5, 0.5]], [[1, 0], [0, 0]], 3)
     with pytest.raises(lorentz.Error, match="precision"):
         lorentz.trajectories("square", [[0.5, 0.5]], [[1, 0]], 3, precision="float")
-    with pytest.raises(lorentz.Error, match="collisions or time"):
+    with pytest.raises(lorentz.Error, match="collisions or max_time"):
         lorentz.itinerary("square", [0.5, 0.5], [1, 0])
     with pytest.raises(lorentz.Error, match="time"):
-        lorentz.itinerary("square", [0.5, 0.5], [1, 0], time="soon")
+        lorentz.itinerary("square", [0.5, 0.5], [1, 0], max_time="soon")
     with pytest.raises(lorentz.Error, match="the engine batch does radii below half"):
         lorentz.trajectories(lorentz.unit_scene(2, 0.6), [[0.5, 0.5]], [[1, 0]], 3)

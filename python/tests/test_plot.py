@@ -64,11 +64,46 @@ def test_a_path_goes_through_its_collisions():
     assert np.array_equal(line, np.vstack([x, paths.place[0]]))
 
 
-def test_free_paths_and_survival():
-    paths = lorentz.flights("square", 100_000, 0.01, seed=SEED)
-    ax = lorentz.plot.survival(paths)
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["Boca-Zaharescu", "1e+05 flights"]
-    assert len(lorentz.plot.free_paths(paths).lines) == 1
+def test_a_path_in_space_goes_among_what_it_hits():
+    scene = lorentz.Scene("rock-salt")
+    x, v, _ = lorentz.draw_starts(scene, 1, seed=SEED)
+    paths = lorentz.trajectories(scene, x, v, 6)
+    ax = lorentz.plot.trajectory(scene, x[0], paths)
+    assert np.array_equal(np.array(ax.lines[0].get_data_3d()).T, np.vstack([x, paths.place[0]]))
+    met = {(int(a), tuple(cell)) for a, cell in zip(paths.atom[0], paths.cell[0].tolist())}
+    assert len(ax.collections) == len(met) > 1
+    obstacle = scene.to_dict()["lattices"][0]["atoms"][paths.atom[0, 0]]
+    on_surface = np.array(ax.collections[0]._vec)[:3].T
+    vectors = np.array(scene.to_dict()["lattices"][0]["vectors"])
+    centres = [np.array(obstacle["position"]) + np.array(cell) @ vectors for _, cell in met]
+    assert any(np.allclose(np.linalg.norm(on_surface - centre, axis=1), obstacle["radius"]) for centre in centres)
+
+
+def labels(ax):
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def test_free_paths_of_one_radius_and_of_several():
+    runs = [lorentz.flights("square", radius, count=100_000, seed=SEED) for radius in (0.1, 0.01, 0.001)]
+    assert labels(lorentz.plot.survival_function(runs[1])) == ["Boca-Zaharescu", "1e+05 flights"]
+    assert len(lorentz.plot.free_paths(runs[1]).lines) == 1
+    for draw in (lorentz.plot.survival_function, lorentz.plot.free_paths):
+        ax = draw(runs)
+        assert [text for text in labels(ax) if text.startswith("r =")] == ["r = 0.1", "r = 0.01", "r = 0.001"]
+        dots = [line for line in ax.lines if line.get_marker() == "."]
+        assert len({line.get_color() for line in dots}) == len(dots) == 3
+
+
+def test_statistics_of_trajectories(tmp_path):
+    lasting = lorentz.survival("square", 0.1, count=20, bits=[53, 128], seed=SEED)
+    ax = lorentz.plot.survival(lasting)
+    assert labels(ax) == ["53 bits", "128 bits"]
+    assert ax.lines[0].get_ydata()[0] == lasting.share(53, 1) and ax.lines[0].get_ydata()[-1] == 0
+    found = lorentz.diffusion("triangular", 0.45, count=2000, max_time=20, seed=SEED)
+    ax = lorentz.plot.displacements(found)
+    assert ax.lines[0].get_ydata()[-1] == pytest.approx(found.displacements[-1].value / (4 * 20))
+    ax.figure.savefig(tmp_path / "displacements.pdf")
+    assert (tmp_path / "displacements.pdf").read_bytes().startswith(b"%PDF")
 
 
 def test_what_cannot_be_drawn():

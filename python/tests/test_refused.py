@@ -31,12 +31,12 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("digits", lambda: lorentz.itinerary(SQUARE, X, V, collisions=2, digits=0)),
     ("digits", lambda: lorentz.itinerary(SQUARE, X, V, collisions=2, digits=10**9)),
     ("digits", lambda: oracle.first_hit(SQUARE, X, V, digits=-5)),
-    ("time", lambda: lorentz.itinerary(SQUARE, X, V, time=-7)),
-    ("time", lambda: lorentz.itinerary(SQUARE, X, V, time=0)),
-    ("time", lambda: lorentz.itinerary(SQUARE, X, V, time=math.nan)),
+    ("max_time", lambda: lorentz.itinerary(SQUARE, X, V, max_time=-7)),
+    ("max_time", lambda: lorentz.itinerary(SQUARE, X, V, max_time=0)),
+    ("max_time", lambda: lorentz.itinerary(SQUARE, X, V, max_time=math.nan)),
     ("collisions", lambda: lorentz.itinerary(SQUARE, X, V, collisions=-1)),
     ("most_bits", lambda: lorentz.itinerary(SQUARE, X, V, collisions=1, most_bits=-1)),
-    ("until", lambda: lorentz.trajectories(SQUARE, [X], [V], 3, until=math.nan)),
+    ("max_time", lambda: lorentz.trajectories(SQUARE, [X], [V], 3, max_time=math.nan)),
     ("min_width", lambda: lorentz.horizon("square", min_width=math.nan)),
     ("min_width", lambda: lorentz.horizon("square", min_width=-1)),
     ("max_time", lambda: oracle.first_hit(SQUARE, X, V, max_time=math.nan)),
@@ -56,18 +56,18 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("x: ", lambda: lorentz.first_hit(SQUARE, np.ma.masked_array([X], [[True, False]]), [V])),
     ("x: ", lambda: lorentz.first_hit(SQUARE, np.array([[2**53 + 1, 0]]), [V])),
     ("x: ", lambda: lorentz.first_hit(SQUARE, [[10**400, 0.5]], [V])),
-    ("threads: 2.5", lambda: lorentz.Engine(SQUARE, threads=2.5)),  # type: ignore[arg-type]
-    ("threads: -1 ", lambda: lorentz.flights(SQUARE, 10, threads=-1)),
-    ("threads: 'two'", lambda: lorentz.judge("reduction", threads="two")),  # type: ignore[arg-type]
+    ("jobs: 2.5", lambda: lorentz.Engine(SQUARE, jobs=2.5)),  # type: ignore[arg-type]
+    ("jobs: -1 ", lambda: lorentz.flights(SQUARE, count=10, jobs=-1)),
+    ("jobs: 'two'", lambda: lorentz.judge("reduction", jobs="two")),  # type: ignore[arg-type]
     ("seed: -1 ", lambda: lorentz.draw_starts(SQUARE, 3, seed=-1)),
     ("seed: 18446744073709551616 ", lambda: lorentz.judge("reduction", seed=2**64)),
     ("count: -3 ", lambda: lorentz.draw_starts(SQUARE, -3)),
-    ("count: 0 ", lambda: lorentz.flights(SQUARE, 0)),
-    ("count: nan", lambda: lorentz.flights(SQUARE, math.nan)),  # type: ignore[arg-type]
+    ("count: 0 ", lambda: lorentz.flights(SQUARE, count=0)),
+    ("count: nan", lambda: lorentz.flights(SQUARE, count=math.nan)),  # type: ignore[arg-type]
     ("first: -1 ", lambda: lorentz.draw_starts(SQUARE, 3, first=-1)),
     ("collisions: -1 ", lambda: lorentz.trajectories(SQUARE, [X], [V], -1)),
     ("collisions: 1.5", lambda: lorentz.trajectories(SQUARE, [X], [V], 1.5)),  # type: ignore[arg-type]
-    ("until: 'soon'", lambda: lorentz.trajectories(SQUARE, [X], [V], 1, until="soon")),  # type: ignore[arg-type]
+    ("max_time: 'soon'", lambda: lorentz.trajectories(SQUARE, [X], [V], 1, max_time="soon")),  # type: ignore[arg-type]
     ("max_time: 'soon'", lambda: oracle.first_hit(SQUARE, X, V, max_time="soon")),  # type: ignore[arg-type]
     ("max_time: ", lambda: lorentz.first_hit(SQUARE, [X], [V], max_time="soon")),
     ("max_time: ", lambda: lorentz.first_hit(SQUARE, [X], [V], max_time=[1, 2])),
@@ -111,8 +111,18 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("root: -1", lambda: lorentz.oracle.ExactTime(Fraction(1), Fraction(-1))),
     ("digits: 0 ", lambda: lorentz.oracle.ExactTime(Fraction(1), Fraction(1)).decimal(0)),
     ("engine: None", lambda: lorentz.Engine(SQUARE, None)),  # type: ignore[arg-type]
-    ("out: int", lambda: lorentz.Engine(SQUARE).first_hit([X], [V], out=5)),  # type: ignore[arg-type]
-    ("time: True", lambda: lorentz.itinerary(SQUARE, X, V, time=True)),
+    ("out: .*int", lambda: lorentz.Engine(SQUARE).first_hit([X], [V], out=5)),  # type: ignore[arg-type]
+    ("max_time: True", lambda: lorentz.itinerary(SQUARE, X, V, max_time=True)),
+    ("every: 0 ", lambda: lorentz.trajectories(SQUARE, [X], [V], 3, every=0)),
+    ("every: 'first'", lambda: lorentz.trajectories(SQUARE, [X], [V], 3, every="first")),  # type: ignore[arg-type]
+    ("bits: needs", lambda: lorentz.survival(SQUARE, bits=())),
+    ("bits: 23 ", lambda: lorentz.survival(SQUARE, bits=[53, 23])),
+    ("jobs: 0 ", lambda: lorentz.lyapunov(SQUARE, jobs=0)),
+    ("collisions: 0 ", lambda: lorentz.lyapunov(SQUARE, collisions=0)),
+    ("max_time: None", lambda: lorentz.diffusion(SQUARE, max_time=None)),  # type: ignore[arg-type]
+    ("max_time: inf", lambda: lorentz.diffusion(SQUARE, max_time=math.inf)),
+    ("start", lambda: lorentz.diffusion(SQUARE, start="nowhere")),
+    ("engine: arrays", lambda: lorentz.survival(SQUARE, engine="cmd:cat")),
     ("times: ", lambda: lorentz.laws("square", "x")),
     ("box: ", lambda: lorentz.plot.scene("square", (1, 0, 0, 1))),
     ("particle: there is no 1", lambda: lorentz.plot.trajectory(SQUARE, X, lorentz.trajectories(SQUARE, [X], [V], 2), 1)),

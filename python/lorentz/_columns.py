@@ -1,0 +1,95 @@
+"""Results in columns: what they have in common with arrays, lists and data frames."""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar, Iterator, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+Self = TypeVar("Self", bound="Columns")
+Array = npt.NDArray[Any]
+
+
+class Columns:
+    """Columns of N rows. They are read-only views of what the engine wrote, if they are of a whole result; those
+    of a part, of a copy or of an unpickled result are arrays of their own.
+
+    ``result[i]`` is row i, ``result[rows]`` of a slice, a mask or an array of numbers is the same of these rows;
+    a loop goes over the rows. Results can be pickled and copied.
+    """
+
+    __slots__ = ("_native", "_columns")
+    _NAMES: ClassVar[tuple[str, ...]]
+
+    def __init__(self, native: Any, columns: dict[str, Array] | None = None) -> None:
+        self._native = native  # None: of a part, or a copy
+        self._columns = columns if columns is not None else {name: getattr(native, name) for name in self._NAMES}
+
+    def __len__(self) -> int:
+        return len(self._columns[self._NAMES[0]])
+
+    def __getitem__(self: Self, rows: Any) -> Any:
+        if isinstance(rows, (int, np.integer)) and not isinstance(rows, bool):
+            if not -len(self) <= rows < len(self):
+                raise IndexError(f"row {rows} of {len(self)}")
+            return self._row(int(rows) % len(self))
+        return self._part(np.arange(len(self))[rows])
+
+    def __iter__(self) -> Iterator[Any]:
+        return (self._row(i) for i in range(len(self)))
+
+    def __repr__(self) -> str:
+        shown = range(len(self)) if len(self) <= 6 else [0, 1, 2, -3, -2, -1]
+        lines = [f"  {i % len(self)}: {self._row_text(i % len(self))}" for i in shown]
+        if len(self) > 6:
+            lines.insert(3, "  ..")
+        return "\n".join([self._headline(), *lines])
+
+    def __reduce__(self) -> Any:
+        return _unpickled, (type(self), {name: np.array(column) for name, column in self._columns.items()}, *self._rest())
+
+    def __copy__(self: Self) -> Self:
+        return self
+
+    def __deepcopy__(self: Self, memo: Any) -> Self:
+        make, arguments = self.__reduce__()
+        copied: Self = make(*arguments)
+        return copied
+
+    def to_frame(self) -> Any:
+        """The rows as a DataFrame of pandas, which must be installed; its columns are those of `to_dict`."""
+        import pandas
+
+        return pandas.DataFrame(self.to_dict())
+
+    def to_dict(self) -> dict[str, Array]:
+        """One-dimensional columns by name; ``cell`` becomes ``cell_0``, ``cell_1`` ..."""
+        raise NotImplementedError
+
+    def _row(self, i: int) -> Any:
+        raise NotImplementedError
+
+    def _part(self: Self, rows: Array) -> Self:
+        raise NotImplementedError
+
+    def _row_text(self, i: int) -> str:
+        raise NotImplementedError
+
+    def _headline(self) -> str:
+        raise NotImplementedError
+
+    def _rest(self) -> tuple[Any, ...]:
+        """What there is besides columns: further arguments of the constructor."""
+        return ()
+
+
+def _unpickled(kind: Any, columns: dict[str, Array], *rest: Any) -> Any:
+    for column in columns.values():
+        column.setflags(write=False)
+    return kind(None, columns, *rest)
+
+
+def by_component(name: str, column: Array) -> dict[str, Array]:
+    """Columns of the components of an array (N, d)."""
+    return {f"{name}_{k}": column[:, k] for k in range(column.shape[1])}

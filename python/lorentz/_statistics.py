@@ -1,0 +1,218 @@
+"""What many trajectories come to: Lyapunov exponents, diffusion, how long they stay right; and scans."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from itertools import product
+from typing import Any, Callable, Iterable, NamedTuple, Sequence, Union
+
+from . import _lorentz
+from ._flights import single_numbers
+from ._lorentz import Error
+from ._numbers import Number, finite, items, time_limit, whole, word
+from ._scene import Scene, SceneLike, native
+
+SEED = 20161115
+
+
+class Estimate(NamedTuple):
+    """A number and its standard error; either is None where it is not known."""
+
+    value: float | None
+    error: float | None
+
+
+@dataclass(frozen=True, repr=False)
+class Lyapunov:
+    """Lyapunov exponents in nats, the largest first. ``report`` is what `lorentz lyapunov --json` says."""
+
+    scene: Scene
+    report: dict[str, Any]
+
+    @property
+    def exponents(self) -> list[Estimate]:
+        """A collision."""
+        return [Estimate(one["map"], one["map_error"]) for one in self.report["exponents"]]
+
+    @property
+    def exponents_in_time(self) -> list[Estimate]:
+        """A unit of time, at speed 1."""
+        return [Estimate(one["flow"], one["flow_error"]) for one in self.report["exponents"]]
+
+    def to_dict(self) -> dict[str, Any]:
+        """One row of a table: the single numbers, and the exponents by number."""
+        row = single_numbers(self.report)
+        for i, one in enumerate(self.report["exponents"], 1):
+            row |= {f"exponent_{i}": one["map"], f"exponent_{i}_error": one["map_error"],
+                    f"exponent_{i}_in_time": one["flow"], f"exponent_{i}_in_time_error": one["flow_error"]}
+        return row
+
+    def __repr__(self) -> str:
+        told = ", ".join(f"{value:.6g} +- {error:.1g}" for value, error in self.exponents)
+        return f"Lyapunov({told} a collision)"
+
+
+@dataclass(frozen=True, repr=False)
+class Diffusion:
+    """Mean squared displacements. ``report`` is what `lorentz diffusion --json` says."""
+
+    scene: Scene
+    report: dict[str, Any]
+
+    @property
+    def coefficient(self) -> Estimate:
+        """D of <|x|^2> ~ 2 d D t; None where corridors are open, so that there is no D."""
+        return Estimate(self.report["D"], self.report["D_error"])
+
+    @property
+    def times(self) -> list[float]:
+        """When displacements were looked at."""
+        return [one["t"] for one in self.report["displacements"]]
+
+    @property
+    def displacements(self) -> list[Estimate]:
+        """<|x|^2> at these times, in squares of the scene's unit of length."""
+        return [Estimate(one["msd"], one["msd_error"]) for one in self.report["displacements"]]
+
+    def to_dict(self) -> dict[str, Any]:
+        """One row of a table: the single numbers, and the last displacement."""
+        last: dict[str, Any] = self.report["displacements"][-1]
+        return single_numbers(self.report) | last
+
+    def __repr__(self) -> str:
+        value, error = self.coefficient
+        told = "no coefficient: corridors are open" if value is None else f"D = {value:.6g} +- {error or 0:.1g}"
+        return f"Diffusion({told}, until t = {self.times[-1]:g})"
+
+
+@dataclass(frozen=True, repr=False)
+class Survival:
+    """How many collisions of trajectories are right. ``report`` is what `lorentz survival --json` says."""
+
+    scene: Scene
+    report: dict[str, Any]
+
+    @property
+    def right(self) -> dict[int, list[int]]:
+        """By bits of the arithmetic: of each start the collisions before the first wrong one."""
+        return {one["bits"]: one["right"] for one in self.report["arithmetics"]}
+
+    def share(self, bits: int, collisions: int) -> float:
+        """The share of starts with at least so many right collisions in this arithmetic."""
+        right = self.right[bits]
+        return sum(n >= collisions for n in right) / len(right)
+
+    def to_dict(self) -> dict[str, Any]:
+        """One row of a table: the mean number of right collisions of each arithmetic."""
+        means = {f"mean_of_{one['bits']}_bits": one["mean"] for one in self.report["arithmetics"]}
+        return single_numbers(self.report) | means
+
+    def __repr__(self) -> str:
+        told = ", ".join(f"{one['mean']:.4g} in {one['bits']} bits" for one in self.report["arithmetics"])
+        return f"Survival(right collisions, the mean of {self.report['count']} starts: {told})"
+
+
+def lyapunov(scene: SceneLike, radius: Number | None = None, *, collisions: int = 1_000_000, spectrum: bool = False,
+             seed: int = SEED, jobs: int = 1) -> Lyapunov:
+    """Lyapunov exponents, with standard errors, and theory beside them.
+
+    Args:
+        scene, radius: as of `lorentz.first_hit`.
+        collisions: how many are counted, about, of 4096 particles together.
+        spectrum: the exponents below zero, too.
+        seed: of the starts, which are on the obstacles.
+        jobs: threads; the result is the same.
+
+    Source: docs/chaos.md.
+
+    Raises:
+        Error: the scene leaves nothing free; negative exponents that rounding takes. UnsupportedError: a scene
+            that the engine ``batch`` does not do.
+    """
+    place = Scene(scene, radius)
+    return Lyapunov(place, json.loads(_lorentz.lyapunov(
+        native(place), whole(collisions, "collisions", 1, 2**52), bool(spectrum), _seed(seed), _jobs(jobs))))
+
+
+def diffusion(scene: SceneLike, radius: Number | None = None, *, count: int = 100_000, max_time: float = 100.0,
+              start: str = "uniform", seed: int = SEED, jobs: int = 1) -> Diffusion:
+    """Mean squared displacements of many particles at unit speed, and theory beside them.
+
+    Args:
+        scene, radius: as of `lorentz.first_hit`.
+        count: how many particles.
+        max_time: T, until when they are followed.
+        start: ``uniform`` or ``surface``, as of `flights`.
+        seed, jobs: as of `lyapunov`.
+
+    Source: docs/chaos.md. Raises as `lyapunov` does.
+    """
+    place = Scene(scene, radius)
+    until = time_limit(max_time, "max_time")
+    return Diffusion(place, json.loads(_lorentz.diffusion(
+        native(place), whole(count, "count", 1, 2**52), finite(until, "max_time"), word(start, "start"), _seed(seed), _jobs(jobs))))
+
+
+def survival(scene: SceneLike, radius: Number | None = None, *, count: int = 100, collisions: int = 500,
+             bits: Sequence[int] = (53, 106, 128, 256), engine: str = "reduction", seed: int = SEED) -> Survival:
+    """How many collisions of a trajectory are right in floating point.
+
+    Args:
+        scene, radius: as of `lorentz.first_hit`.
+        count: starts, each followed with certainty, and in each arithmetic until that hits another obstacle.
+        collisions: at most so many of each start.
+        bits: arithmetics: 53 is the engine in binary64, 106 in double-double, any other number plain arithmetic of
+            that many bits.
+        engine: whose flights binary64 and double-double have.
+        seed: of the starts, which are on the obstacles.
+
+    Source: docs/itineraries.md. Raises as `lyapunov` does.
+    """
+    place = Scene(scene, radius)
+    widths = [whole(width, "bits", 24, 100_000) for width in items(bits, "bits")]
+    if not widths:
+        raise Error("bits: needs at least one number")
+    return Survival(place, json.loads(_lorentz.survival(
+        native(place), whole(count, "count", 1, 10**7), whole(collisions, "collisions", 1, 10**6), widths, word(engine, "engine"),
+        _seed(seed))))
+
+
+def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLike]],
+         radii: Iterable[Number] | None = None, **options: Any) -> list[dict[str, Any]]:
+    """A table of what a function finds in each of some scenes, at each of some radii.
+
+    Args:
+        function: `lyapunov`, `diffusion`, `survival`, `flights`, `mean_free_path`, `horizon`, or another that takes a
+            scene and a radius.
+        scenes: one, or a list of them.
+        radii: every ball gets each of these in turn; without them scenes are as they are.
+        options: what the function takes besides.
+
+    Returns:
+        A dict for each: ``scene`` as it was given, ``radius``, and the single numbers that were found (``value`` where
+        the function returns one number). ``pandas.DataFrame(scan(..))`` is a table of them.
+    """
+    if not callable(function):
+        raise Error(f"function: {function!r} is not a function")
+    several = list(scenes) if isinstance(scenes, (list, tuple)) else [scenes]
+    rows = []
+    sizes: list[Number | None] = [None] if radii is None else items(radii, "radii")
+    for scene, radius in product(several, sizes):
+        found = function(scene, radius, **options)
+        rows.append({"scene": scene, "radius": radius} | _row_of(found))
+    return rows
+
+
+def _row_of(found: Any) -> dict[str, Any]:
+    if isinstance(found, dict):
+        return single_numbers(found)
+    return dict(found.to_dict()) if hasattr(found, "to_dict") else {"value": found}
+
+
+def _seed(seed: int) -> int:
+    return whole(seed, "seed", 0, 2**64 - 1)
+
+
+def _jobs(jobs: int) -> int:
+    return whole(jobs, "jobs", 1, 1024)

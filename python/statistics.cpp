@@ -1,0 +1,61 @@
+// Statistics of trajectories: Lyapunov exponents, diffusion, and how long trajectories stay right.
+#include "python/engine.hpp"
+#include "python/signals.hpp"
+#include "statistics/chaos/diffusion_report.hpp"
+#include "statistics/chaos/lyapunov_report.hpp"
+#include "statistics/survival/survival.hpp"
+
+namespace lorentz::python {
+namespace {
+
+// What `find(stop)` finds while other threads of Python run; Ctrl-C ends it.
+template <class Find>
+auto found_by(const Find& find) {
+  const py::gil_scoped_release release;
+  std::atomic<bool> stop = false;
+  return watched(stop, [&] { return find(stop); });
+}
+
+// What `lorentz lyapunov --json` says.
+std::string lyapunov(const PyScene& scene, std::uint64_t collisions, bool spectrum, std::uint64_t seed,
+                     unsigned jobs) {
+  const chaos::LyapunovPlan plan{scene.crystal("means of trajectories are taken"), seed, collisions,
+                                 spectrum};
+  return found_by([&](std::atomic<bool>& stop) {
+    return chaos::LyapunovReport("", plan, chaos::lyapunov_of(plan, {jobs, &stop})).json();
+  });
+}
+
+// What `lorentz diffusion --json` says.
+std::string diffusion(const PyScene& scene, std::uint64_t count, double time, const std::string& start,
+                      std::uint64_t seed, unsigned jobs) {
+  const chaos::DiffusionPlan plan{scene.crystal("means of trajectories are taken"),
+                                  starts::ensemble_named(start, "start"), seed, count, time};
+  return found_by([&](std::atomic<bool>& stop) {
+    const chaos::DiffusionReport report("", plan, chaos::diffusion_of(plan, {jobs, &stop}));
+    if (!report.has_content()) throw InputError("scene: no particle got beyond its first obstacle");
+    return report.json();
+  });
+}
+
+// What `lorentz survival --json` says.
+std::string survival_of(const PyScene& scene, std::uint64_t count, std::uint64_t collisions,
+                        const std::vector<long>& bits, const std::string& engine, std::uint64_t seed) {
+  const survival::SurvivalPlan plan{
+      "",  scene.crystal("right collisions are counted"), {}, own_engine(engine), count, collisions, seed,
+      bits};
+  return found_by([&](std::atomic<bool>& stop) { return survival::survival_of(plan, stop).json(); });
+}
+
+}  // namespace
+
+void bind_statistics(py::module_& module) {
+  module.def("lyapunov", lyapunov, py::arg("scene"), py::arg("collisions"), py::arg("spectrum"),
+             py::arg("seed"), py::arg("jobs"));
+  module.def("diffusion", diffusion, py::arg("scene"), py::arg("count"), py::arg("time"), py::arg("start"),
+             py::arg("seed"), py::arg("jobs"));
+  module.def("survival", survival_of, py::arg("scene"), py::arg("count"), py::arg("collisions"),
+             py::arg("bits"), py::arg("engine"), py::arg("seed"));
+}
+
+}  // namespace lorentz::python

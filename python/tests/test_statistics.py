@@ -1,0 +1,55 @@
+"""Statistics of trajectories say what the command line says, and what theory does."""
+
+import lorentz
+import pytest
+
+SEED = 20161115
+
+
+def test_exponents_of_small_discs():
+    found = lorentz.lyapunov("square", 0.001, collisions=300_000, seed=SEED)
+    value, error = found.exponents[0]
+    assert abs(value - found.report["small_obstacles"]) < 5 * error + 1e-3 and 0 < error < 0.02
+    in_time = found.exponents_in_time[0]
+    assert in_time.value == pytest.approx(value / lorentz.mean_free_path("square", 0.001))
+    whole = lorentz.lyapunov("cubic", 0.3, collisions=20_000, spectrum=True, jobs=2)
+    assert len(whole.exponents) == 4 and abs(whole.report["sum"]) < 1e-10
+    assert whole.report == lorentz.lyapunov("cubic", 0.3, collisions=20_000, spectrum=True).report
+
+
+def test_diffusion_between_small_gaps():
+    found = lorentz.diffusion("triangular", 0.49, count=4000, max_time=100, seed=SEED, jobs=2)
+    value, error = found.coefficient
+    assert value == pytest.approx(found.report["machta_zwanzig"], rel=0.5) and error < value / 5
+    assert found.times[-1] == 100 and len(found.displacements) == len(found.times) == 17
+    open_ways = lorentz.diffusion("square", 0.2, count=1000, max_time=20, seed=SEED)
+    assert open_ways.coefficient == (None, None) and open_ways.report["open"]
+
+
+def test_more_bits_last_longer():
+    found = lorentz.survival("square", 0.1, count=30, bits=[53, 106, 200], seed=SEED)
+    means = [sum(right) / 30 for right in found.right.values()]
+    assert means == sorted(means) and means[0] > 3 and list(found.right) == [53, 106, 200]
+    assert found.share(53, 0) == 1 and found.share(53, 10**6) == 0
+    assert found.to_dict()["mean_of_53_bits"] == pytest.approx(means[0], rel=1e-4)
+
+
+def test_scans():
+    rows = lorentz.scan(lorentz.lyapunov, "square", [0.1, 0.2], collisions=5000)
+    assert [(row["scene"], row["radius"]) for row in rows] == [("square", 0.1), ("square", 0.2)]
+    assert rows[0]["exponent_1"] > rows[1]["exponent_1"] > 2
+    assert rows[1]["exponent_1"] == lorentz.lyapunov("square", 0.2, collisions=5000).exponents[0].value
+    rows = lorentz.scan(lorentz.flights, ["square", "triangular"], [0.2], count=2000, start="surface")
+    assert [row["mean_free_path"] for row in rows] == [lorentz.mean_free_path(name, 0.2) for name in ("square", "triangular")]
+    assert [row["horizon"] for row in lorentz.scan(lorentz.horizon, "triangular", [0.4, 0.45])] == ["infinite", "finite"]
+    assert lorentz.scan(lorentz.mean_free_path, "honeycomb")[0]["radius"] is None
+
+
+@pytest.mark.parametrize("call", [
+    lambda scene: lorentz.lyapunov(scene), lambda scene: lorentz.diffusion(scene),
+    lambda scene: lorentz.survival(scene), lambda scene: lorentz.flights(scene)])
+def test_scenes_that_leave_no_statistics(call):
+    rows = {"dimension": 2, "lattices": [{"vectors": [[1, 0]], "atoms": [{"position": [0, 0], "radius": 0.25}]}]}
+    for scene in (rows, lorentz.unit_scene(2, 0.9)):
+        with pytest.raises(lorentz.Error):
+            call(scene)
