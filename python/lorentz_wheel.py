@@ -1,6 +1,7 @@
-"""Builds the package's wheel, as pip asks for it (PEP 517): CMake builds and installs, a wheel is a zip of that.
+"""Builds the package's wheel and source archive, as pip asks for them (PEP 517): CMake builds and installs, a wheel is a
+zip of that. No tool for builds is needed besides, so that `pip install .` works where no index can be reached.
 
-No tool for builds is needed besides, so that `pip install .` works where no index of packages can be reached.
+With `--config-settings program=yes` the wheel has the command `lorentz`, too (`./run wheel`).
 """
 
 import base64
@@ -11,6 +12,7 @@ import shutil
 import subprocess
 import sys
 import sysconfig
+import tarfile
 import tempfile
 import zipfile
 from pathlib import Path
@@ -32,6 +34,11 @@ Requires-Dist: numpy
 Provides-Extra: plot
 Requires-Dist: matplotlib; extra == 'plot'
 """
+# Of an archive of the sources: what the extension module is compiled of.
+WANTED = re.compile(r"(CMakeLists|CMakePresets|LICENSE|README|pyproject|packages|cmake/|include/|src/|oracle/|cases/|starts/|"
+                    r"question/|runs/|files/|golden/|fuzz/|judge/|statistics/|fitness/|pictures/|report/|python/|"
+                    r"data/scenes/|data/golden/)")
+UNWANTED = re.compile(r"^python/tests/|^fuzz/(harness|planted)/|^report/web/")
 
 
 def get_requires_for_build_wheel(config_settings=None):
@@ -45,25 +52,48 @@ def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     name = f"lorentz-{VERSION}-{TAG}.whl"
+    with_program = (config_settings or {}).get("program") == "yes"
     with tempfile.TemporaryDirectory() as folder:
-        install(Path(folder))
+        install(Path(folder), with_program)
         write_info(Path(folder))
+        if with_program:
+            (Path(folder) / INFO / "entry_points.txt").write_text("[console_scripts]\nlorentz = lorentz._program:main\n")
         pack(Path(folder), Path(wheel_directory) / name)
     return name
 
 
 def build_sdist(sdist_directory, config_settings=None):
-    raise NotImplementedError("the repository itself is the distribution of the sources")
+    """What the package is built of, and no more: no tests, no documents but the package's own, no command line."""
+    name = f"lorentz-{VERSION}"
+    archive = Path(sdist_directory) / f"{name}.tar.gz"
+    with tarfile.open(archive, "w:gz", format=tarfile.PAX_FORMAT) as tar:
+        for path in sources():
+            tar.add(ROOT / path, f"{name}/{path}", recursive=False)
+        with tempfile.NamedTemporaryFile("w", suffix=".txt") as info:
+            info.write(METADATA)
+            info.flush()
+            tar.add(info.name, f"{name}/PKG-INFO")
+    return archive.name
 
 
-def install(folder):
+def sources():
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\n")
+    return [path for path in listed if WANTED.match(path) and not UNWANTED.search(path)]
+
+
+def install(folder, with_program):
     """The package, with the scenes and golden sets that it finds there."""
     jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
+    targets = ["lorentz_python"] + ["lorentz"] * with_program
+    print("lorentz: building the extension module: some minutes of processor time", file=sys.stderr, flush=True)
     for command in (["cmake", "--log-level=WARNING", "--preset", "python", "-DBUILD_TESTING=OFF", "-DLORENTZ_PYTHON_DIR=.",
-                     f"-DPython3_EXECUTABLE={sys.executable}"],
-                    ["cmake", "--build", BUILD, "--target", "lorentz_python", "-j", jobs],
+                     f"-DLORENTZ_CLI={'ON' if with_program else 'OFF'}", f"-DPython3_EXECUTABLE={sys.executable}"],
+                    ["cmake", "--build", BUILD, "--target", *targets, "-j", jobs],
                     ["cmake", "--install", BUILD, "--component", "python", "--prefix", folder, "--strip"]):
         subprocess.run(command, cwd=ROOT, check=True)
+    if with_program:
+        (folder / "lorentz" / "bin").mkdir()
+        subprocess.run(["strip", BUILD / "lorentz", "-o", folder / "lorentz" / "bin" / "lorentz"], check=True)
     for data in ("scenes", "golden"):
         shutil.copytree(ROOT / "data" / data, folder / "lorentz" / "data" / data)
 
