@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ._answer import Answer
-from ._columns import Array, Columns, by_component
+from ._columns import Array, Column, Columns, by_component
 
 Floats = npt.NDArray[np.float64]
 
@@ -29,7 +29,15 @@ class Answers(Columns):
     """The answers to N queries, in columns: what `lorentz.first_hit` returns."""
 
     __slots__ = ("_large_cells", "_reasons")
-    _NAMES: ClassVar[tuple[str, ...]] = ("outcome", "lattice", "atom", "cell", "time", "time_is_rounded", "stage")
+
+    outcome = Column(np.int32, "(N,): codes of `Outcome`.")
+    lattice = Column(np.int32, "(N,): number of the lattice of what is hit, or contains x; 0 else.")
+    atom = Column(np.int32, "(N,): number of the atom in its lattice; 0 else.")
+    cell = Column(np.int64, "(N, d): the coordinates of its cell; 0 else, and where 64 bits do not hold them: "
+                  "see `large_cells`.")
+    time = Column(np.float64, "(N,): when it is hit, in units in which x + t v is the place; NaN without a hit.")
+    time_is_rounded = Column(np.bool_, "(N,): the time is known to be correctly rounded.")
+    stage = Column(np.uint8, "(N,): how it was decided (docs/formats.md).")
 
     def __init__(self, native: Any, columns: dict[str, Array] | None = None,
                  large_cells: dict[int, tuple[int, ...]] | None = None,
@@ -41,41 +49,6 @@ class Answers(Columns):
     def dimension(self) -> int:
         """2 or 3."""
         return int(self.cell.shape[1])
-
-    @property
-    def outcome(self) -> npt.NDArray[np.int32]:
-        """(N,): codes of `Outcome`."""
-        return self._columns["outcome"]
-
-    @property
-    def lattice(self) -> npt.NDArray[np.int32]:
-        """(N,): number of the lattice of what is hit, or contains x; 0 else."""
-        return self._columns["lattice"]
-
-    @property
-    def atom(self) -> npt.NDArray[np.int32]:
-        """(N,): number of the atom in its lattice; 0 else."""
-        return self._columns["atom"]
-
-    @property
-    def cell(self) -> npt.NDArray[np.int64]:
-        """(N, d): the coordinates of its cell; 0 else, and where 64 bits do not hold them: see `large_cells`."""
-        return self._columns["cell"]
-
-    @property
-    def time(self) -> Floats:
-        """(N,): when it is hit, in units in which x + t v is the place; NaN without a hit."""
-        return self._columns["time"]
-
-    @property
-    def time_is_rounded(self) -> npt.NDArray[np.bool_]:
-        """(N,): the time is known to be correctly rounded."""
-        return self._columns["time_is_rounded"]
-
-    @property
-    def stage(self) -> npt.NDArray[np.uint8]:
-        """(N,): how it was decided (docs/formats.md)."""
-        return self._columns["stage"]
 
     @property
     def large_cells(self) -> dict[int, tuple[int, ...]]:
@@ -122,12 +95,9 @@ class Answers(Columns):
         return Answer(outcome.name.lower(), int(self.lattice[i]), int(self.atom[i]), cell, time)
 
     def _part(self, rows: Array) -> Answers:
-        columns = {name: column[rows] for name, column in self._columns.items()}
-        for column in columns.values():
-            column.setflags(write=False)
         large, reasons = self.large_cells, self.reasons
         numbered = list(enumerate(rows.tolist())) if large or reasons else []
-        return Answers(None, columns, {i: large[row] for i, row in numbered if row in large},
+        return Answers(None, self._of_rows(rows), {i: large[row] for i, row in numbered if row in large},
                        {i: reasons[row] for i, row in numbered if row in reasons})
 
     def _row_text(self, i: int) -> str:

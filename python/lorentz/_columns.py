@@ -2,13 +2,31 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar, Iterator, TypeVar
+from typing import Any, ClassVar, Generic, Iterator, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 Self = TypeVar("Self", bound="Columns")
+Number = TypeVar("Number", bound=np.generic)
 Array = npt.NDArray[Any]
+
+
+class Column(Generic[Number]):
+    """A column of a result, by the name that the class gives it; its docstring says what is in it."""
+
+    def __init__(self, kind: type[Number], doc: str) -> None:
+        self.__doc__ = doc
+
+    def __set_name__(self, owner: type[Columns], name: str) -> None:
+        self._name = name
+        owner._NAMES = (*owner._NAMES, name)
+
+    def __get__(self, result: Columns, kind: Any = None) -> npt.NDArray[Number]:
+        return self if result is None else result._columns[self._name]
+
+    def __set__(self, result: Columns, value: Any) -> None:
+        raise AttributeError(f"{self._name} is what the engine wrote; copy it to change it")
 
 
 class Columns:
@@ -20,7 +38,7 @@ class Columns:
     """
 
     __slots__ = ("_native", "_columns")
-    _NAMES: ClassVar[tuple[str, ...]]
+    _NAMES: ClassVar[tuple[str, ...]] = ()
 
     def __init__(self, native: Any, columns: dict[str, Array] | None = None) -> None:
         self._native = native  # None: of a part, or a copy
@@ -67,6 +85,10 @@ class Columns:
         """One-dimensional columns by name; ``cell`` becomes ``cell_0``, ``cell_1`` ..."""
         raise NotImplementedError
 
+    def _of_rows(self, rows: Array) -> dict[str, Array]:
+        """The columns of these rows alone."""
+        return _frozen({name: column[rows] for name, column in self._columns.items()})
+
     def _row(self, i: int) -> Any:
         raise NotImplementedError
 
@@ -84,10 +106,14 @@ class Columns:
         return ()
 
 
-def _unpickled(kind: Any, columns: dict[str, Array], *rest: Any) -> Any:
+def _frozen(columns: dict[str, Array]) -> dict[str, Array]:
     for column in columns.values():
         column.setflags(write=False)
-    return kind(None, columns, *rest)
+    return columns
+
+
+def _unpickled(kind: Any, columns: dict[str, Array], *rest: Any) -> Any:
+    return kind(None, _frozen(columns), *rest)
 
 
 def by_component(name: str, column: Array) -> dict[str, Array]:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass
-from typing import Any, ClassVar, Literal, NamedTuple, Union
+from typing import Any, Literal, NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _lorentz
 from ._answers import Floats
-from ._columns import Array, Columns, by_component
+from ._columns import Array, Column, Columns, by_component
 from ._first_hit import StartFrom, _columns, vectors_of
 from ._lorentz import Error
 from ._memory import free_memory
@@ -29,7 +29,15 @@ class Paths(Columns):
     happen is NaN, or 0 of integers."""
 
     __slots__ = ("every",)
-    _NAMES: ClassVar[tuple[str, ...]] = ("count", "stop_code", "time", "lattice", "atom", "cell", "place", "velocity")
+
+    count = Column(np.int64, "(N,): how many collisions there were, kept or not.")
+    stop_code = Column(np.uint8, "(N,): why a particle does not go on, an index into `STOPS`.")
+    time = Column(np.float64, "(N, K): of each collision, from the start on.")
+    lattice = Column(np.int32, "(N, K): number of the lattice of what is hit.")
+    atom = Column(np.int32, "(N, K): number of the atom in its lattice.")
+    cell = Column(np.int64, "(N, K, d): its cell.")
+    place = Column(np.float64, "(N, K, d): where the collision is.")
+    velocity = Column(np.float64, "(N, K, d): after it.")
 
     def __init__(self, native: Any, columns: dict[str, Array] | None = None, every: Every = 1) -> None:
         super().__init__(native, columns)
@@ -39,46 +47,6 @@ class Paths(Columns):
     def dimension(self) -> int:
         """2 or 3."""
         return int(self.place.shape[2])
-
-    @property
-    def count(self) -> npt.NDArray[np.int64]:
-        """(N,): how many collisions there were, kept or not."""
-        return self._columns["count"]
-
-    @property
-    def stop_code(self) -> npt.NDArray[np.uint8]:
-        """(N,): why a particle does not go on, an index into `STOPS`."""
-        return self._columns["stop_code"]
-
-    @property
-    def time(self) -> Floats:
-        """(N, K): of each collision, from the start on."""
-        return self._columns["time"]
-
-    @property
-    def lattice(self) -> npt.NDArray[np.int32]:
-        """(N, K): number of the lattice of what is hit."""
-        return self._columns["lattice"]
-
-    @property
-    def atom(self) -> npt.NDArray[np.int32]:
-        """(N, K): number of the atom in its lattice."""
-        return self._columns["atom"]
-
-    @property
-    def cell(self) -> npt.NDArray[np.int64]:
-        """(N, K, d): its cell."""
-        return self._columns["cell"]
-
-    @property
-    def place(self) -> Floats:
-        """(N, K, d): where the collision is."""
-        return self._columns["place"]
-
-    @property
-    def velocity(self) -> Floats:
-        """(N, K, d): after it."""
-        return self._columns["velocity"]
 
     def kept(self) -> npt.NDArray[np.int64]:
         """(N,): how many collisions of each particle are kept."""
@@ -102,10 +70,7 @@ class Paths(Columns):
         return self._part(np.array([i]))
 
     def _part(self, rows: Array) -> Paths:
-        columns = {name: column[rows] for name, column in self._columns.items()}
-        for column in columns.values():
-            column.setflags(write=False)
-        return Paths(None, columns, self.every)
+        return Paths(None, self._of_rows(rows), self.every)
 
     def _row_text(self, i: int) -> str:
         text = f"{self.count[i]} collisions, then {STOPS[self.stop_code[i]]}"
