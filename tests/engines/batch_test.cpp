@@ -145,7 +145,7 @@ struct Compared {
     left += static_cast<long>(batch.fly(columns, flights.columns(), time, jobs));
     for (std::size_t i = 0; i < table.size(); ++i) {
       const Query query = table[i];
-      const double limit = columns.max_time ? columns.max_time[i] : kNoLimit;
+      const double limit = columns.max_time.empty() ? kNoLimit : columns.max_time[i];
       const Flight one = batch.one_at_a_time().fly(query, limit, time), many = flights[i];
       ++queries;
       hits += one.outcome == Outcome::hit, inside += one.outcome == Outcome::inside;
@@ -236,7 +236,8 @@ struct Certain {
       }
       ++certain;
       oracle::Request request;
-      if (columns.max_time && std::isfinite(columns.max_time[i])) request.max_time = columns.max_time[i];
+      if (!columns.max_time.empty() && std::isfinite(columns.max_time[i]))
+        request.max_time = columns.max_time[i];
       const Answer exact = batch.one_at_a_time().first_hit(table[i], request);
       later += exact.outcome == Outcome::later;
       INFO(stream(scene, table[i]) << line(answer_of(flights[i]), 3) << line(exact, 3));

@@ -108,7 +108,7 @@ TEST_CASE("Starts are the same one at a time and in columns, however they are sp
       StartColumns all, part;
       starts.draw(7, kCount, all);
       REQUIRE(all.size() == kCount);
-      REQUIRE(all.view().count == kCount);
+      REQUIRE(all.view().size() == kCount);
       Query query;
       for (std::size_t i = 0; i < kCount; ++i) {
         starts.draw(7 + i, 0, query);
@@ -182,12 +182,12 @@ TEST_CASE("Columns that are large enough are not allocated anew", "[flights][sta
   const Candidates starts(superposition(3), Ensemble::surface, kSeed);
   StartColumns columns;
   starts.draw(0, 100, columns);
-  const double* const before = columns.view().x[2];
-  const std::int64_t* const cells = columns.view().from_cell[2];
+  const double* const before = columns.view().x[2].data();
+  const std::int64_t* const cells = columns.view().from_cell[2].data();
   starts.draw(100, 60, columns);
   starts.draw(160, 100, columns);
-  CHECK(columns.view().x[2] == before);
-  CHECK(columns.view().from_cell[2] == cells);
+  CHECK(columns.view().x[2].data() == before);
+  CHECK(columns.view().from_cell[2].data() == cells);
 }
 
 TEST_CASE("Uniform starts are uniform in the cell, or in the box", "[flights][starts]") {

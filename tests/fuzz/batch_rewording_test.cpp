@@ -80,7 +80,7 @@ class Gathered {
     tally.met["(left to single flights)"] += batch.fly(columns, flights_.columns(), time);
     tally.met["(flights)"] += table.size();
     for (std::size_t i = 0; i < table.size(); ++i) {
-      const double limit = columns.max_time ? columns.max_time[i] : kNoLimit;
+      const double limit = columns.max_time.empty() ? kNoLimit : columns.max_time[i];
       const Flight one = scene_.reduction->fly(table[i], limit, time), many = flights_[i];
       INFO(stream(words(), table[i]) << "limit " << limit << "\none  " << line(answer_of(one), 3) << "many "
                                      << line(answer_of(many), 3));
