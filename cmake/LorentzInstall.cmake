@@ -28,7 +28,8 @@ set(LORENTZ_ITINERARY_HEADERS itinerary)
 function(lorentz_install_component component)
   string(TOUPPER ${component} upper)
   install(TARGETS ${LORENTZ_${upper}_TARGETS} EXPORT lorentz-${component}
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
   install(EXPORT lorentz-${component} NAMESPACE lorentz:: DESTINATION ${LORENTZ_CMAKE_DIR} COMPONENT development)
   list(TRANSFORM LORENTZ_${upper}_HEADERS REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/include/lorentz/\\1.hpp")
   install(FILES ${LORENTZ_${upper}_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lorentz COMPONENT development)
