@@ -2,7 +2,8 @@
 
 `first_hit` answers for arrays, `oracle` exactly, one question at a time; `trajectories` and `itinerary` follow
 particles, `flights` counts free paths, `lyapunov`, `diffusion` and `survival` are statistics of trajectories, `horizon`
-finds the ways that are free for ever; `judge` says what an engine gets wrong, and `golden` has what breaks them. docs/python.md shows all of it.
+finds the ways that are free for ever; `judge` says what an engine gets wrong, and `golden` has what breaks them.
+docs/python.md shows all of it.
 """
 
 from __future__ import annotations

@@ -65,7 +65,8 @@ class Columns:
         return "\n".join([self._headline(), *lines])
 
     def __reduce__(self) -> Any:
-        return _unpickled, (type(self), {name: np.array(column) for name, column in self._columns.items()}, *self._rest())
+        copies = {name: np.array(column) for name, column in self._columns.items()}
+        return _unpickled, (type(self), copies, *self._rest())
 
     def __copy__(self: Self) -> Self:
         return self

@@ -121,7 +121,7 @@ def _limits(max_time: npt.ArrayLike, count: int) -> Floats:
 
 
 def floats_of(numbers: npt.ArrayLike, name: str) -> Floats:
-    """The array of floats that these numbers are. Raises Error for what is not an array of numbers, or would be rounded."""
+    """The array of floats that these numbers are. Raises Error for no array of numbers, or what would be rounded."""
     if isinstance(numbers, np.ma.MaskedArray):
         raise Error(f"{name}: is a masked array; fill it first")
     try:

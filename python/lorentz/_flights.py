@@ -101,8 +101,8 @@ def flights(scene: SceneLike, radius: float | None = None, *, count: int = 1_000
     """
     place = Scene(scene, radius)
     report, edges, counts, beyond = _lorentz.flights(
-        native(place), whole(count, "count", 1, 2**52), word(start, "start"), whole(seed, "seed", 0, 2**64 - 1), word(engine, "engine"),
-        whole(jobs, "jobs", 1, 1024))
+        native(place), whole(count, "count", 1, 2**52), word(start, "start"), whole(seed, "seed", 0, 2**64 - 1),
+        word(engine, "engine"), whole(jobs, "jobs", 1, 1024))
     return FreePaths(place, start, edges, counts, beyond, json.loads(report))
 
 

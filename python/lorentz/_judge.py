@@ -27,8 +27,8 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
 
     Args:
         engine: the name of an engine, ``"cmd:COMMAND"`` for another program, ``"lib:FILE.so"`` for a shared
-            library (docs/command_engines.md), or a function ``f(scene, x, v, start_from)`` of a `Scene`, a place and a velocity of shape (d,), and the obstacle
-            (lattice, atom, cell) that the particle leaves, or None. It returns an `Answer`: `hit`, `never`,
+            library (docs/command_engines.md), or a function ``f(scene, x, v, start_from)`` of a `Scene`, a place and
+            a velocity of shape (d,), and the obstacle (lattice, atom, cell) that the particle leaves, or None. It returns an `Answer`: `hit`, `never`,
             `inside`, `undecided`, `unsupported`; or arrays of one row, as below. An exception is an error of
             the engine, and so counted, but an UnsupportedError.
         vectorized: the function takes x and v of shape (N, d), a list of N start_from, and returns N answers,

@@ -78,7 +78,8 @@ class Paths(Columns):
         return text if last < 0 else f"{text}; at time {self.time[i, last]:.6g} at {self.place[i, last].tolist()}"
 
     def _headline(self) -> str:
-        return f"Paths of {len(self)} particles in {self.dimension}D, {self.time.shape[1]} collisions of each kept at most"
+        kept = self.time.shape[1]
+        return f"Paths of {len(self)} particles in {self.dimension}D, at most {kept} collisions of each kept"
 
     def _rest(self) -> tuple[Any, ...]:
         return (self.every,)
@@ -117,9 +118,9 @@ def trajectories(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, collision
     positions, velocities = vectors_of(x, v, place.dimension)
     _check_memory(len(positions), most, every, place.dimension)
     left = _columns(start_from, len(positions), place)
-    return Paths(_lorentz.follow(place, positions, velocities, left, most, stride,
-                                 math.inf if last is None else float(last), word(engine, "engine"), precision == "double-double"),
-                 every=every)
+    until = math.inf if last is None else float(last)
+    return Paths(_lorentz.follow(place, positions, velocities, left, most, stride, until, word(engine, "engine"),
+                                 precision == "double-double"), every=every)
 
 
 def memory_of_trajectories(particles: int, collisions: int, *, every: Every = 1, dimension: int = 2) -> int:
@@ -138,8 +139,8 @@ def _stride(every: Every) -> int:
 def _check_memory(particles: int, collisions: int, every: Every, dimension: int) -> None:
     needed, free = memory_of_trajectories(particles, collisions, every=every, dimension=dimension), free_memory()
     if needed > free:
-        raise Error(f"collisions: {collisions} of {particles} particles need {needed / 1e9:.3g} GB, and {free / 1e9:.3g} GB "
-                    'are free; every="last" keeps the last ones alone, every=k each k-th')
+        raise Error(f"collisions: {collisions} of {particles} particles need {needed / 1e9:.3g} GB, and "
+                    f'{free / 1e9:.3g} GB are free; every="last" keeps the last ones alone, every=k each k-th')
 
 
 @dataclass(frozen=True)
@@ -231,5 +232,5 @@ def draw_starts(scene: SceneLike, count: int, start: str = "uniform", *, seed: i
     Velocities have length 1 up to rounding, but those of ``near-rational``. Raises Error where the obstacles
     leave nothing free.
     """
-    return Starts(**_lorentz.draw(native(scene), whole(count, "count"), word(start, "start"), whole(seed, "seed", 0, 2**64 - 1),
-                                  whole(first, "first")))
+    return Starts(**_lorentz.draw(native(scene), whole(count, "count"), word(start, "start"),
+                                  whole(seed, "seed", 0, 2**64 - 1), whole(first, "first")))
