@@ -44,7 +44,7 @@ Command lyapunov_command() {
           joined(chaos_rows(*options, "the exponents, a row each"),
                  {
                      {"--collisions", Whole{&options->collisions, 1, std::uint64_t{1} << 52}, "N",
-                      "how many are counted, of 4096 particles together"},
+                      "how many are counted, about: of 4096 particles together, at least one each"},
                      {"--spectrum", &options->spectrum, "", "the exponents below zero, too"},
                  }),
 

@@ -1,7 +1,10 @@
 #include "cli/scan.hpp"
 
+#include <exception>
+
 #include <fmt/format.h>
 
+#include <lorentz/errors.hpp>
 #include "cli/exit_status.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
@@ -56,8 +59,14 @@ int scan(const ScanOptions& options, const std::string& what,
   RequestedFile csv(options.csv);
   std::string rows;
   int status = kDone;
+  std::exception_ptr failure;
   for (const ScanPlace& place : places) {
-    const std::optional<ScanFinding> found = find(place);
+    std::optional<ScanFinding> found;
+    try {
+      found = find(place);
+    } catch (const InputError&) {
+      failure = std::current_exception();  // what was found before is not lost
+    }
     status = found && found->is_whole ? kDone : kFailed;
     if (!found) break;
     const bool is_first = &place == &places[0];
@@ -68,6 +77,7 @@ int scan(const ScanOptions& options, const std::string& what,
     if (status != kDone) break;
   }
   if (!rows.empty()) csv.write([&] { return rows; });
+  if (failure) std::rethrow_exception(failure);
   return status;
 }
 

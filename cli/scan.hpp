@@ -40,7 +40,8 @@ struct ScanFinding {
 };
 
 /// Has `find(place)` look at each place in turn, prints what it finds, and writes the rows of all to --csv: of
-/// several places with scene and radius before them. Nothing found, or not whole, ends it. `what`: what is done with a
+/// several places with scene and radius before them. Nothing found, or not whole, or an
+/// InputError, ends it. `what`: what is done with a
 /// scene ("means of trajectories are taken"). Returns an ExitStatus; throws InputError and FileError.
 int scan(const ScanOptions& options, const std::string& what,
          const std::function<std::optional<ScanFinding>(const ScanPlace&)>& find);

@@ -33,8 +33,9 @@ class Columns:
     """Columns of N rows. They are read-only views of what the engine wrote, if they are of a whole result; those
     of a part, of a copy or of an unpickled result are arrays of their own.
 
-    ``result[i]`` is row i, ``result[rows]`` of a slice, a mask or an array of numbers is the same of these rows;
-    a loop goes over the rows. Results can be pickled and copied.
+    ``result[i]`` is row i, ``result[rows]`` of a slice, a mask or an array of numbers is the same of these rows,
+    ``result["time"]`` a column; a loop goes over the rows. Results can be pickled and copied; slices, copies and
+    data frames do not change when an engine writes over the result (``out=``), columns and `to_dict` do.
     """
 
     __slots__ = ("_native", "_columns")
@@ -48,7 +49,13 @@ class Columns:
         return len(self._columns[self._NAMES[0]])
 
     def __getitem__(self: Self, rows: Any) -> Any:
-        if isinstance(rows, (int, np.integer)) and not isinstance(rows, bool):
+        if isinstance(rows, str):
+            if rows not in self._NAMES:
+                raise KeyError(f"{rows}; the columns are {', '.join(self._NAMES)}")
+            return self._columns[rows]
+        if rows is None or isinstance(rows, (bool, np.bool_)):
+            raise IndexError(f"{rows!r} is not a row, a slice, a mask or an array of numbers")
+        if isinstance(rows, (int, np.integer)):
             if not -len(self) <= rows < len(self):
                 raise IndexError(f"row {rows} of {len(self)}")
             return self._row(int(rows) % len(self))
@@ -68,13 +75,8 @@ class Columns:
         copies = {name: np.array(column) for name, column in self._columns.items()}
         return _unpickled, (type(self), copies, *self._rest())
 
-    def __copy__(self: Self) -> Self:
-        return self
-
-    def __deepcopy__(self: Self, memo: Any) -> Self:
-        make, arguments = self.__reduce__()
-        copied: Self = make(*arguments)
-        return copied
+    def __array__(self, *arguments: Any, **options: Any) -> Array:
+        raise TypeError(f"{type(self).__name__} are columns ({', '.join(self._NAMES)}); take one of them")
 
     def to_frame(self) -> Any:
         """The rows as a DataFrame of pandas, which must be installed; its columns are those of `to_dict`."""

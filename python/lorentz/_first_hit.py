@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _lorentz
+from ._answer import Answer
 from ._answers import Answers, Floats, Outcome
 from ._lorentz import Error
 from ._numbers import integer, rational, whole, word
@@ -15,7 +16,7 @@ from ._scene import SceneLike, native
 
 #: What queries leave: None, one obstacle (lattice, atom, cell) of all, or columns of the three; a lattice
 #: below 0 means none; or a list of N obstacles and None. Answers will do: then each query leaves what was hit.
-StartFrom = Union[None, Answers, tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike], list[Any]]
+StartFrom = Union[None, Answers, Answer, tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike], list[Any]]
 
 
 class Engine:
@@ -35,7 +36,11 @@ class Engine:
 
     def __init__(self, scene: SceneLike, name: str = "certified-batch", *, jobs: int = 1) -> None:
         self._scene = native(scene)
+        self._arguments = scene, name, jobs
         self._engine = _lorentz.Engine(self._scene, word(name, "engine"), None, whole(jobs, "jobs", 1, 1024))
+
+    def __reduce__(self) -> Any:
+        return _engine_of, self._arguments
 
     def __repr__(self) -> str:
         return f"Engine({self._engine.name!r}, {self._scene.dimension}D)"
@@ -45,13 +50,14 @@ class Engine:
         """As `lorentz.first_hit`, in this engine's scene.
 
         Args:
-            out: Answers of as many queries, which are written over and returned, with what looks at them: new
-                memory costs as much as some of the flights. After an exception all of its outcomes are ERROR.
+            out: what an earlier call returned for as many queries. It is written over and returned, and its columns
+                change with it: new memory costs as much as some of the flights. After an exception all of its outcomes
+                are ERROR.
         """
         if word(on_error, "on_error") not in ("raise", "mark"):
             raise Error(f'on_error: "{on_error}" is unknown; expected "raise" or "mark"')
         if out is not None and (not isinstance(out, Answers) or out._native is None):
-            raise Error(f"out: needs the Answers of an earlier call, whole; got {type(out).__name__}")
+            raise Error("out: needs the Answers that an earlier call returned, not a part or a copy of them")
         positions, velocities = vectors_of(x, v, self._scene.dimension)
         count = len(positions)
         limits = None if max_time is None else _limits(max_time, count)
@@ -73,7 +79,8 @@ def first_hit(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, radius: floa
         radius: every ball gets this radius.
         engine, jobs: as in `Engine`.
         max_time: a number, or shape (N,): the outcome is LATER where nothing is entered before.
-        start_from: the obstacle that a query leaves, which it ignores: see `StartFrom`.
+        start_from: the obstacle that a query leaves, which it ignores: one (lattice, atom, cell) for all, or columns of
+            the three (a lattice below 0: none), or a list of N obstacles and None; or Answers, whose hits are left.
         on_error: ``"raise"``, or ``"mark"``: then a row that is not a query, or that the engine does not do, has
             the outcome ERROR.
 
@@ -90,6 +97,10 @@ def first_hit(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, radius: floa
     place = scene if radius is None else Scene(scene, radius)
     return Engine(place, engine, jobs=jobs).first_hit(x, v, max_time=max_time, start_from=start_from,
                                                       on_error=on_error)
+
+
+def _engine_of(scene: SceneLike, name: str, jobs: int) -> Engine:
+    return Engine(scene, name, jobs=jobs)
 
 
 def engines() -> list[str]:
@@ -157,6 +168,8 @@ def _columns(start_from: StartFrom, count: int, scene: Any) -> _Left | None:
         return None
     if isinstance(start_from, Answers):
         return _columns_of_answers(start_from)
+    if isinstance(start_from, Answer):
+        start_from = [start_from.obstacle] * count
     try:
         if isinstance(start_from, (list, tuple)) and all(map(_is_obstacle_or_none, start_from)):
             return _columns_of_rows(list(start_from), count, scene)

@@ -22,7 +22,7 @@ def _known(number: float | None) -> float:
     return math.nan if number is None else float(number)
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class FreePaths:
     """What many free flights came to. Lengths are in the scene's unit, the speed is 1.
 
@@ -73,7 +73,8 @@ class FreePaths:
 
     def to_dict(self) -> dict[str, Any]:
         """The numbers of the report that are single: one row of a table."""
-        return single_numbers(self.report)
+        row = single_numbers(self.report)
+        return {"start": row.pop("from")} | row
 
     def __repr__(self) -> str:
         return f"FreePaths({self.count} flights, start={self.start!r}, mean {self.mean:.6g} +- {self.mean_error:.2g})"
@@ -107,7 +108,7 @@ def flights(scene: SceneLike, radius: float | None = None, *, count: int = 1_000
 
 
 def laws(scene: SceneLike, times: npt.ArrayLike, *, start: str = "uniform") -> dict[str, Floats]:
-    """P(path > t) by each law that is known for the scene, by name, in the shape of `times`; often none is."""
+    """P(path > t) by each law that is known for the scene, by name, in the shape of `times`; an empty dict where none is known."""
     t = floats_of(times, "times")
     return {name: np.asarray(survival) for name, _, survival in _lorentz.laws(native(scene), word(start, "start"), t)}
 

@@ -32,7 +32,7 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
             `inside`, `undecided`, `unsupported`; or arrays of one row, as below. An exception is an error of
             the engine, and so counted, but an UnsupportedError.
         vectorized: the function takes x and v of shape (N, d), a list of N start_from, and returns N answers,
-            or the `Answers` of `first_hit`, or a dict of such columns: ``outcome`` (codes of `Outcome`),
+            or the `Answers` of `first_hit`, or a dict of such columns: ``outcome`` (codes of `Outcome`, or their names),
             ``cell`` (N, d), ``time``, ``lattice``, ``atom`` where these are not all 0, and ``reasons``, as
             `Answers` has them: why a row is an error, and whether only unsupported.
         name: what the report calls it; else the function's own name.
@@ -161,8 +161,15 @@ def _answers(given: Any) -> Iterable[Answer]:
         for name, column in given.items():
             if name != "reasons" and len(column) != count:
                 raise Error(f"{name}: has {len(column)} rows, outcome has {count}")
-        return [_answer(given, i, Outcome(int(code))) for i, code in enumerate(given["outcome"])]
+        return [_answer(given, i, _outcome(code)) for i, code in enumerate(given["outcome"])]
     return list(given)
+
+
+def _outcome(code: Any) -> Outcome:
+    """Of a code, or a name as ``"hit"``."""
+    if isinstance(code, str):
+        return Outcome[code.upper()]
+    return Outcome(int(code))
 
 
 def _answer(columns: dict[str, Any], i: int, outcome: Outcome) -> Answer:

@@ -16,7 +16,7 @@ from ._first_hit import StartFrom, _columns, vectors_of
 from ._lorentz import Error
 from ._memory import free_memory
 from ._numbers import Number, Obstacle, Vector, obstacle_dict, plain, text, time_limit, whole, word
-from ._scene import SceneLike, native
+from ._scene import Scene, SceneLike, native
 
 #: What ``Paths.stop_code`` says: why a particle does not go on (docs of the C++ header trajectory.hpp).
 STOPS: tuple[str, ...] = _lorentz.STOPS
@@ -26,7 +26,7 @@ Every = Union[int, Literal["last"]]
 
 class Paths(Columns):
     """Collisions of N particles, K kept of each, in columns: what `lorentz.trajectories` returns. What did not
-    happen is NaN, or 0 of integers."""
+    happen is NaN, or 0 of integers. ``paths[i]`` are the Paths of particle i alone."""
 
     __slots__ = ("every",)
 
@@ -73,7 +73,8 @@ class Paths(Columns):
         return Paths(None, self._of_rows(rows), self.every)
 
     def _row_text(self, i: int) -> str:
-        text = f"{self.count[i]} collisions, then {STOPS[self.stop_code[i]]}"
+        why = STOPS[self.stop_code[i]]
+        text = f"{self.count[i]} collisions" + ("" if why == "collisions" else f", stopped by {why}")
         last = int(self.kept()[i]) - 1
         return text if last < 0 else f"{text}; at time {self.time[i, last]:.6g} at {self.place[i, last].tolist()}"
 
@@ -86,12 +87,12 @@ class Paths(Columns):
 
 
 def trajectories(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, collisions: int, *,
-                 start_from: StartFrom = None, max_time: float = math.inf, every: Every = 1, engine: str = "batch",
-                 precision: str = "binary64") -> Paths:
+                 radius: Number | None = None, start_from: StartFrom = None, max_time: float = math.inf,
+                 every: Every = 1, engine: str = "batch", precision: str = "binary64") -> Paths:
     """Follows N particles, each for so many collisions or until a time, in floating point.
 
     Args:
-        scene, x, v, start_from: as of `lorentz.first_hit`.
+        scene, x, v, radius, start_from: as of `lorentz.first_hit`.
         collisions: C, of each particle, at most.
         max_time: a time after which nothing is recorded.
         every: k: each k-th collision is kept, K = C // k of each particle; ``"last"``: the last alone, K = 1.
@@ -113,8 +114,10 @@ def trajectories(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, collision
     if word(precision, "precision") not in ("binary64", "double-double"):
         raise Error(f'precision: "{precision}" is unknown; expected "binary64" or "double-double"')
     most, stride = whole(collisions, "collisions", 0, 2**31 - 1), _stride(every)
+    if stride > most > 0:
+        raise Error(f"every: {stride} is above collisions, {most}: nothing would be kept")
     last = time_limit(max_time, "max_time")
-    place = native(scene)
+    place = native(Scene(scene, radius))
     positions, velocities = vectors_of(x, v, place.dimension)
     _check_memory(len(positions), most, every, place.dimension)
     left = _columns(start_from, len(positions), place)
@@ -181,13 +184,13 @@ class Itinerary:
         return asdict(self)
 
 
-def itinerary(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | None = None,
-              collisions: int | None = None, max_time: Number | None = None, digits: int = 17, states: bool = False,
-              most_bits: int = 0) -> Itinerary:
+def itinerary(scene: SceneLike, x: Vector, v: Vector, *, radius: Number | None = None,
+              start_from: Obstacle | None = None, collisions: int | None = None, max_time: Number | None = None,
+              digits: int = 17, states: bool = False, most_bits: int = 0) -> Itinerary:
     """Follows one particle, certainly: every obstacle is the true one, every digit correctly rounded.
 
     Args:
-        scene, x, v: numbers are floats, ints, Fractions, or texts: "1/3", and in v also "sqrt(2)", "golden".
+        scene, radius, x, v: numbers are floats, ints, Fractions, or texts: "1/3", and in v also "sqrt(2)", "golden".
         collisions, max_time: how far; at least one of them.
         digits: significant decimal digits of times, places and velocities.
         states: place and velocity at each collision, too.
@@ -207,7 +210,7 @@ def itinerary(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
     start = {"x": x, "v": v} | ({} if start_from is None else {"from": obstacle_dict(start_from)})
     until = plain(max_time, "max_time")
     limit = until.hex() if isinstance(until, float) else until  # as a text a float would be another number
-    path = _lorentz.itinerary(native(scene), text(start), collisions, limit, digits, states, most_bits)
+    path = _lorentz.itinerary(native(Scene(scene, radius)), text(start), collisions, limit, digits, states, most_bits)
     path["collisions"] = [CertifiedCollision(**one) for one in path["collisions"]]
     return Itinerary(**path)
 
@@ -220,17 +223,19 @@ class Starts(NamedTuple):
     start_from: tuple[npt.NDArray[np.int32], npt.NDArray[np.int32], npt.NDArray[np.int64]] | None
 
 
-def draw_starts(scene: SceneLike, count: int, start: str = "uniform", *, seed: int = 20161115,
-                first: int = 0) -> Starts:
-    """Starts in no obstacle, decided exactly; start n depends on scene, start, seed and n alone.
+def draw_starts(scene: SceneLike, count: int, start: str = "uniform", *, radius: Number | None = None,
+                seed: int = 20161115, first: int = 0) -> Starts:
+    """Starts in no obstacle, decided exactly: places, velocities, and the obstacles that ``surface`` starts leave, which
+    `first_hit` and `trajectories` take as ``start_from``. Start n depends on scene, start, seed and n alone.
 
     Args:
         start: ``uniform`` (anywhere, in any direction), ``surface`` (off an obstacle by the cosine law),
             ``near-rational`` (beside small lattice vectors), ``grazing`` (past the edge of an obstacle).
+        radius: every ball gets this radius; give the same to what flies them.
         first: the number of the first.
 
     Velocities have length 1 up to rounding, but those of ``near-rational``. Raises Error where the obstacles
     leave nothing free.
     """
-    return Starts(**_lorentz.draw(native(scene), whole(count, "count"), word(start, "start"),
+    return Starts(**_lorentz.draw(native(Scene(scene, radius)), whole(count, "count"), word(start, "start"),
                                   whole(seed, "seed", 0, 2**64 - 1), whole(first, "first")))

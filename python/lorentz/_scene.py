@@ -5,9 +5,11 @@ from __future__ import annotations
 import os
 from typing import Any, Mapping, Union
 
+import numpy as np
+
 from . import _lorentz
 from ._lorentz import Error
-from ._numbers import Number, text, whole
+from ._numbers import Number, plain, text, whole
 
 SceneLike = Union["Scene", Mapping[str, Any], str, "os.PathLike[str]"]
 
@@ -37,7 +39,9 @@ class Scene:
         self._oracle = None
         self._scene = _read(source)
         if radius is not None:
-            self._scene = _read(_with_radius(self.to_dict(), radius))
+            if isinstance(radius, (list, tuple, np.ndarray)):
+                raise Error(f"radius: {radius!r} is not one number; `scan` takes several radii")
+            self._scene = _read(_with_radius(self.to_dict(), plain(radius, "radius")))
 
     @property
     def dimension(self) -> int:

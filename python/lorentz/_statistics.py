@@ -5,9 +5,13 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from itertools import product
+from numbers import Real
 from typing import Any, Callable, Iterable, NamedTuple, Sequence, Union
 
+import numpy as np
+
 from . import _lorentz
+from ._answers import Floats
 from ._flights import single_numbers
 from ._lorentz import Error
 from ._numbers import Number, finite, items, time_limit, whole, word
@@ -23,9 +27,9 @@ class Estimate(NamedTuple):
     error: float | None
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class Lyapunov:
-    """Lyapunov exponents in nats, the largest first. ``report`` is what `lorentz lyapunov --json` says."""
+    """Lyapunov exponents in nats, the largest first. ``report`` is what `lorentz lyapunov --json` says, without the scene."""
 
     scene: Scene
     report: dict[str, Any]
@@ -53,22 +57,22 @@ class Lyapunov:
         return f"Lyapunov({told} a collision)"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class Diffusion:
-    """Mean squared displacements. ``report`` is what `lorentz diffusion --json` says."""
+    """Mean squared displacements. ``report`` is what `lorentz diffusion --json` says, without the scene."""
 
     scene: Scene
     report: dict[str, Any]
 
     @property
-    def coefficient(self) -> Estimate:
+    def coefficient(self) -> Estimate | None:
         """D of <|x|^2> ~ 2 d D t; None where corridors are open, so that there is no D."""
-        return Estimate(self.report["D"], self.report["D_error"])
+        return None if self.report["D"] is None else Estimate(self.report["D"], self.report["D_error"])
 
     @property
-    def times(self) -> list[float]:
+    def times(self) -> Floats:
         """When displacements were looked at."""
-        return [one["t"] for one in self.report["displacements"]]
+        return np.array([one["t"] for one in self.report["displacements"]])
 
     @property
     def displacements(self) -> list[Estimate]:
@@ -81,14 +85,16 @@ class Diffusion:
         return single_numbers(self.report) | last
 
     def __repr__(self) -> str:
-        value, error = self.coefficient
-        told = "no coefficient: corridors are open" if value is None else f"D = {value:.6g} +- {error or 0:.1g}"
-        return f"Diffusion({told}, until t = {self.times[-1]:g})"
+        told = "no coefficient, for corridors are open"
+        if self.coefficient is not None:
+            told = f"D = {self.coefficient.value:.6g} +- {self.coefficient.error:.1g}"
+        return f"Diffusion({told}; {self.report['particles']} particles followed until t = {self.times[-1]:g})"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class Survival:
-    """How many collisions of trajectories are right. ``report`` is what `lorentz survival --json` says."""
+    """How many collisions of trajectories are right. ``report`` is what `lorentz survival --json` says, without
+    the scene."""
 
     scene: Scene
     report: dict[str, Any]
@@ -105,7 +111,7 @@ class Survival:
 
     def to_dict(self) -> dict[str, Any]:
         """One row of a table: the mean number of right collisions of each arithmetic."""
-        means = {f"mean_of_{one['bits']}_bits": one["mean"] for one in self.report["arithmetics"]}
+        means = {f"mean_of_{one['bits']}_bits": float(one["mean"]) for one in self.report["arithmetics"]}
         return single_numbers(self.report) | means
 
     def __repr__(self) -> str:
@@ -131,7 +137,7 @@ def lyapunov(scene: SceneLike, radius: Number | None = None, *, collisions: int 
             that the engine ``batch`` does not do.
     """
     place = Scene(scene, radius)
-    return Lyapunov(place, json.loads(_lorentz.lyapunov(
+    return Lyapunov(place, _report(_lorentz.lyapunov(
         native(place), whole(collisions, "collisions", 1, 2**52), bool(spectrum), _seed(seed), _jobs(jobs))))
 
 
@@ -150,7 +156,7 @@ def diffusion(scene: SceneLike, radius: Number | None = None, *, count: int = 10
     """
     place = Scene(scene, radius)
     until = time_limit(max_time, "max_time")
-    return Diffusion(place, json.loads(_lorentz.diffusion(
+    return Diffusion(place, _report(_lorentz.diffusion(
         native(place), whole(count, "count", 1, 2**52), finite(until, "max_time"), word(start, "start"), _seed(seed), _jobs(jobs))))
 
 
@@ -173,13 +179,14 @@ def survival(scene: SceneLike, radius: Number | None = None, *, count: int = 100
     widths = [whole(width, "bits", 24, 100_000) for width in items(bits, "bits")]
     if not widths:
         raise Error("bits: needs at least one number")
-    return Survival(place, json.loads(_lorentz.survival(
+    return Survival(place, _report(_lorentz.survival(
         native(place), whole(count, "count", 1, 10**7), whole(collisions, "collisions", 1, 10**6), widths, word(engine, "engine"),
         _seed(seed))))
 
 
 def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLike]],
-         radii: Iterable[Number] | None = None, **options: Any) -> list[dict[str, Any]]:
+         radii: Number | Iterable[Number] | None = None, *, on_error: str = "raise",
+         **options: Any) -> list[dict[str, Any]]:
     """A table of what a function finds in each of some scenes, at each of some radii.
 
     Args:
@@ -187,21 +194,35 @@ def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLi
             scene and a radius.
         scenes: one, or a list of them.
         radii: every ball gets each of these in turn; without them scenes are as they are.
+        on_error: ``"raise"``, or ``"mark"``: then a scene and radius that are refused have the column ``error``.
         options: what the function takes besides.
 
     Returns:
-        A dict for each: ``scene`` as it was given, ``radius``, and the single numbers that were found (``value`` where
+        A dict for each: ``scene`` as it was given, ``radius``, and the single numbers and texts that were found (``value`` where
         the function returns one number). ``pandas.DataFrame(scan(..))`` is a table of them.
     """
     if not callable(function):
         raise Error(f"function: {function!r} is not a function")
+    if on_error not in ("raise", "mark"):
+        raise Error(f'on_error: {on_error!r} is unknown; expected "raise" or "mark"')
     several = list(scenes) if isinstance(scenes, (list, tuple)) else [scenes]
     rows = []
-    sizes: list[Number | None] = [None] if radii is None else items(radii, "radii")
+    one = radii is None or isinstance(radii, (str, Real))
+    sizes: list[Any] = [radii] if one else items(radii, "radii")
     for scene, radius in product(several, sizes):
-        found = function(scene, radius, **options)
-        rows.append({"scene": scene, "radius": radius} | _row_of(found))
+        try:
+            row = _row_of(function(scene, radius, **options))
+        except Error as error:
+            if on_error == "raise":
+                raise
+            row = {"error": str(error)}
+        rows.append({"scene": scene, "radius": radius} | row)
     return rows
+
+
+def _report(text: str) -> dict[str, Any]:
+    report: dict[str, Any] = json.loads(text)
+    return {key: value for key, value in report.items() if key != "scene"}
 
 
 def _row_of(found: Any) -> dict[str, Any]:

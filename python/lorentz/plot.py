@@ -82,12 +82,13 @@ def flights(of: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, answers: Answers,
 
 
 def trajectory(of: SceneLike, start: npt.ArrayLike, paths: Paths, particle: int = 0, *, ax: Any = None) -> Any:
-    """The path of one particle, from its start through the collisions that are kept; without axes with the scene in
+    """The path of one particle, from its start (or that of all) through the collisions that are kept; without axes with the scene in
     2D, with the obstacles that it hits in 3D."""
     if not 0 <= particle < len(paths):
         raise Error(f"particle: there is no {particle}; there are {len(paths)}, from 0 on")
     place, kept = of if isinstance(of, Scene) else Scene(of), int(paths.kept()[particle])
-    points = np.concatenate([np.reshape(np.asarray(start, float), (1, paths.dimension)), paths.place[particle, :kept]])
+    starts = np.atleast_2d(np.asarray(start, float))
+    points = np.concatenate([starts[[particle if len(starts) > 1 else 0]], paths.place[particle, :kept]])
     if ax is None:
         ax = scene(of, _around(points)) if place.dimension == 2 else _met_in_space(place, paths[particle], kept)
     ax.plot(*points.T, "-", color=FLIGHT, linewidth=1, zorder=2)
@@ -130,6 +131,8 @@ def survival_function(runs: Runs, *, ax: Any = None) -> Any:
 
 def survival(found: Survival, *, ax: Any = None) -> Any:
     """The share of trajectories that are still right, by collisions, in each arithmetic."""
+    if not isinstance(found, Survival):
+        raise Error(f"found: needs what lorentz.survival returns, one of it; got {type(found).__name__}")
     ax = _axes(ax)
     for number, (bits, right) in enumerate(found.right.items()):
         collisions = np.arange(1, max(right) + 2)
@@ -143,8 +146,10 @@ def survival(found: Survival, *, ax: Any = None) -> Any:
 
 def displacements(found: Diffusion, *, ax: Any = None) -> Any:
     """MSD / (2 d t) over time, with standard errors: level where there is a diffusion coefficient."""
+    if not isinstance(found, Diffusion):
+        raise Error(f"found: needs what lorentz.diffusion returns, one of it; got {type(found).__name__}")
     ax = _axes(ax)
-    scale = 2 * found.scene.dimension * np.asarray(found.times)
+    scale = 2 * found.scene.dimension * found.times
     values = [np.array([np.nan if number is None else number for number in column]) / scale
               for column in zip(*found.displacements)]
     ax.errorbar(found.times, values[0], values[1], fmt=".-", color=FLIGHT, linewidth=1, capsize=2)
@@ -157,6 +162,8 @@ def displacements(found: Diffusion, *, ax: Any = None) -> Any:
 def _labelled(runs: Runs) -> list[tuple[FreePaths, str]]:
     """Each run with what it is called: its radius, where they have several, else how many flights it has."""
     several = [runs] if isinstance(runs, FreePaths) else list(runs)
+    if not several or not all(isinstance(run, FreePaths) for run in several):
+        raise Error("runs: needs what lorentz.flights returns, one or a list")
     radii = [_radius(run.scene) for run in several]
     if len(several) == 1 or None in radii:
         return [(run, f"{run.count:.3g} flights") for run in several]

@@ -100,7 +100,11 @@ def test_reasons_of_answers_reach_the_judge():
     def published(scene, x, v, start_from):  # which does no ellipses
         return arrays(scene, x, v, start_from, engine="published")
 
-    for function in (arrays, columns):
+    def names(scene, x, v, start_from):
+        given = columns(scene, x, v, start_from)
+        return given | {"outcome": [Outcome(code).name.lower() for code in given["outcome"]]}
+
+    for function in (arrays, columns, names):
         report = lorentz.judge(function, vectorized=True, time=SHORT)
         assert report["verdict"] == lorentz.judge("batch", time=SHORT)["verdict"] == "right"
         assert report["unsupported"] > 0 and report["error"] == 0 and report["findings"] == []

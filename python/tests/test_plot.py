@@ -62,6 +62,10 @@ def test_a_path_goes_through_its_collisions():
     ax = lorentz.plot.trajectory(scene, x[0], paths)
     line = ax.lines[0].get_xydata()
     assert np.array_equal(line, np.vstack([x, paths.place[0]]))
+    x, v, _ = lorentz.draw_starts(scene, 3, seed=SEED)
+    paths = lorentz.trajectories(scene, x, v, 10)
+    of_all = lorentz.plot.trajectory(scene, x, paths, 2).lines[0].get_xydata()
+    assert np.array_equal(of_all, np.vstack([x[2], paths.place[2]]))
 
 
 def test_a_path_in_space_goes_among_what_it_hits():
@@ -107,6 +111,11 @@ def test_statistics_of_trajectories(tmp_path):
 
 
 def test_what_cannot_be_drawn():
+    for draw, name in ((lorentz.plot.survival, "found"), (lorentz.plot.displacements, "found"),
+                       (lorentz.plot.free_paths, "runs"), (lorentz.plot.survival_function, "runs")):
+        for odd in ([], [1], {"a": 1}):
+            with pytest.raises(lorentz.Error, match=f"{name}: needs what lorentz"):
+                draw(odd)
     with pytest.raises(lorentz.Error, match="two dimensions"):
         lorentz.plot.scene("cubic")
     with pytest.raises(lorentz.Error, match="smaller"):

@@ -81,8 +81,41 @@ def test_parts_keep_what_is_of_their_rows():
     assert len(answers[answers.hit]) == 2 and len(answers[[]]) == 0
     next_hit = lorentz.first_hit("square", [[3.5, 0.5]] * 5, [[1, 0.3]] * 5, 0.1, start_from=answers[np.arange(5)])
     assert len(next_hit) == 5
-    with pytest.raises(lorentz.Error, match="out: needs the Answers of an earlier call, whole"):
+    with pytest.raises(lorentz.Error, match="out: needs the Answers that an earlier call returned"):
         lorentz.Engine("square").first_hit([[0.5, 0.5]], [[1, 0.3]], out=answers[:1])
+
+
+def test_columns_by_name_and_what_is_not_a_row():
+    answers = some_answers()
+    assert answers["time"] is answers.time
+    with pytest.raises(KeyError, match="tine; the columns are outcome, lattice"):
+        answers["tine"]
+    for odd in (None, True, np.True_):
+        with pytest.raises(IndexError, match="not a row"):
+            answers[odd]
+    with pytest.raises(TypeError, match="Answers are columns"):
+        np.asarray(answers)
+    with pytest.raises(AttributeError, match="time is what the engine wrote"):
+        answers.time = 5
+
+
+def test_an_answer_can_be_left():
+    scene = lorentz.unit_scene(2, 0.25)
+    first = lorentz.first_hit(scene, [[0.25, 0.0]], [[-1.0, 0.0]])[0]
+    then = lorentz.first_hit(scene, [[0.25, 0.0]], [[-1.0, 0.0]], start_from=first)
+    assert first.cell == (0, 0) and then[0].cell == (-1, 0)
+
+
+def test_radii_of_starts_are_those_of_their_flights():
+    x, v, _ = lorentz.draw_starts("square", 2000, radius=0.4, seed=SEED)
+    assert lorentz.first_hit("square", x, v, 0.4).hit.all()
+    assert np.array_equal(x, lorentz.draw_starts(lorentz.Scene("square", 0.4), 2000, seed=SEED).x)
+    paths = lorentz.trajectories("square", x[:3], v[:3], 2, radius=0.4)
+    assert np.array_equal(paths.time, lorentz.trajectories(lorentz.Scene("square", 0.4), x[:3], v[:3], 2).time)
+    assert (lorentz.itinerary("square", x[0], v[0], radius=0.4, collisions=3) ==
+            lorentz.itinerary(lorentz.Scene("square", 0.4), x[0], v[0], collisions=3))
+    with pytest.raises(lorentz.Error, match="radius: .* is not one number; `scan` takes several"):
+        lorentz.mean_free_path("square", [0.1, 0.2])
 
 
 def test_results_print_themselves():
@@ -95,7 +128,7 @@ def test_results_print_themselves():
     assert len(text.split("\n")) == 8 and "  999: hit" in text
     assert "none" in repr(lorentz.first_hit("square", x[:0], v[:0]))
     text = repr(lorentz.trajectories("square", x, v, 3))
-    assert text.startswith("Paths of 1000 particles in 2D") and "0: 3 collisions, then collisions; at time " in text
+    assert text.startswith("Paths of 1000 particles in 2D") and "0: 3 collisions; at time " in text
     for result in (lorentz.flights("square", 0.1, count=1000), lorentz.lyapunov("square", 0.2, collisions=1000),
                    lorentz.diffusion("triangular", 0.45, count=100, max_time=5),
                    lorentz.survival("square", 0.1, count=3, bits=[53])):
@@ -114,6 +147,8 @@ def test_results_are_pickled_and_copied(copied):
     assert again.every == 2 and all(np.array_equal(getattr(again, name), getattr(paths, name)) for name in paths._NAMES)
     assert copied(lorentz.lyapunov("square", 0.2, collisions=1000)).exponents
     assert copied(lorentz.flights("square", 0.1, count=1000)).mean > 0
+    engine = copied(lorentz.Engine("square", "batch"))
+    assert list(engine.first_hit([0.5, 0.5], [1, 0.3])) == list(lorentz.first_hit("square", [0.5, 0.5], [1, 0.3]))
 
 
 def test_a_pickled_result_does_not_change_with_its_engine():
@@ -121,7 +156,9 @@ def test_a_pickled_result_does_not_change_with_its_engine():
     x, v, _ = lorentz.draw_starts("square", 10, seed=SEED)
     first = engine.first_hit(x, v)
     kept, times = copy.deepcopy(first), first.time.copy()
+    again, part = copy.copy(first), first[:3]
     engine.first_hit(x[::-1], v[::-1], out=first)
+    assert np.array_equal(again.time, times) and np.array_equal(part.time, times[:3])
     assert np.array_equal(kept.time, times) and not np.array_equal(first.time, times)
 
 
@@ -155,7 +192,10 @@ def test_each_kth_collision_or_the_last(engine):
     assert whole.count.tolist() == third.count.tolist() == last.count.tolist() == [7, 7, 0]
     assert third.kept().tolist() == [2, 2, 0] and last.kept().tolist() == [1, 1, 0]
     assert third.to_dict()["collision"].tolist() == [3, 6, 3, 6] and last.to_dict()["collision"].tolist() == [7, 7]
-    assert lorentz.trajectories(scene, x, v, 2, every=3).time.shape == (3, 0)
+    with pytest.raises(lorentz.Error, match="every: 3 is above collisions, 2: nothing would be kept"):
+        lorentz.trajectories(scene, x, v, 2, every=3)
+    alone = whole[1]
+    assert len(alone) == 1 and np.array_equal(alone.time[0], whole.time[1])
 
 
 def test_memory_is_estimated_and_what_is_too_much_refused():

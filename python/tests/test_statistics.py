@@ -23,7 +23,7 @@ def test_diffusion_between_small_gaps():
     assert value == pytest.approx(found.report["machta_zwanzig"], rel=0.5) and error < value / 5
     assert found.times[-1] == 100 and len(found.displacements) == len(found.times) == 17
     open_ways = lorentz.diffusion("square", 0.2, count=1000, max_time=20, seed=SEED)
-    assert open_ways.coefficient == (None, None) and open_ways.report["open"]
+    assert open_ways.coefficient is None and open_ways.report["open"] and "scene" not in open_ways.report
 
 
 def test_more_bits_last_longer():
@@ -43,6 +43,11 @@ def test_scans():
     assert [row["mean_free_path"] for row in rows] == [lorentz.mean_free_path(name, 0.2) for name in ("square", "triangular")]
     assert [row["horizon"] for row in lorentz.scan(lorentz.horizon, "triangular", [0.4, 0.45])] == ["infinite", "finite"]
     assert lorentz.scan(lorentz.mean_free_path, "honeycomb")[0]["radius"] is None
+    assert lorentz.scan(lorentz.mean_free_path, "square", 0.2) == lorentz.scan(lorentz.mean_free_path, "square", [0.2])
+    marked = lorentz.scan(lorentz.lyapunov, "square", [0.2, 0.6], collisions=1000, on_error="mark")
+    assert "exponent_1" in marked[0] and "radii below half" in marked[1]["error"]
+    with pytest.raises(lorentz.Error, match="radii below half"):
+        lorentz.scan(lorentz.lyapunov, "square", [0.2, 0.6], collisions=1000)
 
 
 @pytest.mark.parametrize("call", [

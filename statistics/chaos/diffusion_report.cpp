@@ -81,11 +81,12 @@ std::string DiffusionReport::csv() const {
 std::string DiffusionReport::json() const {
   using json::finite;
   const auto if_uniform = [&](double x) { return is_uniform() ? finite(x) : std::nullopt; };
+  const std::optional<double> radius = report::common_radius(plan.scene);
   const auto if_bounded = [&](double x) { return has_corridors() ? std::nullopt : finite(x); };
   return json::line_of([&](json::Members& report) {
-    report.add("scene", scene, "from", is_uniform() ? "uniform" : "surface", "seed", plan.seed, "particles",
-               found.particles, "collisions", found.collisions, "stopped", found.stopped, "whole",
-               found.is_whole);
+    report.add("scene", scene, "radius", radius, "from", is_uniform() ? "uniform" : "surface", "seed",
+               plan.seed, "particles", found.particles, "collisions", found.collisions, "stopped",
+               found.stopped, "whole", found.is_whole);
     report.add("displacements",
                json::objects(found.displacements, [&](json::Members& one, const Displacement& at) {
                  one.add("t", at.time, "msd", finite(at.square.value), "msd_error", finite(at.square.error),

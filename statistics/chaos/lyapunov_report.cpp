@@ -64,9 +64,10 @@ std::string LyapunovReport::csv() const {
 
 std::string LyapunovReport::json() const {
   using json::finite;
+  const std::optional<double> radius = report::common_radius(plan.scene);
   return json::line_of([&](json::Members& report) {
-    report.add("scene", scene, "seed", plan.seed, "collisions", found.collisions, "particles",
-               kGroups * kParticles, "stopped", found.stopped, "whole", found.is_whole);
+    report.add("scene", scene, "radius", radius, "seed", plan.seed, "collisions", found.collisions,
+               "particles", kGroups * kParticles, "stopped", found.stopped, "whole", found.is_whole);
     report.add("exponents", json::objects(found.map, [&](json::Members& one, const Estimate& map) {
                  const auto k = static_cast<std::size_t>(&map - found.map.data());
                  one.add("map", finite(map.value), "map_error", finite(map.error), "flow",

@@ -7,6 +7,7 @@
 #include "pictures/free_path_plot.hpp"
 #include "report/curves.hpp"
 #include "report/manifest.hpp"
+#include "report/scene_name.hpp"
 #include "src/exchange/json_writer.hpp"
 #include "statistics/survival/survival.hpp"
 
@@ -35,8 +36,9 @@ std::uint64_t Survival::last_of(const Arithmetic& one) const {
 }
 
 std::string Survival::table() const {
-  std::string text =
-      fmt::format("right collisions from {} starts (of {} at most)\n\n", starts(), plan.collisions);
+  std::string text = fmt::format("scene {}, seed {}\nright collisions from {} starts (of {} at most)\n\n",
+                                 report::name_with_radius(plan.scene_name, plan.scene), plan.seed, starts(),
+                                 plan.collisions);
   text += fmt::format("{:<28} {:>8} {:>8} {:>8}\n", "arithmetic", "mean", "least", "most");
   for (const Arithmetic& one : arithmetics) {
     const auto [least, most] = std::minmax_element(one.right.begin(), one.right.end());
@@ -53,8 +55,8 @@ std::string Survival::table() const {
 
 std::string Survival::json() const {
   return json::line_of([&](json::Members& object) {
-    object.add("scene", plan.scene_name, "engine", plan.engine.name, "seed", plan.seed, "count", starts(),
-               "arithmetics",
+    object.add("scene", plan.scene_name, "radius", report::common_radius(plan.scene), "engine",
+               plan.engine.name, "seed", plan.seed, "count", starts(), "arithmetics",
                json::objects(arithmetics, [](json::Members& one, const Arithmetic& arithmetic) {
                  one.add("bits", arithmetic.bits, "mean", json::Raw{fmt::format("{:.6g}", arithmetic.mean())},
                          "right", arithmetic.right);
