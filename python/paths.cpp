@@ -20,7 +20,7 @@ constexpr double kForEver = std::numeric_limits<double>::infinity();
 // ---- Particles
 
 // Which collisions of C are kept: every k-th, or the last alone (k = 0).
-struct Kept {
+struct KeptCollisions {
   std::size_t collisions, every;
 
   std::size_t columns() const {
@@ -32,9 +32,9 @@ struct Kept {
   }
 };
 
-// Kept collisions in rows, a particle each; what did not happen is 0, its numbers NaN.
+// KeptCollisions collisions in rows, a particle each; what did not happen is 0, its numbers NaN.
 struct Paths {
-  Paths(std::size_t particles, Kept kept, int dimension)
+  Paths(std::size_t particles, KeptCollisions kept, int dimension)
       : particles(particles), kept(kept), columns(kept.columns()), dimension(dimension) {
     const std::size_t all = particles * columns, components = all * static_cast<std::size_t>(dimension);
     const double none = std::numeric_limits<double>::quiet_NaN();
@@ -57,7 +57,7 @@ struct Paths {
   }
 
   std::size_t particles;
-  Kept kept;
+  KeptCollisions kept;
   std::size_t columns;
   int dimension;
   std::vector<double> time, place, velocity;
@@ -113,8 +113,8 @@ void follow_one_by_one(const question::EngineInfo& engine, const Scene& scene,
   }
 }
 
-std::shared_ptr<Paths> follow(const PyScene& scene, const QueryArrays& arrays, Kept kept, double until,
-                              const std::string& engine, bool double_double) {
+std::shared_ptr<Paths> follow(const PyScene& scene, const QueryArrays& arrays, KeptCollisions kept,
+                              double until, const std::string& engine, bool double_double) {
   const question::EngineInfo info = own_engine(engine);
   const std::vector<Query> starts = starts_of(arrays, scene.scene());
   auto paths = std::make_shared<Paths>(starts.size(), kept, scene.dimension());

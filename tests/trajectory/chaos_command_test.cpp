@@ -183,7 +183,7 @@ TEST_CASE("Statistics of trajectories: what cannot be done is said", "[chaos][ch
   CHECK(folder.lorentz("diffusion --count 100 --time 5 --csv /nowhere/x").status == 3);
   for (const char* command : {"lyapunov", "diffusion"})
     CHECK(contains(folder.lorentz(std::string(command) + " --help").out,
-                   std::string("Example:\n  lorentz ") + command));
+                   std::string(":\n  lorentz ") + command));
 }
 
 TEST_CASE("lorentz diffusion: nothing is told of the few that met nothing", "[chaos][chaos_command]") {
