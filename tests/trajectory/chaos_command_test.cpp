@@ -166,6 +166,45 @@ except sqlite3.Error:
   }
 }
 
+TEST_CASE("Several scenes and radii give what each gives alone, and one table", "[chaos][chaos_command]") {
+  const Folder folder;
+  for (const std::string command : {"lyapunov --collisions 5e3", "diffusion --count 500 --time 5",
+                                    "survival --count 3 --collisions 20 --bits 53,106"}) {
+    const auto of = [&](const std::string& places) {
+      const Run run = folder.lorentz(command + " --json --csv " + folder.file("csv") + places);
+      INFO(run.err);
+      REQUIRE(run.status == 0);
+      return run.out;
+    };
+    std::string lines, rows;
+    for (const std::string scene : {"square", "triangular"})
+      for (const std::string radius : {"0.25", "0.375"}) {
+        lines += of(" --scene " + scene + " --radius " + radius);
+        const std::string csv = folder.read("csv");
+        std::string before = "scene,radius,";
+        for (std::size_t begin = 0; begin < csv.size(); before = scene + "," + radius + ",") {
+          const std::size_t end = csv.find('\n', begin) + 1;
+          if (begin > 0 || rows.empty()) rows += before + csv.substr(begin, end - begin);
+          begin = end;
+        }
+      }
+    CHECK(contains(lines, "\"radius\":0.375"));
+    CHECK(of(" --scene square,triangular --radius 0.25,0.375") == lines);
+    CHECK(folder.read("csv") == rows);
+    // What was found before a radius that is refused is not lost.
+    const Run half = folder.lorentz(command + " --radius 0.25,0.8 --csv " + folder.file("half"));
+    CHECK(half.status == 2);
+    CHECK(folder.read("half").rfind("scene,radius,", 0) == 0);
+    CHECK(contains(folder.read("half"), "\nsquare,0.25,"));
+    CHECK(folder.lorentz(command + " --radius 0.25,x").status == 2);
+  }
+  for (const char* command : {"lyapunov", "diffusion"})
+    CHECK(contains(folder.lorentz(std::string(command) + " --radius 0.2,0.3 --store " + folder.file("s")).err,
+                   "--store: parts are kept of one scene"));
+  CHECK(contains(folder.lorentz("survival --radius 0.2,0.3 --svg " + folder.file("s.svg")).err,
+                 "--csv has all"));
+}
+
 TEST_CASE("Statistics of trajectories: what cannot be done is said", "[chaos][chaos_command]") {
   const Folder folder;
   for (const char* words :
