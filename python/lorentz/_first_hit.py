@@ -57,7 +57,8 @@ class Engine:
         if word(on_error, "on_error") not in ("raise", "mark"):
             raise Error(f'on_error: "{on_error}" is unknown; expected "raise" or "mark"')
         if out is not None and (not isinstance(out, Answers) or out._native is None):
-            raise Error("out: needs the Answers that an earlier call returned, not a part or a copy of them")
+            raise Error("out: needs the Answers that an earlier call returned, not a part or a copy of them; "
+                        f"got {type(out).__name__}")
         positions, velocities = vectors_of(x, v, self._scene.dimension)
         count = len(positions)
         limits = None if max_time is None else _limits(max_time, count)

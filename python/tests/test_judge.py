@@ -10,7 +10,7 @@ from pathlib import Path
 import lorentz
 import numpy as np
 import pytest
-from lorentz import _lorentz
+from lorentz import Outcome, _lorentz
 
 SHORT = 1.5  # seconds
 

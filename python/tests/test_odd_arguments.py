@@ -52,7 +52,7 @@ CALLS = [
 ]
 # What an argument is called in messages, where that is not its name.
 ALSO = {"source": "scene", "scene": "dimension|lattices|file|catalogue", "name": "engine", "name_or_file": "file|set", "scenes": "scene",
-        "radii": "radius", "radius": "radi|scene|starts|sizes|obstacles", "x": "row 0|has", "v": "row 0", "start_from": "from|row 0|lattice|atom|cell", "engine": "threads",
+        "radii": "radius|scene", "radius": "radi|scene|starts|sizes|obstacles", "x": "row 0|has", "v": "row 0", "start_from": "from|row 0|lattice|atom|cell", "engine": "threads",
         "max_time": "time", "times": "time", "particles": "count", "start": "kind", "run": "slope", "rise": "slope"}
 # What is asked for, and takes its time: two minutes of judging, flights of 10^21.
 LONG = {("questions", None), ("max_time", 2**70), ("max_time", 1e308)}

@@ -111,7 +111,7 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("root: -1", lambda: lorentz.oracle.ExactTime(Fraction(1), Fraction(-1))),
     ("digits: 0 ", lambda: lorentz.oracle.ExactTime(Fraction(1), Fraction(1)).decimal(0)),
     ("engine: None", lambda: lorentz.Engine(SQUARE, None)),  # type: ignore[arg-type]
-    ("out: .*int", lambda: lorentz.Engine(SQUARE).first_hit([X], [V], out=5)),  # type: ignore[arg-type]
+    ("out: needs .*got int", lambda: lorentz.Engine(SQUARE).first_hit([X], [V], out=5)),  # type: ignore[arg-type]
     ("max_time: True", lambda: lorentz.itinerary(SQUARE, X, V, max_time=True)),
     ("every: 0 ", lambda: lorentz.trajectories(SQUARE, [X], [V], 3, every=0)),
     ("every: 'first'", lambda: lorentz.trajectories(SQUARE, [X], [V], 3, every="first")),  # type: ignore[arg-type]
