@@ -70,7 +70,7 @@ function(lorentz_library name)
   string(REPLACE "lorentz_" "" short ${name})
   # Before 1.0 a minor version may change the interface (docs/packages.md).
   set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION}
-    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH "$ORIGIN")
   set_target_properties(${name} PROPERTIES EXPORT_NAME ${short} PRECOMPILE_HEADERS_REUSE_FROM ${headers})
   add_library(lorentz::${short} ALIAS ${name})
 endfunction()
