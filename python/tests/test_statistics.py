@@ -40,6 +40,7 @@ def test_scans():
     assert rows[0]["exponent_1"] > rows[1]["exponent_1"] > 2
     assert rows[1]["exponent_1"] == lorentz.lyapunov("square", 0.2, collisions=5000).exponents[0].value
     rows = lorentz.scan(lorentz.flights, ["square", "triangular"], [0.2], count=2000, start="surface")
+    assert [row["start"] for row in rows] == ["surface"] * 2 and "from" not in rows[0]
     assert [row["mean_free_path"] for row in rows] == [lorentz.mean_free_path(name, 0.2) for name in ("square", "triangular")]
     assert [row["horizon"] for row in lorentz.scan(lorentz.horizon, "triangular", [0.4, 0.45])] == ["infinite", "finite"]
     assert lorentz.scan(lorentz.mean_free_path, "honeycomb")[0]["radius"] is None
