@@ -51,7 +51,8 @@ struct FlightColumns {
   FlightColumns part(std::size_t begin) const;
 };
 
-/// What is wrong with columns of a scene in so many dimensions, or nothing: each is there if it must be, and long enough.
+/// Names the first column that is missing, or shorter than the queries are many; nothing if all of them fit a scene of
+/// this dimension.
 std::optional<std::string> flaw_of(const QueryColumns& queries, const FlightColumns& flights, int dimension);
 
 /// Queries as columns of its own, filled one query at a time.

@@ -166,7 +166,7 @@ def _answers(given: Any) -> Iterable[Answer]:
 
 
 def _outcome(code: Any) -> Outcome:
-    """Of a code, or a name as ``"hit"``."""
+    """The outcome with this code, or with a name such as ``"hit"``."""
     if isinstance(code, str):
         return Outcome[code.upper()]
     return Outcome(int(code))

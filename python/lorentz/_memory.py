@@ -25,5 +25,5 @@ def _of_container() -> int:
     folder = Path("/sys/fs/cgroup")
     try:
         return int((folder / "memory.max").read_text()) - int((folder / "memory.current").read_text())
-    except (OSError, ValueError):  # there is none, or "max": no limit
+    except (OSError, ValueError):  # no such file, or "max": no limit
         return 2**63

@@ -127,7 +127,7 @@ def trajectories(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, collision
 
 
 def memory_of_trajectories(particles: int, collisions: int, *, every: Every = 1, dimension: int = 2) -> int:
-    """The bytes that `trajectories` takes, at most, for so many particles and collisions."""
+    """The memory that `trajectories` needs at most for these numbers of particles and collisions, in bytes."""
     count, most = whole(particles, "particles"), whole(collisions, "collisions", 0, 2**31 - 1)
     stride, dimension = _stride(every), whole(dimension, "dimension", 2, 3)
     columns = most // stride if stride else min(most, 1)

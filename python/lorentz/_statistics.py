@@ -105,7 +105,7 @@ class Survival:
         return {one["bits"]: one["right"] for one in self.report["arithmetics"]}
 
     def share(self, bits: int, collisions: int) -> float:
-        """The share of starts with at least so many right collisions in this arithmetic."""
+        """The share of starts with at least ``collisions`` right collisions in arithmetic of ``bits`` bits."""
         right = self.right[bits]
         return sum(n >= collisions for n in right) / len(right)
 

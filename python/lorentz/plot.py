@@ -131,8 +131,7 @@ def survival_function(runs: Runs, *, ax: Any = None) -> Any:
 
 def survival(found: Survival, *, ax: Any = None) -> Any:
     """The share of trajectories that are still right, by collisions, in each arithmetic."""
-    if not isinstance(found, Survival):
-        raise Error(f"found: needs what lorentz.survival returns, one of it; got {type(found).__name__}")
+    _check_kind(found, Survival)
     ax = _axes(ax)
     for number, (bits, right) in enumerate(found.right.items()):
         collisions = np.arange(1, max(right) + 2)
@@ -146,8 +145,7 @@ def survival(found: Survival, *, ax: Any = None) -> Any:
 
 def displacements(found: Diffusion, *, ax: Any = None) -> Any:
     """MSD / (2 d t) over time, with standard errors: level where there is a diffusion coefficient."""
-    if not isinstance(found, Diffusion):
-        raise Error(f"found: needs what lorentz.diffusion returns, one of it; got {type(found).__name__}")
+    _check_kind(found, Diffusion)
     ax = _axes(ax)
     scale = 2 * found.scene.dimension * found.times
     values = [np.array([np.nan if number is None else number for number in column]) / scale
@@ -157,6 +155,11 @@ def displacements(found: Diffusion, *, ax: Any = None) -> Any:
     ax.set_xlabel("t")
     ax.set_ylabel(f"MSD / ({2 * found.scene.dimension} t)")
     return ax
+
+
+def _check_kind(found: Any, kind: type) -> None:
+    if not isinstance(found, kind):
+        raise Error(f"found: needs what lorentz.{kind.__name__.lower()} returns, one of it; got {type(found).__name__}")
 
 
 def _labelled(runs: Runs) -> list[tuple[FreePaths, str]]:
