@@ -455,6 +455,19 @@ TEST_CASE("Columns that are missing or too short are refused", "[engines][batch]
   refused([&](auto&, auto& f) { shorter(f.time); }, "time");
   CHECK_FALSE(flaw_of(table.columns(), flights.columns(), 3));
   CHECK_NOTHROW(batch.fly(QueryColumns{}, FlightColumns{}));
+  for (const double radius : {0.1, 0.6}) {  // the second is beyond the fast engine
+    const oracle::CertifiedBatch certified(unit_scene(3, radius));
+    std::vector<std::size_t> uncertain;
+    QueryColumns queries = table.columns();
+    FlightColumns told = flights.columns();
+    CHECK_NOTHROW(certified.first_hits(queries, told, uncertain));
+    missing(told.time);
+    CHECK_THROWS_AS(certified.first_hits(queries, told, uncertain), InputError);
+    told = flights.columns(), missing(told.time_is_rounded);
+    CHECK_THROWS_AS(certified.first_hits(queries, told, uncertain), InputError);
+    told = flights.columns(), shorter(queries.v[1]);
+    CHECK_THROWS_AS(certified.first_hits(queries, told, uncertain), InputError);
+  }
 }
 
 TEST_CASE("A query with a flaw is an error of its own in a batch", "[engines][batch]") {
