@@ -9,7 +9,7 @@
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
-#include "files/scene_file.hpp"
+#include "cli/scan.hpp"
 #include "files/whole_file.hpp"
 #include "question/engines.hpp"
 #include "report/page.hpp"
@@ -31,17 +31,17 @@ constexpr std::chrono::seconds kBetweenStores{3};
 constexpr std::uint64_t kMostFlights = std::uint64_t{1} << 52;
 
 struct FlightsOptions {
-  std::string scene = "square", engine = "batch", from = "uniform", shard = "0/1";
+  std::string engine = "batch", from = "uniform", shard = "0/1", size = "800x600";
   std::uint64_t count = 1'000'000, seed = starts::kDefaultSeed, jobs = 1, cells = flights::kCellsOfBox;
   std::optional<double> seconds;
-  std::optional<std::string> store, csv, svg, density_svg, html;
+  std::optional<std::string> store, csv, svg, density_svg, html, title;
   bool json = false;
-  std::vector<std::string> radii, parts;
+  std::vector<std::string> scenes{"square"}, radii, parts;
 };
 
-FlightsPlan plan_of(const FlightsOptions& options, std::optional<double> radius) {
+FlightsPlan plan_of(const FlightsOptions& options, const Scene& scene) {
   FlightsPlan plan;
-  plan.scene = load_crystal(options.scene, radius, "flights are counted");
+  plan.scene = scene;
   if (!question::engine_named(options.engine).is_own())
     throw InputError(
         "--engine: flights are flown by engines of this program; `lorentz sample` writes the same "
@@ -54,24 +54,28 @@ FlightsPlan plan_of(const FlightsOptions& options, std::optional<double> radius)
   return plan;
 }
 
-// What is flown one after the other: a radius after the other, or the scene as it is.
+// What is flown one after the other.
 struct FlightsTask {
+  std::string scene_name;
   std::optional<double> radius;  // of several
   FlightsPlan plan;
 };
 
 std::vector<FlightsTask> tasks_of(const FlightsOptions& options) {
   std::vector<FlightsTask> tasks;
-  for (const std::string& radius : options.radii) {
-    const std::optional<double> value = positive_number(radius, "--radius");
-    tasks.push_back({value, plan_of(options, value)});
-  }
-  if (tasks.empty()) tasks.push_back({{}, plan_of(options, {})});
+  for (const ScanPlace& place : scan_places(options.scenes, options.radii, "flights are counted"))
+    tasks.push_back({place.name, place.radius, plan_of(options, place.scene)});
   if (tasks.size() == 1) tasks[0].radius.reset();
   if (tasks.size() > 1 &&
       (options.store || !options.parts.empty() || options.shard != FlightsOptions().shard))
-    throw InputError("--store, --add and --shard: counts are kept of one radius; run several one by one");
+    throw InputError(
+        "--store, --add and --shard: counts are kept of one scene at one radius; run several one by one");
   return tasks;
+}
+
+flights::PictureStyle style_of(const FlightsOptions& options) {
+  const PictureSize size = picture_size(options.size);
+  return {options.title, size.width, size.height.value_or(size.width * 3 / 4)};
 }
 
 flights::FlightBounds bounds_of(const FlightsOptions& options) {
@@ -163,7 +167,7 @@ FlightsReport fly(const FlightsTask& task, const flights::FlightBounds& bounds, 
                   flights::Ranks* ranks) {
   const FlightsPlan& plan = task.plan;
   Begun begun(options, plan);
-  FlightsReport result{options.scene, task.radius, plan, begun.account, {}};
+  FlightsReport result{task.scene_name, task.radius, plan, begun.account, {}};
   if (ranks) ranks->share(result.account);
   const auto start = std::chrono::steady_clock::now();
   {
@@ -177,23 +181,28 @@ FlightsReport fly(const FlightsTask& task, const flights::FlightBounds& bounds, 
   return result;
 }
 
-// The files that are made of all radii.
+// The files that are made of all scenes and radii.
 class Files {
  public:
   explicit Files(const FlightsOptions& options)
-      : csv_(options.csv), svg_(options.svg), density_svg_(options.density_svg), html_(options.html) {}
+      : style_(style_of(options)),
+        csv_(options.csv),
+        svg_(options.svg),
+        density_svg_(options.density_svg),
+        html_(options.html) {}
   void write(const std::vector<FlightsReport>& reports) {
     csv_.write([&] { return csv_of(reports); });
-    svg_.write([&] { return survival_svg(reports); });
-    density_svg_.write([&] { return density_svg(reports); });
+    svg_.write([&] { return survival_svg(reports, style_); });
+    density_svg_.write([&] { return density_svg(reports, style_); });
     html_.write([&] { return report::page(page_json(reports, command_line())); });
   }
 
  private:
+  const flights::PictureStyle style_;
   RequestedFile csv_, svg_, density_svg_, html_;
 };
 
-// Each radius is reported when it is flown; an interrupt leaves out those of which nothing is.
+// Each is reported when it is flown; an interrupt leaves out those of which nothing is.
 int fly_all(const std::vector<FlightsTask>& tasks, const flights::FlightBounds& bounds,
             const FlightsOptions& options, flights::Ranks* ranks) {
   Files files(options);
@@ -239,10 +248,13 @@ Command flights_command() {
       "flights",
       "Very many free flights from drawn starts: their statistics, and theory beside them.",
       {
-          {"--scene", &options->scene, "SCENE", "a file, or a name of the catalogue"},
+          {"--scene", &options->scenes, "SCENE",
+           "a file, or a name of the catalogue; several, with commas between them, one after the other",
+           kCommas},
           {"--radius", &options->radii, "R",
-           "radius of every ball; several, with commas between them, are flown one after the other "
-           "from the same drawn numbers: each gives what it gives alone",
+           "radius of every ball; several, with commas between them, are flown from the same drawn numbers: "
+           "each "
+           "gives what it gives alone",
            kCommas},
           {"--from,--start", &options->from, "uniform|surface",
            "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle, as from one "
@@ -250,7 +262,7 @@ Command flights_command() {
           {"-e,--engine", &options->engine, "ENGINE",
            "one of " + fmt::format("{}", fmt::join(question::own_names(), ", "))},
           {"--count", Whole{&options->count, 1, kMostFlights}, "N", "how many"},
-          {"--time", Positive{&options->seconds}, "SECONDS", "stop after SECONDS (each radius)"},
+          {"--time", Positive{&options->seconds}, "SECONDS", "stop after SECONDS (each scene and radius)"},
           {"--seed", Whole{&options->seed}, "N", "of the starts"},
           {"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads; the result is the same"},
           {"--cells", Whole{&options->cells, 1, std::uint64_t{1} << 40}, "N",
@@ -262,24 +274,29 @@ Command flights_command() {
           {"--shard", &options->shard, "I/N",
            "only the blocks of flights I modulo N, into --store; --add joins them"},
           {"--csv", &options->csv, "FILE",
-           "the histograms, and theory, to a file; of several radii one file, its first column the "
-           "radius: rows are what one filters and plots by",
+           "the histograms, and theory, to a file; of several scenes or radii one table, with both in its "
+           "first "
+           "columns",
            kOutput},
           {"--svg", &options->svg, "FILE",
-           "the picture: P(free path > t), theory drawn in; several radii in one", kOutput},
+           "the picture: P(free path > t), theory drawn in; several scenes and radii in one", kOutput},
           {"--density-svg", &options->density_svg, "FILE",
-           "the picture of the density in linear bins, theory drawn in; several radii in one, in "
+           "the picture of the density in linear bins, theory drawn in; several scenes and radii in one, in "
            "units of the mean free path",
            kOutput},
+          {"--title", &options->title, "TEXT",
+           "of the pictures, instead of scene and starts; \"\" for no title"},
+          {"--size", &options->size, "W[xH]", "of the pictures, in pixels; legible at half of 800x600"},
           {"--html", &options->html, "FILE",
            "a page that opens offline: P(free path > t) and theory, with numbers on hover", kOutput},
           {"--json", &options->json, "",
-           "one JSON object a line instead of a table; of several radii one a radius"},
+           "one JSON object a line instead of a table, for each scene and radius"},
       },
 
       "docs/free_paths.md: the ensembles, the closed forms, what means and error bars mean.\n"
       "Examples:\n  lorentz flights --scene square --radius 0.2 --from surface\n"
-      "  lorentz flights --scene square --radius 0.3,0.1,0.01 --density-svg densities.svg\n"
+      "  lorentz flights --scene square,triangular --radius 0.1,0.01 --svg survival.svg --title \"Two "
+      "lattices\"\n"
       "  lorentz flights --scene superposition-pi-5 --radius 1e-4 --count 1e8 --jobs 2 --store pi-5.flights "
       "--svg pi-5.svg",
       [options] { return act(*options); }};

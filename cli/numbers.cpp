@@ -66,6 +66,15 @@ double number_from_zero(const std::string& text, const char* option) {
   return value;
 }
 
+PictureSize picture_size(const std::string& text) {
+  const auto pixels = [](const std::string& part) {
+    return static_cast<double>(whole_number(part, "--size", 200, 20'000));
+  };
+  const auto cross = text.find('x');
+  if (cross == std::string::npos) return {pixels(text), {}};
+  return {pixels(text.substr(0, cross)), pixels(text.substr(cross + 1))};
+}
+
 Vec vector_in(const std::string& text, const char* option) {
   std::vector<double> numbers;
   std::istringstream parts(text);

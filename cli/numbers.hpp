@@ -26,6 +26,13 @@ std::optional<double> positive_number(const std::optional<std::string>& text, co
 /// A finite number, 0 or above. Throws InputError, naming the option.
 double number_from_zero(const std::string& text, const char* option);
 
+/// The size of a picture, W or WxH in pixels, each from 200 to 20 000. Throws InputError, naming --size.
+struct PictureSize {
+  double width;
+  std::optional<double> height;
+};
+PictureSize picture_size(const std::string& text);
+
 /// Three numbers with commas between them. Throws InputError, naming the option.
 Vec vector_in(const std::string& text, const char* option);
 

@@ -15,17 +15,6 @@
 namespace lorentz::cli {
 namespace {
 
-std::vector<ScanPlace> places_of(const ScanOptions& options, const std::string& what) {
-  std::vector<std::optional<double>> radii;
-  for (const std::string& radius : options.radii) radii.push_back(positive_number(radius, "--radius"));
-  if (radii.empty()) radii.emplace_back();
-  std::vector<ScanPlace> places;
-  for (const std::string& name : options.scenes)
-    for (const std::optional<double>& radius : radii)
-      places.push_back({name, radius, load_crystal(name, radius, what)});
-  return places;
-}
-
 // A table with the same columns before each row.
 std::string with_columns(const std::string& csv, const std::string& names, const std::string& values,
                          bool is_first) {
@@ -41,6 +30,18 @@ std::string with_columns(const std::string& csv, const std::string& names, const
 
 }  // namespace
 
+std::vector<ScanPlace> scan_places(const std::vector<std::string>& scenes,
+                                   const std::vector<std::string>& radii, const std::string& what) {
+  std::vector<std::optional<double>> numbers;
+  for (const std::string& radius : radii) numbers.push_back(positive_number(radius, "--radius"));
+  if (numbers.empty()) numbers.emplace_back();
+  std::vector<ScanPlace> places;
+  for (const std::string& name : scenes)
+    for (const std::optional<double>& radius : numbers)
+      places.push_back({name, radius, load_crystal(name, radius, what)});
+  return places;
+}
+
 std::vector<Option> scan_rows(ScanOptions& options, const std::string& rows_of_csv) {
   return {
       {"--scene", &options.scenes, "SCENE",
@@ -55,7 +56,7 @@ std::vector<Option> scan_rows(ScanOptions& options, const std::string& rows_of_c
 
 int scan(const ScanOptions& options, const std::string& what,
          const std::function<std::optional<ScanFinding>(const ScanPlace&)>& find) {
-  const std::vector<ScanPlace> places = places_of(options, what);
+  const std::vector<ScanPlace> places = scan_places(options.scenes, options.radii, what);
   RequestedFile csv(options.csv);
   std::string rows;
   int status = kDone;

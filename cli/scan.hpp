@@ -32,6 +32,11 @@ struct ScanPlace {
   Scene scene;
 };
 
+/// All that was asked for, scene by scene. `what`: what is done with a scene ("flights are counted"). Throws
+/// InputError and FileError.
+std::vector<ScanPlace> scan_places(const std::vector<std::string>& scenes,
+                                   const std::vector<std::string>& radii, const std::string& what);
+
 /// What was found there.
 struct ScanFinding {
   std::string text;  ///< a table, or a line of JSON
@@ -40,9 +45,8 @@ struct ScanFinding {
 };
 
 /// Has `find(place)` look at each place in turn, prints what it finds, and writes the rows of all to --csv: of
-/// several places with scene and radius before them. Nothing found, or not whole, or an
-/// InputError, ends it. `what`: what is done with a
-/// scene ("means of trajectories are taken"). Returns an ExitStatus; throws InputError and FileError.
+/// several places with scene and radius before them. Nothing found, or not whole, or an InputError, ends it.
+/// `what`: as in scan_places. Returns an ExitStatus; throws InputError and FileError.
 int scan(const ScanOptions& options, const std::string& what,
          const std::function<std::optional<ScanFinding>(const ScanPlace&)>& find);
 

@@ -121,14 +121,6 @@ std::optional<std::array<double, 4>> window_of(const SceneDrawOptions& options) 
   return window;
 }
 
-// W, or WxH.
-void read_size(const SceneDrawOptions& options, DrawOptions& drawing) {
-  const std::vector<std::string> parts = split(options.size, 'x');
-  if (parts.size() > 2) throw InputError(fmt::format("--size: {} is no W or WxH", json_quoted(options.size)));
-  drawing.width = static_cast<double>(whole_number(parts[0], "--size", 200, 20'000));
-  if (parts.size() == 2) drawing.height = static_cast<double>(whole_number(parts[1], "--size", 200, 20'000));
-}
-
 std::string indices_of(const std::array<Integer, 3>& indices, int dimension) {
   std::string out;
   for (int i = 0; i < dimension; ++i) out += (i ? " " : "") + indices[i].decimal();
@@ -182,7 +174,8 @@ int draw(const SceneDrawOptions& options) {
   drawing_options.title = title_of(options);
   drawing_options.legend = !options.no_legend;
   drawing_options.window = window_of(options);
-  read_size(options, drawing_options);
+  const PictureSize size = picture_size(options.size);
+  drawing_options.width = size.width, drawing_options.height = size.height.value_or(0);
   const std::size_t most = options.channels.value_or(0);
   refuse_other_formats(options.output);
   if (options.output != "-" && is_other_than_svg(options.output))

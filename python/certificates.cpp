@@ -97,7 +97,13 @@ void bind_certificates(py::module_& module) {
       module, "Certificate",
       "A proof of an exact answer; its dict has the form that golden sets have it in (docs/certificates.md).")
       .def_static("from_dict", from_dict, py::arg("certificate"), py::arg("dimension"))
-      .def("to_dict", to_dict);
+      .def("to_dict", to_dict)
+      .def(
+          "__eq__",
+          [](const PyCertificate& a, const PyCertificate& b) { return to_dict(a).equal(to_dict(b)); },
+          py::is_operator())
+      .def(py::pickle([](const PyCertificate& proof) { return to_dict(proof); },
+                      [](const py::dict& dict) { return from_dict(dict, 3); }));
 }
 
 }  // namespace lorentz::python

@@ -35,7 +35,9 @@ class PyGoldenSet {
                   py::arg("x") = py::none(), py::arg("v") = py::none(), py::arg("start_from") = py::none(),
                   py::arg("answer") = answer_text(record.expect, d), py::arg("time_decimal") = py::none(),
                   py::arg("margin") = record.margin, py::arg("condition") = record.condition,
-                  py::arg("certificate") = py::none());
+                  py::arg("time_change") = record.time_change,
+                  py::arg("acceptable") = acceptable_list(record), py::arg("comment") = record.comment,
+                  py::arg("source_id") = record.source_id, py::arg("certificate") = py::none());
     if (!record.expect.time_decimal.empty()) dict["time_decimal"] = record.expect.time_decimal;
     if (record.certificate) dict["certificate"] = PyCertificate(*record.certificate, reader_.scene());
     if (!read.query) {
@@ -43,9 +45,24 @@ class PyGoldenSet {
       return dict;
     }
     dict["x"] = to_python(read.query->x, d), dict["v"] = to_python(read.query->v, d);
-    if (const auto& from = read.query->from)
-      dict["start_from"] = py::make_tuple(from->lattice, from->atom, to_python(from->cell, d));
+    if (const auto& from = read.query->from) dict["start_from"] = obstacle_tuple(*from);
     return dict;
+  }
+
+  py::tuple obstacle_tuple(const ObstacleId& obstacle) const {
+    return py::make_tuple(obstacle.lattice, obstacle.atom,
+                          to_python(obstacle.cell, reader_.scene().dimension));
+  }
+
+  // Pairs of an obstacle, or None for "never", and ulps.
+  py::list acceptable_list(const golden::Record& record) const {
+    py::list list;
+    for (const oracle::ExcusedAnswer& other : record.acceptable) {
+      const bool is_hit = other.answer.outcome == Outcome::hit;
+      list.append(py::make_tuple(is_hit ? py::object(obstacle_tuple(other.answer.obstacle)) : py::none(),
+                                 other.ulps));
+    }
+    return list;
   }
 
   golden::Reader reader_;
@@ -61,6 +78,8 @@ void bind_golden(py::module_& module) {
       .def_property_readonly("path", &PyGoldenSet::path)
       .def_property_readonly("name", [](const PyGoldenSet& set) { return set.header().name; })
       .def_property_readonly("description", [](const PyGoldenSet& set) { return set.header().description; })
+      .def_property_readonly("precision",
+                             [](const PyGoldenSet& set) { return name_of(set.header().precision); })
       .def_property_readonly("count", [](const PyGoldenSet& set) { return set.header().count; })
       .def("__next__", &PyGoldenSet::next);
   module.def("golden_sets", golden::committed_sets);

@@ -79,7 +79,7 @@ class Reduction : public Engine {
   enum class Time { close, rounded };
 
   /// The first obstacle, as a Flight: an answer without strings. Requires a query without flaws (flaw_of):
-  /// this is not checked. Outcomes: `hit`, `never`, `inside`, `undecided`, and with a finite `max_time`
+  /// this is asserted, and not checked where NDEBUG is defined. Outcomes: `hit`, `never`, `inside`, `undecided`, and with a finite `max_time`
   /// `later` in place of `never`: nothing is entered before it. The exact time decides that, also where the
   /// time that is told is rounded to the limit, or beyond it; a time too near the limit is `undecided`.
   Flight fly(const Query& query, double max_time = std::numeric_limits<double>::infinity(),
@@ -88,8 +88,8 @@ class Reduction : public Engine {
   /// One velocity, prepared: for many particles that share it, the lattices are reduced once.
   class Direction;
 
-  /// The lattices, reduced along v: finite, and not zero. For this engine only: keep it as long as the
-  /// direction. Then a flight costs some 57 ns (2D) or 200 ns (3D), whatever the radius.
+  /// The lattices, reduced along v: finite, and not zero, which is asserted. For this engine only: keep it as long
+  /// as the direction. Then a flight costs some 57 ns (2D) or 200 ns (3D), whatever the radius.
   /// Allocates.
   Direction direction(const Vec& v) const;
   /// The same for a prepared velocity; to the bit. `from`: as in Query, or null.

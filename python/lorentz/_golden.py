@@ -15,8 +15,17 @@ from ._scene import Scene, wrapped
 
 @dataclass(frozen=True)
 class GoldenRecord:
-    """A record of a golden set (docs/formats.md). Of a question that is none x, v and start_from are None,
-    ``flaw`` says why it is none, and the answer is "error"; ``question`` is its text."""
+    """A record of a golden set (docs/golden.md).
+
+    Attributes:
+        question: the text of the query. If it is not a query, ``flaw`` says why, x, v and start_from are None, and
+            the answer is "error".
+        margin, condition, time_change: how hard it is, in ulps of the set's precision (docs/verdicts.md).
+        acceptable: obstacles (None: "never") that errors of at most 16 ulps in the inputs make right, and these
+            ulps; the tag "needs-judge" says that they are too many to list.
+        comment: what is hard about it. source_id: the id, as JSON, of the query that it was made from.
+        certificate: the proof of the answer.
+    """
 
     id: str
     tags: list[str]
@@ -29,11 +38,17 @@ class GoldenRecord:
     answer: Answer
     margin: float | None
     condition: float | None
+    time_change: float | None
+    acceptable: list[tuple[Obstacle | None, float]]
+    comment: str
+    source_id: str
     certificate: Certificate | None
 
 
 class GoldenSet:
     """An iterable of the records of a set, read from its file one by one, anew each time.
+
+    ``precision`` is "binary64" or "binary32": of all numbers in the set, and of the ulps that margins count.
 
     Args:
         name_or_file: one of `golden_sets`, or a file.
@@ -47,6 +62,7 @@ class GoldenSet:
             raise Error(f"name_or_file: {name_or_file!r} is not the name of a set, or a file")
         reader = _lorentz.GoldenReader(os.fspath(name_or_file))
         self.path, self.name, self.description = reader.path, reader.name, reader.description
+        self.precision: str = reader.precision
         self._count = reader.count
 
     def __len__(self) -> int:

@@ -1,5 +1,7 @@
 """Golden sets as iterables: every record's answer is the oracle's, and its certificate proves it."""
 
+import pickle
+
 import lorentz
 import pytest
 
@@ -26,6 +28,27 @@ def test_records(name):
         assert (hardness.margin, hardness.condition) == (record.margin, record.condition)
         outcomes.add(record.answer.outcome)
     assert number > 100 and outcomes <= {"hit", "never", "inside"}
+
+
+def test_what_errors_of_the_inputs_excuse():
+    listed = [record for record in lorentz.golden("grazing") if record.acceptable]
+    assert len(listed) > 20 and lorentz.golden("grazing").precision == "binary64"
+    assert lorentz.golden("grazing-binary32").precision == "binary32"
+    for record in listed[:20]:
+        assert record.comment and record.source_id == "" and "needs-judge" not in record.tags
+        for obstacle, ulps in record.acceptable:
+            other = lorentz.Answer("never") if obstacle is None else lorentz.Answer("hit", *obstacle, record.answer.time)
+            verdict = lorentz.oracle.judge_answer(record.scene, record.x, record.v, other, start_from=record.start_from)
+            assert verdict.verdict in ("ill-posed", "never-ill-posed"), (record.id, obstacle, verdict)
+            assert verdict.ulps == ulps
+
+
+def test_records_are_pickled_and_equal_themselves():
+    for record in list(lorentz.golden("grazing"))[:5] + list(lorentz.golden("bad-queries"))[:3]:
+        again = pickle.loads(pickle.dumps(record))
+        assert again == record and again is not record
+    first, second = list(lorentz.golden("grazing"))[:2]
+    assert first != second and first.certificate != second.certificate
 
 
 def test_questions_that_are_none():

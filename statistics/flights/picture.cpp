@@ -14,32 +14,59 @@ namespace {
 using pictures::FreePathPlot;
 using pictures::PlotCurve;
 
+std::string title_of(const std::vector<FlightsReport>& reports) {
+  const FlightsReport& first = reports.front();
+  const std::string scene = !are_of_one_scene(reports) ? ""
+                            : first.radius
+                                ? first.scene_name + ", "
+                                : report::name_with_radius(first.scene_name, first.plan.scene) + ", ";
+  return fmt::format("Free paths: {}{} starts", scene, name_of(first.plan.from));
+}
+
+// The first of each scene.
+std::string laws_behind(const std::vector<FlightsReport>& reports) {
+  std::vector<std::string> names;
+  for (const FlightsReport& report : reports) {
+    const Laws laws = laws_of(report.plan.scene, report.plan.from);
+    if (!laws.laws.empty() && std::find(names.begin(), names.end(), laws.laws[0].name) == names.end())
+      names.push_back(laws.laws[0].name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 // What both pictures say: of which scene and starts, and how many.
-FreePathPlot plot_of(const std::vector<FlightsReport>& reports) {
+FreePathPlot plot_of(const std::vector<FlightsReport>& reports, const PictureStyle& style) {
   const FlightsReport& first = reports.front();
   const auto nothing_hit = [](const FlightsReport& report) { return report.account.tally.hits == 0; };
   if (std::all_of(reports.begin(), reports.end(), nothing_hit))
     throw InputError("nothing was hit: there is nothing to draw");
   FreePathPlot plot;
-  plot.title = fmt::format(
-      "Free paths: {}, {} starts",
-      first.radius ? first.scene_name : report::name_with_radius(first.scene_name, first.plan.scene),
-      name_of(first.plan.from));
-  const Laws laws = laws_of(first.plan.scene, first.plan.from);
-  plot.note = fmt::format("{} flights{}, bars of one standard error, engine {}, seed {}{}",
-                          first.account.tally.flights(), first.radius ? " each" : "", first.plan.engine,
-                          first.plan.seed, laws.laws.empty() ? "" : "; law: " + laws.laws[0].name);
+  plot.title = style.title.value_or(title_of(reports));
+  plot.width = style.width, plot.height = style.height;
+  plot.note = fmt::format("{} flights{}, bars of one standard error, engine {}, seed {}",
+                          first.account.tally.flights(), reports.size() > 1 ? " each" : "", first.plan.engine,
+                          first.plan.seed);
+  if (const std::string laws = laws_behind(reports); !laws.empty()) plot.note += "; law: " + laws;
   return plot;
 }
 
-std::string series_name(const FlightsReport& report) {
-  return report.radius ? fmt::format("r = {:g}", *report.radius) : "measured";
+// By what differs.
+std::vector<std::string> series_names(const std::vector<FlightsReport>& reports) {
+  const bool one_scene = are_of_one_scene(reports);
+  std::vector<std::string> names;
+  for (const FlightsReport& report : reports)
+    names.push_back(!one_scene      ? report::name_with_radius(report.scene_name, report.plan.scene)
+                    : report.radius ? fmt::format("r = {:g}", *report.radius)
+                                    : "measured");
+  return names;
 }
 
-// In the legend a curve of theory stands once, in grey; of several radii each has its points' colour.
-void add_curve(FreePathPlot& plot, const FlightsReport& report, PlotCurve curve) {
-  curve.series = report.radius ? static_cast<int>(plot.series.size()) - 1 : -1;
-  if (plot.series.size() > 1) curve.name.clear();
+// A curve of theory, of the last series: grey if there is but one, else in its points' colour. The legend has each
+// name once.
+void add_curve(FreePathPlot& plot, bool is_grey, PlotCurve curve) {
+  curve.series = is_grey ? -1 : static_cast<int>(plot.series.size()) - 1;
+  for (const PlotCurve& other : plot.curves)
+    if (other.name == curve.name) curve.name.clear();
   plot.curves.push_back(std::move(curve));
 }
 
@@ -83,10 +110,10 @@ PlotCurve tail_curve(const Tail& tail, const FlightsFindings& found, PathSpan sp
   return curve;
 }
 
-void add_survival(FreePathPlot& plot, const FlightsReport& report) {
+void add_survival(FreePathPlot& plot, const FlightsReport& report, const std::string& name, bool is_alone) {
   const FlightsFindings found(report);
   const PathSpan span = span_of(found);
-  pictures::PlotSeries series{series_name(report), {}};
+  pictures::PlotSeries series{name, {}};
   const auto n = static_cast<double>(found.total);
   for (std::size_t i = span.first; i <= span.last; i += Bins::kAnOctave / kPointsAnOctave) {
     const double p = static_cast<double>(found.beyond[i]) / n;
@@ -94,10 +121,10 @@ void add_survival(FreePathPlot& plot, const FlightsReport& report) {
   }
   plot.series.push_back(std::move(series));
   for (const FlightsFindings::Fit& fit : found.fits)
-    add_curve(plot, report, survival_curve("law, " + fit.law.when, found, span, fit.law.survival));
+    add_curve(plot, is_alone, survival_curve("law, " + fit.law.when, found, span, fit.law.survival));
   for (const Tail& tail : found.tails)
     if (tail.exponent && tail.constant && *tail.constant > 0)
-      add_curve(plot, report, tail_curve(tail, found, span));
+      add_curve(plot, is_alone, tail_curve(tail, found, span));
 }
 
 // ---- density: both axes linear, and from 0
@@ -131,17 +158,12 @@ std::vector<Density> densities_of(const FlightsFindings& found, const Bins& bins
   return points;
 }
 
-// Times in mean free paths from collision to collision, where that mean is known: the limit law is one curve
-// then.
-double unit_of(const FlightsFindings& found) {
-  return found.mean.value.value_or(1);
-}
-
-void add_density(FreePathPlot& plot, const FlightsReport& report) {
+// `unit`: of times.
+void add_density(FreePathPlot& plot, const FlightsReport& report, double unit, const std::string& name,
+                 bool is_alone) {
   const FlightsFindings found(report);
-  const double unit = unit_of(found);
   const std::vector<Density> points = densities_of(found, report.account.tally.bins);
-  pictures::PlotSeries series{series_name(report), {}};
+  pictures::PlotSeries series{name, {}};
   for (const Density& point : points)
     series.points.push_back({(point.from + point.to) / 2 / unit, point.value * unit, point.error * unit});
   plot.series.push_back(std::move(series));
@@ -153,28 +175,37 @@ void add_density(FreePathPlot& plot, const FlightsReport& report) {
     for (double t = points[0].from; t + step <= points.back().to * (1 + 1e-12); t += step)
       curve.points.push_back(
           {(t + step / 2) / unit, (fit.law.survival(t) - fit.law.survival(t + step)) / step * unit});
-    add_curve(plot, report, std::move(curve));
+    add_curve(plot, is_alone, std::move(curve));
   }
 }
 
 }  // namespace
 
-std::string survival_svg(const std::vector<FlightsReport>& reports) {
-  FreePathPlot plot = plot_of(reports);
+std::string survival_svg(const std::vector<FlightsReport>& reports, const PictureStyle& style) {
+  FreePathPlot plot = plot_of(reports, style);
   plot.t_label = "free path t, in the scene's unit of length";
   plot.value_label = "P(free path > t)";
-  for (const FlightsReport& report : reports) add_survival(plot, report);
+  const std::vector<std::string> names = series_names(reports);
+  for (std::size_t i = 0; i < reports.size(); ++i)
+    add_survival(plot, reports[i], names[i], reports.size() == 1);
   return draw_free_paths(plot);
 }
 
-std::string density_svg(const std::vector<FlightsReport>& reports) {
-  FreePathPlot plot = plot_of(reports);
+// Times in mean free paths from collision to collision, where that mean is known: the limit law is one curve
+// then.
+std::string density_svg(const std::vector<FlightsReport>& reports, const PictureStyle& style) {
+  FreePathPlot plot = plot_of(reports, style);
   plot.axes = pictures::AxisScale::linear;
-  const bool scaled = FlightsFindings(reports.front()).mean.value.has_value();
+  std::vector<std::optional<double>> means;
+  for (const FlightsReport& report : reports) means.push_back(FlightsFindings(report).mean.value);
+  const bool scaled =
+      std::all_of(means.begin(), means.end(), [](const auto& mean) { return mean.has_value(); });
   plot.t_label =
       scaled ? "free path / mean free path between collisions" : "free path, in the scene's unit of length";
   plot.value_label = scaled ? "density × mean free path" : "density of the free path";
-  for (const FlightsReport& report : reports) add_density(plot, report);
+  const std::vector<std::string> names = series_names(reports);
+  for (std::size_t i = 0; i < reports.size(); ++i)
+    add_density(plot, reports[i], scaled ? *means[i] : 1, names[i], reports.size() == 1);
   return draw_free_paths(plot);
 }
 

@@ -9,6 +9,7 @@
 #include "report/manifest.hpp"
 #include "report/scene_name.hpp"
 #include "report/table.hpp"
+#include "src/exchange/csv_table.hpp"
 #include "src/exchange/json_writer.hpp"
 
 namespace lorentz::flights {
@@ -197,41 +198,54 @@ std::string FlightsReport::json() const {
 
 namespace {
 
+using LawNames = std::vector<std::string>;
+
+const Law* law_called(const std::string& name, const FlightsFindings& found) {
+  for (const FlightsFindings::Fit& fit : found.fits)
+    if (fit.law.name == name) return &fit.law;
+  return nullptr;
+}
+
 // One histogram's rows. Below the first edge nothing is expected but what theory has there.
 void append_rows(std::string& text, const std::string& bins, const FlightsFindings& found,
-                 const std::vector<std::uint64_t>& counts, const std::function<double(int)>& edge,
-                 int bin_count, std::uint64_t below) {
+                 const LawNames& laws, const std::vector<std::uint64_t>& counts,
+                 const std::function<double(int)>& edge, std::uint64_t below) {
   const auto n = static_cast<double>(found.total);
   std::uint64_t longer = found.total - below;
-  for (int i = 0; i < bin_count; ++i) {
+  for (int i = 0; i < static_cast<int>(counts.size()); ++i) {
     const std::uint64_t count = counts[static_cast<std::size_t>(i)];
     longer -= count;
     if (count == 0) continue;
     const double low = edge(i), high = edge(i + 1), width = high - low, c = static_cast<double>(count);
     text += fmt::format("{},{},{},{},{},{},{}", bins, low, high, count, c / n / width,
                         std::sqrt(c) / n / width, static_cast<double>(longer) / n);
-    for (const FlightsFindings::Fit& fit : found.fits)
-      text += fmt::format(",{},{}", (fit.law.survival(low) - fit.law.survival(high)) / width,
-                          fit.law.survival(high));
+    for (const std::string& name : laws) {
+      const Law* law = law_called(name, found);
+      text +=
+          law ? fmt::format(",{},{}", (law->survival(low) - law->survival(high)) / width, law->survival(high))
+              : ",,";
+    }
     text += '\n';
   }
 }
 
-// Which laws there are does not depend on the radius.
-std::string csv_names(const FlightsFindings& found, bool with_radius) {
-  std::string text =
-      fmt::format("{}bins,from,to,count,density,density_error,survival_at_to", with_radius ? "radius," : "");
-  for (const FlightsFindings::Fit& fit : found.fits) {
-    std::string name = fit.law.name;
+// Of all reports, each once.
+LawNames law_names(const std::vector<FlightsFindings>& findings) {
+  LawNames names;
+  for (const FlightsFindings& found : findings)
+    for (const FlightsFindings::Fit& fit : found.fits)
+      if (std::find(names.begin(), names.end(), fit.law.name) == names.end()) names.push_back(fit.law.name);
+  return names;
+}
+
+std::string csv_header(const std::string& places, const LawNames& laws) {
+  std::string text = places + "bins,from,to,count,density,density_error,survival_at_to";
+  for (std::string name : laws) {
     std::replace(name.begin(), name.end(), ',', ';');
     text += fmt::format(",{0}: density,{0}: survival_at_to", name);
   }
   return text + '\n';
 }
-
-}  // namespace
-
-namespace {
 
 std::optional<double> radius_of(const FlightsReport& report) {
   return report.radius ? report.radius : report::common_radius(report.plan.scene);
@@ -275,26 +289,36 @@ std::string page_json(const std::vector<FlightsReport>& reports, const std::stri
   }
   return json::line_of([&](json::Members& page) {
     page.add("format", 1, "kind", "flights", "title",
-             fmt::format("Free paths: {}, {} starts", first.scene_name, name_of(first.plan.from)), "line",
-             line, "manifest", report::manifest_of(first.plan.seed, command), "free_paths", curves);
+             fmt::format("Free paths: {}{} starts", are_of_one_scene(reports) ? first.scene_name + ", " : "",
+                         name_of(first.plan.from)),
+             "line", line, "manifest", report::manifest_of(first.plan.seed, command), "free_paths", curves);
   });
 }
 
 std::string csv_of(const std::vector<FlightsReport>& reports) {
-  std::string names, text;
-  for (const FlightsReport& report : reports) {
-    const FlightsFindings found(report);
-    const Bins& bins = report.account.tally.bins;
-    if (names.empty() || found.total > 0) names = csv_names(found, report.radius.has_value());
-    const std::string radius = report.radius ? fmt::format("{},", *report.radius) : "";
+  const std::vector<FlightsFindings> findings(reports.begin(), reports.end());
+  const LawNames laws = law_names(findings);
+  const bool one_scene = are_of_one_scene(reports), radii = reports.front().radius || !one_scene;
+  std::string text = csv_header(fmt::format("{}{}", one_scene ? "" : "scene,", radii ? "radius," : ""), laws);
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const Bins& bins = reports[i].account.tally.bins;
+    std::string place = one_scene ? "" : csv_field(reports[i].scene_name) + ',';
+    if (radii) place += (reports[i].radius ? fmt::format("{}", *reports[i].radius) : "") + ',';
     append_rows(
-        text, radius + "logarithmic", found, {bins.logarithmic.begin() + 1, bins.logarithmic.end()},
-        [&](int i) { return bins.log_edge(i); }, Bins::kLogarithmic, bins.logarithmic.front());
+        text, place + "logarithmic", findings[i], laws,
+        {bins.logarithmic.begin() + 1, bins.logarithmic.end()}, [&](int bin) { return bins.log_edge(bin); },
+        bins.logarithmic.front());
     append_rows(
-        text, radius + "linear", found, bins.linear, [&](int i) { return bins.linear_edge(i); },
-        Bins::kLinear, 0);
+        text, place + "linear", findings[i], laws, bins.linear,
+        [&](int bin) { return bins.linear_edge(bin); }, 0);
   }
-  return names + text;
+  return text;
+}
+
+bool are_of_one_scene(const std::vector<FlightsReport>& reports) {
+  return std::all_of(reports.begin(), reports.end(), [&](const FlightsReport& report) {
+    return report.scene_name == reports.front().scene_name;
+  });
 }
 
 }  // namespace lorentz::flights

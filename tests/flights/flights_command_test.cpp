@@ -176,6 +176,47 @@ TEST_CASE("Flights: pictures of several radii, of survival and density", "[fligh
   CHECK(contains(folder.read("density"), "free path, in the scene's unit of length"));
 }
 
+TEST_CASE("Flights: several scenes in one table and one picture", "[flights][flights_command]") {
+  const Folder folder;
+  const std::string what = "flights --count 1e4 --seed 7504 ";
+  const auto fly = [&](const std::string& options) {
+    const Run run = folder.lorentz(what + options);
+    INFO(options << ": " << run.err);
+    CHECK(run.status == 0);
+    return run.out;
+  };
+  // "cubic" has no law, and the columns of one stay empty.
+  const std::string square = fly("--scene square --radius 0.01 --csv " + folder.file("square")),
+                    cubic = fly("--scene cubic --radius 0.01 --csv " + folder.file("cubic"));
+  CHECK(fly("--scene cubic,square --radius 0.01 --title \"Two <lattices>\" --size 900x500 --csv " +
+            folder.file("both") + " --svg " + folder.file("survival") + " --density-svg " +
+            folder.file("density")) == cubic + "\n" + square);
+  std::istringstream rows(folder.read("both")), of_square(folder.read("square")),
+      of_cubic(folder.read("cubic"));
+  std::string row, single;
+  std::getline(rows, row), std::getline(of_square, single), std::getline(of_cubic, row);
+  rows.seekg(0);
+  std::getline(rows, row);
+  CHECK(row == "scene,radius," + single);
+  while (std::getline(of_cubic, single) && std::getline(rows, row))
+    CHECK(row == "cubic,0.01," + single + ",,");
+  while (std::getline(of_square, single) && std::getline(rows, row)) CHECK(row == "square,0.01," + single);
+  CHECK_FALSE(std::getline(rows, row));
+  for (const char* picture : {"survival", "density"})
+    for (const char* part :
+         {"Two &lt;lattices&gt;", "width=\"900\"", "height=\"500\"", ">cubic, r = 0.01</text>",
+          ">square, r = 0.01</text>", ">law, r -&gt; 0</text>", "law: Boca-Zaharescu"}) {
+      INFO(picture << " " << part);
+      CHECK(contains(folder.read(picture), part));
+    }
+  fly("--scene cubic,square --svg " + folder.file("untold"));
+  CHECK(contains(folder.read("untold"), ">Free paths: uniform starts</text>"));
+  CHECK(folder.lorentz(what + "--scene cubic,square --store " + folder.file("store")).status == 2);
+  for (const char* size : {"", "x", "800x", "800x600x2", "10", "1e9", "-800"})
+    CHECK(
+        contains(folder.lorentz(what + "--size '" + size + "' --svg " + folder.file("not")).err, "--size: "));
+}
+
 namespace {
 
 using Place = std::pair<double, double>;

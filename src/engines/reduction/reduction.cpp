@@ -1,5 +1,6 @@
 #include <lorentz/reduction.hpp>
 
+#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -101,6 +102,7 @@ inline void Reduction::fly(const Ray& ray, const AtomDirections* directions, dou
 }
 
 Flight Reduction::fly(const Query& query, double max_time, Time time) const {
+  assert(!flaw_of(query, scene()));
   Flight flight;
   const ScaledVelocity velocity(query.v);
   fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr, query.v}, nullptr,
@@ -110,6 +112,7 @@ Flight Reduction::fly(const Query& query, double max_time, Time time) const {
 }
 
 Reduction::Direction Reduction::direction(const Vec& v) const {
+  assert(!flaw_of(Query{{}, v, {}}, scene()));
   const ScaledVelocity velocity(v);
   Direction direction;
   direction.v_ = v;
@@ -121,6 +124,7 @@ Reduction::Direction Reduction::direction(const Vec& v) const {
 
 Flight Reduction::fly(const Direction& direction, const Vec& x, const ObstacleId* from, double max_time,
                       Time time) const {
+  assert(!flaw_of(from ? Query{x, direction.v_, *from} : Query{x, direction.v_, {}}, scene()));
   Flight flight;
   fly(Ray{x, direction.scaled_v_, from, direction.v_}, direction.atoms_.get(),
       scaled_limit(max_time, direction.exponent_), time, flight);
