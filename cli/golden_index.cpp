@@ -1,4 +1,6 @@
 // lorentz golden index: what lies beside sets: index.json, schema.json, SHA256SUMS.
+#include <memory>
+
 #include "cli/exit_status.hpp"
 #include "cli/golden.hpp"
 #include "cli/set_output.hpp"
