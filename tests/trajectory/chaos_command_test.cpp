@@ -23,7 +23,7 @@ TEST_CASE("lorentz lyapunov: theory stands beside, and threads change nothing", 
   CHECK(folder.lorentz(what + "--jobs 3").out == one.out);
   const Run json = folder.lorentz(what + "--json --spectrum");
   CHECK(json.status == 0);
-  CHECK(contains(json.out, R"({"scene":"square","seed":9301,)"));
+  CHECK(contains(json.out, R"({"scene":"square","radius":0.2,"seed":9301,)"));
   CHECK(contains(json.out, R"("mean_free_path":2.185840734)"));
   CHECK(lines(json.out) == 1);
   CHECK(contains(folder.lorentz("lyapunov --scene cubic --radius 0.2 --collisions 1e4").out,
