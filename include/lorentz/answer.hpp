@@ -1,4 +1,4 @@
-// What answers a query: the obstacle that is hit, when, or what else there is to say.
+// The answer to a query: an outcome and, for a hit, the obstacle and the time.
 #pragma once
 
 #include <optional>
@@ -11,15 +11,15 @@ namespace lorentz {
 
 enum class Outcome {
   hit,        ///< the ray enters `obstacle` first, at `time`
-  never,      ///< it enters no obstacle
+  never,      ///< the ray enters no obstacle
   inside,     ///< x lies in the open obstacle `obstacle`
-  later,      ///< nothing is entered before the asked --max-time
-  undecided,  ///< the implementation does not know, and says so
-  error       ///< no valid query, or (unsupported) one that this engine does not do
+  later,      ///< nothing is entered before the requested limit (--max-time)
+  undecided,  ///< the implementation does not know the answer
+  error       ///< the query is invalid, or (if `unsupported`) this engine does not support it
 };
 
-/// The collision itself, for those who ask for it. Unit outward normal; impact parameter: distance of the
-/// line of flight from the obstacle's centre.
+/// Details of a collision, computed on request. `normal` is the outward unit normal; `impact_parameter` is
+/// the distance of the line of flight from the obstacle's centre.
 struct Detail {
   Vec point{};
   Vec normal{};
@@ -28,14 +28,14 @@ struct Detail {
 
 struct Answer {
   Outcome outcome = Outcome::undecided;
-  ObstacleId obstacle;           ///< of `hit` and `inside`
-  std::optional<double> time;    ///< of `hit`; may be infinite, and absent in answers that others logged
-  std::string time_decimal;      ///< of `hit`, if digits were asked for
-  std::optional<Detail> detail;  ///< of `hit`, if it was asked for
-  std::string message;           ///< of `error`
-  bool unsupported = false;      ///< of `error`: a valid query, outside what this engine does
+  ObstacleId obstacle;           ///< set for `hit` and `inside`
+  std::optional<double> time;    ///< set for `hit`; may be infinite, and absent in answers logged by others
+  std::string time_decimal;      ///< set for `hit` if digits were requested
+  std::optional<Detail> detail;  ///< set for `hit` if requested
+  std::string message;           ///< set for `error`
+  bool unsupported = false;      ///< set for `error`: the query is valid, but this engine does not support it
 
-  /// As newly made, but what is allocated stays.
+  /// Resets the answer to a newly made one but keeps allocated memory.
   void clear();
 
   static Answer hit(ObstacleId obstacle, double time);
@@ -47,7 +47,7 @@ struct Answer {
   static Answer unsupported_because(std::string message);
 };
 
-/// The answer, or `later` if it says that nothing is entered before `max_time` (an infinity: no limit).
+/// Returns `answer`, or `later` if it says that nothing is entered before `max_time` (infinity: no limit).
 Answer limited(Answer answer, double max_time);
 
 }  // namespace lorentz

@@ -1,4 +1,4 @@
-// Many flights in one scene at once: the reduction engine, with a query in each lane of the processor's
+// Many flights at once in one scene: the reduction engine, with one query in each lane of the processor's
 // vectors.
 #pragma once
 
@@ -18,28 +18,28 @@
 
 namespace lorentz {
 
-/// Queries of one scene in columns, owned by the caller: all of the same length but those that are left empty. In 2D the
-/// third columns of vectors are not read.
+/// Queries of one scene as columns, owned by the caller. All columns have the same length, except those that
+/// are left empty. In 2D the third columns of vectors are not read.
 struct QueryColumns {
   std::array<std::span<const double>, 3> x{}, v{};
 
-  std::span<const double> max_time{};  ///< as in Reduction::fly; empty: no query has a limit
+  std::span<const double> max_time{};  ///< as in Reduction::fly; if empty, no query has a limit
 
-  /// The obstacle that a query leaves, which it ignores; a lattice below 0: none. All empty: no query leaves
-  /// one.
+  /// The obstacle that a query leaves, and therefore ignores. A negative lattice means that the query leaves
+  /// none. If all these columns are empty, no query leaves an obstacle.
   std::span<const std::int32_t> from_lattice{}, from_atom{};
   std::array<std::span<const std::int64_t>, 3> from_cell{};
 
   std::size_t size() const { return x[0].size(); }
-  /// The query i, in so many dimensions.
+  /// Query `i`, whose vectors have `dimension` components.
   Query query(std::size_t i, int dimension) const;
   /// The queries [begin, begin + length).
   QueryColumns part(std::size_t begin, std::size_t length) const;
 };
 
-/// What they came to: the members of Flight, a column each, at least as long as those of the queries. An empty column
-/// is not wanted; `outcome` is. What Flight leaves at zero (the obstacle of `never`, the time of `inside`, the third
-/// cell coordinate in 2D) is zero here.
+/// The results: a column for each member of Flight, at least as long as the query columns. Leave a column
+/// empty if you do not need it; only `outcome` is required. Members that Flight leaves at zero (the obstacle
+/// of `never`, the time of `inside`, the third cell coordinate in 2D) are zero here, too.
 struct FlightColumns {
   std::span<Outcome> outcome{};
   std::span<Stage> stage{};
@@ -51,23 +51,25 @@ struct FlightColumns {
   FlightColumns part(std::size_t begin) const;
 };
 
-/// Names the first column that is missing, or shorter than the queries are many; nothing if all of them fit a scene of
-/// this dimension.
+/// Names the first column that is missing or has fewer rows than there are queries; nothing if all columns
+/// fit a scene of this dimension.
 std::optional<std::string> flaw_of(const QueryColumns& queries, const FlightColumns& flights, int dimension);
 
-/// Queries as columns of its own, filled one query at a time.
+/// Queries in columns that the table owns, filled one query at a time.
 class QueryTable {
  public:
-  /// Removes all queries; what is allocated stays.
+  /// Removes all queries but keeps allocated memory.
   void clear();
 
-  /// False, and nothing is added, if a cell coordinate of `from` does not fit 64 bits.
+  /// Appends a query. Returns false and adds nothing if a cell coordinate of `from` does not fit into 64
+  /// bits.
   bool push_back(const Query& query, double max_time = std::numeric_limits<double>::infinity());
 
   std::size_t size() const { return max_time_.size(); }
   Query operator[](std::size_t i) const;
 
-  /// Until the next change. Without limits, and without obstacles that are left, where no query has any.
+  /// The columns, valid until the next change. `max_time` is empty if no query has a limit, and the columns
+  /// of `from` are empty if no query leaves an obstacle.
   QueryColumns columns() const;
 
  private:
@@ -78,10 +80,10 @@ class QueryTable {
   std::array<std::vector<std::int64_t>, 3> from_cell_;
 };
 
-/// Flights as columns of its own.
+/// Flights in columns that the table owns.
 class FlightTable {
  public:
-  /// Room for so many.
+  /// Makes room for `count` flights.
   void resize(std::size_t count);
   Flight operator[](std::size_t i) const;
   FlightColumns columns();
@@ -95,47 +97,47 @@ class FlightTable {
   std::vector<double> time_;
 };
 
-/// First obstacles of many queries, in one scene.
+/// First hits of many queries in one scene.
 ///
-///  1. What Reduction::fly says of each query, to the bit: outcome, stage, obstacle, time. On every
-///     processor, with any number of threads.
+///  1. Each result is that of Reduction::fly, to the bit: outcome, stage, obstacle and time. This holds on
+///     every processor and with any number of threads.
 ///     held by "A batch says what one flight at a time says, to the bit, with every set of instructions",
 ///             "The golden sets in batches, to the bit"
-///  2. A query with a flaw (flaw_of) has the outcome `error`; the others are not disturbed.
+///  2. An invalid query (flaw_of) gets the outcome `error`; the other queries are not affected.
 ///     held by "A query with a flaw is an error of its own in a batch"
-///  3. `fly` allocates nothing, beyond what starting threads takes, and throws nothing but what that throws, and
-///     InputError for columns with a flaw.
+///  3. `fly` allocates only what starting threads needs. It throws only what starting threads throws, and
+///     InputError for invalid columns (flaw_of).
 ///     held by "A batch allocates nothing",
 ///             "Columns that are missing or too short are refused"
-///  4. Any number of threads may ask one batch engine.
+///  4. Any number of threads may use one batch engine.
 ///     held by "Threads share a batch engine"
 ///
-/// Units, ranges and exactness: those of Reduction (reduction.hpp).
+/// Units, ranges and exactness: as for Reduction (reduction.hpp).
 ///
-/// Cost: docs/speed.md. What lanes do not do, one flight at a time is asked: decisions that need the second
-/// stage, sections of very many lines, starts near several obstacles that reach out of their cells. On drawn
-/// queries that is less than one in some thousand.
+/// Cost: docs/speed.md. Lanes leave rare queries to single flights: in the search in 3D, decisions that need
+/// the second stage and sections of more than 12 lines; starts near several obstacles that extend beyond
+/// their cells (docs/batch.md has the list). They are fewer than one in 1000 drawn queries.
 class Batch {
  public:
   using Time = Reduction::Time;
 
-  /// `instructions`: one of instruction_sets(), for tests and measurements; empty: the best. Throws
-  /// UnsupportedError for another name, and as Reduction's constructor does.
+  /// `instructions` is one of instruction_sets(), for tests and measurements; if empty, the best is used.
+  /// Throws UnsupportedError for an unknown name, and what Reduction's constructor throws.
   explicit Batch(const Scene& scene, std::string_view instructions = {});
   ~Batch();
   Batch(Batch&&) noexcept;
   Batch& operator=(Batch&&) noexcept;
 
-  /// Answers all queries, on `jobs` threads (at least 1). Returns how many of them lanes left to single
-  /// flights. Throws InputError for columns with a flaw.
+  /// Answers all queries on `jobs` threads (at least 1). Returns the number of queries that lanes left to
+  /// single flights. Throws InputError for invalid columns (flaw_of).
   std::size_t fly(const QueryColumns& queries, const FlightColumns& flights, Time time = Time::close,
                   int jobs = 1) const;
 
-  /// The engine of single flights that it agrees with.
+  /// The engine for single flights with which the batch agrees.
   const Reduction& one_at_a_time() const;
 
   /// The sets of vector instructions that this processor has and the program was built for, best first
-  /// ("AVX3" is AVX-512); the last is "none": one flight at a time.
+  /// ("AVX3" is AVX-512). The last is "none": one flight at a time.
   static std::vector<std::string> instruction_sets();
 
  private:
@@ -143,7 +145,7 @@ class Batch {
   Pimpl<const Inside> inside_;
 };
 
-/// The libraries that the batch engine computes with, and their versions.
+/// Names and versions of the libraries that the batch engine uses.
 std::string batch_libraries();
 
 }  // namespace lorentz

@@ -1,4 +1,4 @@
-// The engine `certified`: the fast engine's answer where that is certain, the oracle's where it is not.
+// The engine `certified`: the fast engine's answer where that is certain, otherwise the oracle's.
 #pragma once
 
 #include <optional>
@@ -9,30 +9,32 @@
 
 namespace lorentz::oracle {
 
-/// First hits, always exact, at nearly the speed of the fast engine.
+/// Exact first hits at nearly the speed of the fast engine.
 ///
-///  1. What Oracle::first_hit answers, to the bit of the time; never `undecided`.
+///  1. The answer is that of Oracle::first_hit, to the bit of the time; it is never `undecided`.
 ///     held by "certified is the oracle, to the bit",
 ///             "certified is exact among ellipsoids, whatever the engine says of them",
 ///             "A hit is before a limit iff its exact time is, and certified says what the oracle says"
-///  2. Any number of threads may ask one, each with a tally of its own.
+///  2. Any number of threads may use one engine, each with its own tally.
 ///     held by "Many threads may ask one engine, oracle, walk and judge"
 ///
-/// Units: as in Query: lengths are the scene's, times are such that x + t v is the particle's place.
-/// Cost: that of the fast engine and some 100 ns for the time; where it is not certain, and for scenes
-/// beyond it, that of the oracle (5 us and more). On drawn queries that is one in some thousand
-/// (docs/speed.md).
+/// Units: as in Query: lengths are in the scene's unit, and times are such that x + t v is the particle's
+/// position.
+///
+/// Cost: that of the fast engine plus about 100 ns for the time. Where the fast engine is not certain, and
+/// for scenes beyond it, the cost is that of the oracle (5 us and more). The oracle answers one in several
+/// thousand drawn queries (docs/speed.md).
 class Certified {
  public:
-  /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in).
+  /// Throws InputError if the scene is invalid (flaw_of) or has dependent vectors (dependence_in).
   explicit Certified(const Scene& scene);
 
-  /// The exact answer; an invalid query yields `error`. A request for digits or detail is
-  /// answered by the oracle, at its cost.
-  /// `tally`, if given, counts which stage decided; `undecided` are the queries that the oracle answered.
+  /// The exact answer. An invalid query yields `error`. If digits or detail are requested, the oracle
+  /// answers, at its cost. `tally`, if given, counts which stage decided; its `undecided` counts the queries
+  /// that the oracle answered.
   Answer first_hit(const Query& query, const Request& request = {}, StageTally* tally = nullptr) const;
 
-  /// The same into an answer that is there already; whatever it held is replaced.
+  /// Writes the answer into an existing object and replaces whatever it held.
   void first_hit(const Query& query, const Request& request, Answer& answer,
                  StageTally* tally = nullptr) const;
 
@@ -41,7 +43,7 @@ class Certified {
 
   Scene scene_;
   Oracle oracle_;
-  std::optional<Reduction> fast_;  ///< nothing: the scene is beyond it
+  std::optional<Reduction> fast_;  ///< empty if the scene is beyond the fast engine
 };
 
 }  // namespace lorentz::oracle

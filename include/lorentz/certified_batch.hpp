@@ -1,5 +1,5 @@
-// The engine `certified-batch`: many flights at once, each right and its time correctly rounded, or named as
-// one for the oracle.
+// The engine `certified-batch`: many flights at once. Each result is right and its time correctly rounded, or
+// the query is reported as one for the oracle.
 #pragma once
 
 #include <optional>
@@ -12,22 +12,22 @@ namespace lorentz::oracle {
 
 /// First hits of many queries in one scene.
 ///
-///  1. What is not named in `uncertain` is what Certified::first_hit answers, to the bit of the time.
+///  1. A query that is not in `uncertain` gets the answer of Certified::first_hit, to the bit of the time.
 ///     held by "What a certified batch is certain of is what certified says, to the bit"
-///  2. Any number of threads may ask one.
+///  2. Any number of threads may use one engine.
 ///     held by "Threads share a batch engine"
 ///
-/// Units: as in QueryColumns. Cost: that of Batch with rounded times; `uncertain` are, of drawn queries, one
-/// in some thousand (docs/speed.md).
+/// Units: as in QueryColumns. Cost: that of Batch with rounded times. One in several thousand drawn queries
+/// is `uncertain` (docs/speed.md).
 class CertifiedBatch {
  public:
-  /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in).
+  /// Throws InputError if the scene is invalid (flaw_of) or has dependent vectors (dependence_in).
   explicit CertifiedBatch(const Scene& scene);
 
-  /// Answers the queries on `jobs` threads; columns must include `outcome`, `time` and `time_is_rounded`. Throws
-  /// InputError for columns with a flaw. A query with a limit before which nothing is entered is `later`. `uncertain`: the
-  /// numbers of the queries that the oracle has to be asked (Certified::first_hit), in order; of these the
-  /// columns say nothing.
+  /// Answers the queries on `jobs` threads. The columns must include `outcome`, `time` and `time_is_rounded`;
+  /// throws InputError for invalid columns. A query has the outcome `later` if nothing is entered before its
+  /// limit. `uncertain` receives, in order, the indices of the queries for which the oracle must be asked
+  /// (Certified::first_hit); for them the columns hold no answer.
   void first_hits(const QueryColumns& queries, const FlightColumns& flights,
                   std::vector<std::size_t>& uncertain, int jobs = 1) const;
 
@@ -36,7 +36,7 @@ class CertifiedBatch {
  private:
   Certified certified_;
   int dimension_;
-  std::optional<Batch> batch_;  ///< nothing: the scene is beyond the fast engine
+  std::optional<Batch> batch_;  ///< empty if the scene is beyond the fast engine
 };
 
 }  // namespace lorentz::oracle

@@ -1,4 +1,4 @@
-// What an engine claims, and by which it is judged: the precision of its numbers, and of its times.
+// What an engine claims about the precision of its numbers and times. It is judged by this.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,10 @@
 
 namespace lorentz {
 
-/// A format of IEEE 754 for an engine's numbers.
+/// An IEEE 754 format for an engine's numbers.
 enum class NumberFormat { binary64, binary32 };
 
-constexpr int bits_of(NumberFormat precision) {  ///< of the significand
+constexpr int bits_of(NumberFormat precision) {  ///< bits of the significand
   return precision == NumberFormat::binary64 ? 53 : 24;
 }
 
@@ -19,27 +19,28 @@ inline const char* name_of(NumberFormat precision) {
   return precision == NumberFormat::binary64 ? "binary64" : "binary32";
 }
 
-/// By which an engine is judged (docs/verdicts.md).
+/// The claims by which an engine is judged (docs/verdicts.md).
 struct Claim {
   NumberFormat precision = NumberFormat::binary64;
-  /// T: a time is right if it is off by at most T times itself. Infinite: times are not judged.
+  /// T: a time is right if its error is at most T times the time itself. If T is infinite, times are not
+  /// judged.
   std::optional<double> time_tolerance = {};
 
   friend bool operator==(const Claim&, const Claim&) = default;
 };
 
-/// The nearest number of that precision; infinite beyond its range.
+/// The nearest number of this precision; infinite if `value` is beyond its range.
 double rounded(double value, NumberFormat precision);
 
-/// Distance to the next number of that precision away from zero; of what is beyond its range that of the largest
-/// finite one.
+/// The distance to the next number of this precision away from zero. Beyond the range, that of the largest
+/// finite number.
 double ulp(double value, NumberFormat precision);
 
-/// Do scenes and queries consist of numbers of that precision?
+/// True if all numbers of the scene or query are of this precision.
 bool consists_of(const Scene& scene, NumberFormat precision);
 bool consists_of(const Query& query, NumberFormat precision);
 
-/// All numbers rounded.
+/// The scene or query with all numbers rounded.
 Scene rounded(Scene scene, NumberFormat precision);
 Query rounded(Query query, NumberFormat precision);
 

@@ -1,4 +1,4 @@
-// The collision at the end of a flight, in binary64: where, how, and what the velocity becomes.
+// The collision at the end of a flight, in binary64: its point, its normal and the velocity after it.
 #pragma once
 
 #include <lorentz/answer.hpp>
@@ -7,16 +7,16 @@
 
 namespace lorentz {
 
-/// held by "Collision detail of balls is the oracle's, which is correctly rounded"
+/// The collision point, the outward unit normal, and the distance of the line of flight from the obstacle's
+/// centre, in the scene's own geometry. Requires an answer that is a `hit` with a time. Numbers beyond
+/// binary64 come out as non-finite. The error is that of x + t v: a few ulps of the distance flown.
 ///
-/// Collision point, outward unit normal, and the distance of the line of flight from the obstacle's
-/// centre, in the scene's own geometry. For an answer that is a `hit` with a time. Numbers beyond
-/// binary64 come out as not finite. The error is that of x + t v: some ulps of the distance flown.
+/// held by "Collision detail of balls is the oracle's, which is correctly rounded"
 Detail collision_detail(const Scene& scene, const Query& query, const Answer& answer);
 
-/// held by "A reflection keeps the speed and turns the normal component"
+/// The velocity after a specular reflection: v - 2 (v.n) n. Requires a normal n of unit length.
 ///
-/// The velocity after a specular reflection: v - 2 (v.n) n, n of unit length.
+/// held by "A reflection keeps the speed and turns the normal component"
 Vec reflected(const Vec& v, const Vec& normal);
 
 }  // namespace lorentz

@@ -1,4 +1,4 @@
-// For those who derive an Engine: flights as engines take them, and the scaling of the velocity.
+// For classes derived from Engine: flights in the form that engines take, and the scaling of the velocity.
 #pragma once
 
 #include <algorithm>
@@ -11,18 +11,19 @@
 
 namespace lorentz {
 
-/// Components of a velocity that are smaller, scaled as a Ray's, may have lost digits.
+/// Velocity components below this size, scaled as in Ray, may have lost digits.
 inline constexpr double kTinyComponent = 0x1p-450;
 
-/// A flight as the engines take it: the velocity scaled by a power of two so that its largest component lies
-/// in [1, 2), which avoids needless overflow and underflow.
+/// A flight in the form that engines take. The velocity is scaled by a power of two so that its largest
+/// component lies in [1, 2), which avoids needless overflow and underflow.
 struct Ray {
   const Vec& x;
   const Vec& v;
-  const ObstacleId* from;  ///< or null
-  const Vec& given_v;      ///< the velocity before it was scaled
+  const ObstacleId* from;  ///< the obstacle that the flight leaves, or null
+  const Vec& given_v;      ///< the velocity before scaling
 
-  /// Is a component of v below kTinyComponent, but not zero as given? It may have lost digits, even all.
+  /// True if a component of v is below kTinyComponent but was not zero as given. It may have lost digits,
+  /// even all of them.
   bool has_tiny_component() const {
     bool tiny = false;
     for (std::size_t i = 0; i < 3; ++i) tiny |= given_v[i] != 0 && std::fabs(v[i]) < kTinyComponent;
@@ -30,12 +31,12 @@ struct Ray {
   }
 };
 
-/// Of an exponent of normal numbers.
+/// 2^exponent. Requires a normal result.
 inline double power_of_two(int exponent) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
 }
 
-/// A velocity v other than zero, scaled to a Ray's; v = scaled * 2^exponent.
+/// A nonzero velocity v, scaled as in Ray: v = scaled * 2^exponent.
 struct ScaledVelocity {
   Vec scaled;
   int exponent;
@@ -56,12 +57,12 @@ struct ScaledVelocity {
   void set_extreme(const Vec& v, double largest);
 };
 
-/// A time or a length times 2^exponent, fast where the factor is a normal number.
+/// A time or a length times 2^exponent; fast where the factor is a normal number.
 inline double scaled_time(double time, int exponent) {
   return exponent > -500 && exponent < 500 ? time * power_of_two(exponent) : std::scalbn(time, exponent);
 }
 
-/// A limit in such units: above zero, or finite, if it was.
+/// A limit in the scaled units. It stays above zero if it was above zero, and finite if it was finite.
 inline double scaled_limit(double limit, int exponent) {
   using Range = std::numeric_limits<double>;
   if (!(limit > 0 && limit < Range::infinity())) return limit;

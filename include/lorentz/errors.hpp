@@ -1,16 +1,16 @@
-// What goes wrong: the input, what is asked of it, a file.
+// Exceptions: invalid input, unsupported input, and file errors.
 #pragma once
 
 #include <stdexcept>
 
 namespace lorentz {
 
-/// Input that does not mean what it should, in a file or from a caller: what() says where and why.
+/// Invalid input, in a file or from a caller: what() says where and why.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Good input that an engine or a class does not do: what() says why.
+/// Valid input that an engine or a class does not support: what() says why.
 struct UnsupportedError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -1,6 +1,6 @@
-// The exchange formats: NDJSON streams of scenes, queries and answers, and scene files in TOML or JSON. The
-// one place that knows them. Numbers round-trip bit for bit; wherever a number is read, a string with a
-// hexadecimal float ("0x1.8p-1") will do; keys that are not known are ignored, but somebody may be told.
+// The exchange formats: NDJSON streams of scenes, queries and answers, and scene files in TOML or JSON. No
+// other part knows the formats. Numbers round-trip bit for bit. Wherever a number is read, a string with a
+// hexadecimal float ("0x1.8p-1") is accepted. Unknown keys are ignored; a callback may observe them.
 #pragma once
 
 #include <functional>
@@ -15,27 +15,27 @@
 
 namespace lorentz {
 
-/// An id as JSON text: a quoted string, an integer, or null where there was none.
+/// An id as JSON text: a quoted string, an integer, or null if the line has none.
 using Id = std::string;
 
-/// Called with each key that the format does not have, as often as it comes; with its place if it is inside
-/// of another, "from.kell" or "lattices.atoms.colour"; also with "a query in the line of a scene", where x, v
-/// and `from` mean nothing. What it throws as an InputError makes the line, or the scene file, bad.
+/// Called with each key that the format does not have, once per occurrence. A nested key comes with its path,
+/// such as "from.kell" or "lattices.atoms.colour". Also called with "a query in the line of a scene", where
+/// x, v and `from` have no meaning. If it throws InputError, the line or the scene file is bad.
 using OnUnknownKey = std::function<void(const std::string& key)>;
 
-/// What a line of a query stream turned out to be.
+/// The content of one line of a query stream.
 struct StreamItem {
   enum class Kind { scene, query, bad, nothing };  ///< nothing: a blank line or a `golden` header
   Kind kind = Kind::nothing;
   Id id = "null";
   Scene scene;
   Query query;
-  std::string message;     ///< of `bad`
-  bool no_scene = false;   ///< `bad` because no scene holds
-  bool bad_scene = false;  ///< the bad line was a scene: what follows has none
+  std::string message;     ///< set for `bad`
+  bool no_scene = false;   ///< `bad` because the stream has no current scene
+  bool bad_scene = false;  ///< the bad line was a scene, so the lines after it have none
 };
 
-/// The same of a stream of starts, whose numbers may be rational.
+/// The content of one line of a stream of starts, whose numbers may be rational.
 struct StartItem {
   StreamItem::Kind kind = StreamItem::Kind::nothing;
   Id id = "null";
@@ -50,33 +50,33 @@ struct StartItem {
 ///  1. A number is the binary64 nearest to its text, ties to even, however many digits it has.
 ///     held by "Numbers: midpoints between neighbours, and what is beside them",
 ///             "Numbers: 1 to 800 digits, with points and exponents that make up for each other"
-///  2. What is written reads back as the same bits.
+///  2. Written values read back as the same bits.
 ///     held by "Queries round-trip bit for bit, in decimal and in hexadecimal",
 ///             "Scenes round-trip"
-///  3. Bad lines are told by name and place, and never stop a stream.
+///  3. Bad lines are reported by name and place, and never stop a stream.
 ///     held by "Every sort of bad line is told by name, and keeps its id where it can be read"
 ///
-/// A reader has buffers of its own: one a thread.
+/// A reader has its own buffers, so use one per thread.
 class ExchangeReader {
  public:
   ExchangeReader();
   ~ExchangeReader();
 
-  /// Who is told of unknown keys from now on; without anybody they are ignored.
+  /// Sets the callback for unknown keys from now on. Without one they are ignored.
   void on_unknown_key(OnUnknownKey listener);
 
-  /// A line of a query stream. `scene` is the scene that holds, or null: then every query is bad. Scenes and
-  /// queries are free of flaws (flaw_of), or the item is bad.
+  /// Reads a line of a query stream. `scene` is the current scene; if it is null, every query is bad. The
+  /// item is also bad if its scene or query is invalid (flaw_of).
   void read_query_line(const LineReader::Line& line, const Scene* scene, StreamItem& item);
 
-  /// The same of a stream of starts: wherever a number is, a text with a rational number will do ("1/3", see
-  /// rational_from), in v one with a square root, too (surd_from); in place of v, in 2D, "direction":
-  /// {"degrees": 36}, or {"slope": "golden"}, which is v = (1, slope).
+  /// Reads a line of a stream of starts. Wherever a number is expected, a string with a rational number is
+  /// accepted ("1/3", see rational_from); in v, one with a square root is accepted, too (surd_from). In 2D, v
+  /// may be replaced by "direction": {"degrees": 36}, or {"slope": "golden"}, which is v = (1, slope).
   void read_start_line(const LineReader::Line& line, const RationalScene* scene, StartItem& item);
 
-  /// A line of an answer stream. `components` becomes the number of its cell's coordinates (0: no cell),
-  /// which is for the caller to hold against the scene's dimension. Throws InputError. False for a blank line
-  /// or a `golden` header.
+  /// Reads a line of an answer stream. Returns false for a blank line or a `golden` header. `components`
+  /// becomes the number of coordinates of the answer's cell (0: no cell), which the caller must compare with
+  /// the scene's dimension. Throws InputError if the line is bad.
   bool read_answer_line(const LineReader::Line& line, Id& id, Answer& answer, std::size_t& components);
 
  private:
@@ -84,33 +84,35 @@ class ExchangeReader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A scene file, TOML or JSON (also as a `scene` line). Throws FileError, or InputError with the place.
+/// Reads a scene file in TOML or JSON (also as a `scene` line). Throws FileError, or InputError with the
+/// place.
 Scene read_scene_file(const std::string& path, const OnUnknownKey& on_unknown_key = {});
 
-/// The same of a scene whose numbers may be texts with rational numbers (rational_from).
+/// The same for a scene whose numbers may be strings with rational numbers (rational_from).
 RationalScene read_rational_scene_file(const std::string& path, const OnUnknownKey& on_unknown_key = {});
 
-/// Appends a line, with its line end. `components`: the scene, or among crystals the dimension.
+/// Append a line, with its line end. `components` is the scene, or its dimension if all lattices are
+/// crystals.
 void append_scene_line(std::string& out, const Scene& scene);
 void append_query_line(std::string& out, const Id& id, const Query& query, const Components& components);
 void append_answer_line(std::string& out, const Id& id, const Answer& answer, const Components& components);
 
-/// What all formats call it: "hit", "never", ..
+/// The outcome's name in all formats: "hit", "never", ..
 std::string_view name_of(Outcome outcome);
 
-/// What the formats are read with, and its versions.
+/// Names and versions of the libraries that read the formats.
 std::string exchange_libraries();
 
-/// A JSON number; beyond 2^53 in absolute value a decimal string.
+/// Appends a JSON number, or a decimal string if |n| is beyond 2^53.
 void append_integer(std::string& out, const Integer& n);
 
-/// A JSON string with its quotes.
+/// The text as a JSON string, with its quotes.
 std::string json_quoted(std::string_view text);
 
-/// Shortest text that reads back as the same binary64; "inf" in quotes for an infinity.
+/// Appends the shortest text that reads back as the same binary64; an infinity becomes "inf", in quotes.
 void append_number(std::string& out, double value);
 
-/// A decimal or ("0x...") hexadecimal float, all of the text; throws InputError.
+/// Parses all of the text as a decimal or hexadecimal ("0x...") float. Throws InputError.
 double parse_number(std::string_view text);
 
 }  // namespace lorentz

@@ -1,5 +1,4 @@
-// What the reduction engine itself hands out: an Answer without strings, and which stage of its ladder
-// decided.
+// The reduction engine's own result: an answer without strings, and the stage of its ladder that decided.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +10,7 @@ namespace lorentz {
 /// The stages of a filtered decision, from the cheapest to the one that gives up.
 enum class Stage : std::uint8_t { binary64, double_double, undecided };
 
-/// How many queries each stage has decided: the last stage that any of a query's decisions needed.
+/// Counts queries by the stage that decided them: the last stage that any of a query's decisions needed.
 struct StageTally {
   std::uint64_t binary64 = 0, double_double = 0, undecided = 0;
 
@@ -20,14 +19,14 @@ struct StageTally {
   }
 };
 
-/// What the first hit of a query came to. `lattice`, `atom` and `cell` are of `hit` and `inside`.
+/// The first hit of a query. `lattice`, `atom` and `cell` are set for `hit` and `inside`.
 struct Flight {
   Outcome outcome = Outcome::undecided;
   Stage stage = Stage::binary64;
-  bool time_is_rounded = false;  ///< the time is known to be correctly rounded
+  bool time_is_rounded = false;  ///< true if the time is known to be correctly rounded
   int lattice = 0, atom = 0;
-  std::array<std::int64_t, 3> cell{};  ///< of `hit` and `inside`
-  double time = 0;                     ///< of `hit`, in units in which x + time v is the place
+  std::array<std::int64_t, 3> cell{};  ///< set for `hit` and `inside`
+  double time = 0;                     ///< set for `hit`, in units in which x + time v is the collision point
 };
 
 }  // namespace lorentz

@@ -1,9 +1,9 @@
 // Elementary geometry in plain binary64: products, a line and a ball, coordinates in a cell or an ellipsoid.
-// Each is the textbook formula, rounded at every step: what it errs by is for the caller to know. To have the
-// same bits everywhere, compile without contraction (-ffp-contract=off).
+// Each function is the textbook formula, rounded at every step; the caller must allow for its error. To get
+// the same bits everywhere, compile without contraction (-ffp-contract=off).
 //
-// Always inline: of a function that is not, the linker keeps one copy of all, and the library would compute
-// with that of a program that was compiled with -ffast-math.
+// All functions are always inlined. Otherwise the linker would keep one copy of each, and the library would
+// compute with the copy of a program that was compiled with -ffast-math.
 #pragma once
 
 #include <algorithm>
@@ -36,14 +36,14 @@ namespace lorentz {
   return {a[0] + f * b[0], a[1] + f * b[1], a[2] + f * b[2]};
 }
 
-/// The square root of a.a, which may overflow or underflow where the length itself does not.
+/// The square root of a.a, which may overflow or underflow even if the length itself does not.
 [[gnu::always_inline]] inline double length(const Vec& a) {
   return std::sqrt(dot(a, a));
 }
 
 /// The time at which the line x + t v enters the ball of radius r around the origin, from the textbook
-/// quadratic t = -B - sqrt(B^2 - C), B = x.v / v^2, C = (x^2 - r^2) / v^2; may be negative; nothing if B^2 <
-/// C.
+/// quadratic t = -B - sqrt(B^2 - C) with B = x.v / v^2 and C = (x^2 - r^2) / v^2. It may be negative. Nothing
+/// if B^2 < C.
 [[gnu::always_inline]] inline std::optional<double> entry_time(const Vec& x, const Vec& v, double r) {
   const double v2 = dot(v, v);
   const double B = dot(x, v) / v2;
@@ -53,8 +53,9 @@ namespace lorentz {
   return -B - std::sqrt(discriminant);
 }
 
-/// dual_i . vector_k = delta_ik: the rows of the inverse of (vector_1 | ... | vector_d). In 2D the third
-/// vector, of either side, is the axis. Dependent vectors give what is not finite, or nonsense by rounding.
+/// The dual vectors, dual_i . vector_k = delta_ik: the rows of the inverse of (vector_1 | ... | vector_d). In
+/// 2D the third vector and the third dual vector are the third axis. For dependent vectors the result is not
+/// finite, or meaningless because of rounding.
 [[gnu::always_inline]] inline std::array<Vec, 3> dual_of(std::array<Vec, 3> vectors, int dimension) {
   const auto d = static_cast<std::size_t>(dimension);
   double largest = 0;
@@ -73,8 +74,8 @@ namespace lorentz {
   return dual;
 }
 
-/// The columns of A of an obstacle { position + A y : |y| < 1 }; a ball's are its radius times the axes. In
-/// 2D the third is zero.
+/// The columns of A for an obstacle { position + A y : |y| < 1 }. For a ball they are the axes times its
+/// radius. In 2D the third column is zero.
 [[gnu::always_inline]] inline std::array<Vec, 3> semiaxes_of(const Atom& atom, int dimension) {
   std::array<Vec, 3> columns{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) {
@@ -86,17 +87,17 @@ namespace lorentz {
   return columns;
 }
 
-/// (dual_1 . a, dual_2 . a, dual_3 . a): the coordinates of a.
+/// The coordinates of a: (dual_1 . a, dual_2 . a, dual_3 . a).
 [[gnu::always_inline]] inline Vec coordinates(const std::array<Vec, 3>& dual, const Vec& a) {
   return {dot(dual[0], a), dot(dual[1], a), dot(dual[2], a)};
 }
 
-/// Sets the vectors after the first `rank` ones: perpendicular to these and to each other, of length 1 up to
+/// Sets the vectors after the first `rank` ones, perpendicular to these and to each other, of length 1 up to
 /// rounding.
 [[gnu::always_inline]] inline void complete_perpendicularly(std::array<Vec, 3>& vectors, int rank,
                                                             int dimension) {
   const auto r = static_cast<std::size_t>(rank), d = static_cast<std::size_t>(dimension);
-  std::array<Vec, 3> units{};  // orthonormal: the first i span what the first i vectors span
+  std::array<Vec, 3> units{};  // orthonormal: the first i span the same space as the first i vectors
   for (std::size_t i = 0; i < d; ++i) {
     const auto across = [&](Vec v) {
       for (std::size_t j = 0; j < i; ++j) v = plus(v, -dot(v, units[j]), units[j]);

@@ -1,4 +1,4 @@
-// The name of one obstacle: which atom, in which cell.
+// The identity of an obstacle: lattice, atom and cell.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace lorentz {
 
-/// 128 bits, for what must not overflow where 64 do.
+/// A 128-bit integer, for values that must not overflow where 64 bits do.
 __extension__ using WideInteger = __int128;
 
-/// An integer of any size. Cell coordinates nearly always fit 64 bits; exact answers sometimes do not.
+/// An integer of any size. Cell coordinates nearly always fit into 64 bits; exact answers sometimes do not.
 class Integer {
  public:
   Integer(std::int64_t value = 0) : value_(value) {}
@@ -30,11 +30,11 @@ class Integer {
   }
   ~Integer() = default;
 
-  /// Reads an optional '-' and decimal digits; nothing else is a number. Leading zeros are dropped.
+  /// Reads an optional '-' and decimal digits; any other text yields nothing. Leading zeros are dropped.
   static std::optional<Integer> from_decimal(std::string_view text);
 
   bool fits_int64() const { return !digits_; }
-  std::int64_t int64() const { return value_; }  ///< only if fits_int64()
+  std::int64_t int64() const { return value_; }  ///< requires fits_int64()
   std::optional<WideInteger> int128() const {    ///< nothing beyond 10^38
     return fits_int64() ? std::optional<WideInteger>(value_) : int128_of_digits();
   }
@@ -48,12 +48,12 @@ class Integer {
  private:
   std::int64_t value_ = 0;
   std::unique_ptr<const std::string>
-      digits_;  ///< canonical decimal form when 64 bits do not hold it, else null
+      digits_;  ///< canonical decimal form if 64 bits cannot hold it, else null
 
   std::optional<WideInteger> int128_of_digits() const;
 };
 
-/// Coordinates n of a lattice cell; a 2D problem keeps the third at zero.
+/// Coordinates n of a lattice cell. A 2D problem keeps the third at zero.
 using Cell = std::array<Integer, 3>;
 
 /// The obstacle of atom `atom` of lattice `lattice`, translated into the cell `cell`.

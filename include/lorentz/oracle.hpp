@@ -1,5 +1,5 @@
-// The exact oracle: the truth about first hits, for every scene of balls and ellipsoids on any lattices,
-// motifs and superpositions in 2D and 3D.
+// The exact oracle: exact first hits for every scene of balls and ellipsoids on any lattices, motifs and
+// superpositions in 2D and 3D.
 #pragma once
 
 #include <optional>
@@ -11,50 +11,51 @@
 
 namespace lorentz::oracle {
 
-/// What a caller wants besides the obstacle and the time.
+/// What to compute besides the obstacle and the time.
 struct Request {
   int digits = 0;                  ///< significant decimal digits of the time, rounded half to even; 0: none
-  bool detail = false;             ///< collision point, normal, impact parameter, each correctly rounded
+  bool detail = false;             ///< collision point, normal and impact parameter, each correctly rounded
   std::optional<double> max_time;  ///< answer `later` if nothing is entered before this time
 };
 
-/// First hits by exact integer arithmetic: every decision is the sign of an integer, and nothing is
-/// rounded but the result.
+/// First hits by exact integer arithmetic: every decision is the sign of an integer, and only the result is
+/// rounded.
 ///
-///  1. The answer is right: outcome, obstacle (of several entered at one time the smallest lattice, atom,
-///     cell), and the time correctly rounded, to nearest, ties to even. The second oracle (walk.hpp),
-///     which shares nothing with this one, says the same.
+///  1. The answer is right: the outcome; the obstacle (if several are entered at one time, the one with the
+///     smallest lattice, atom, cell); and the time, correctly rounded to nearest, ties to even. The second
+///     oracle (walk.hpp), which shares nothing with this one, gives the same answers.
 ///     held by "Oracle equals walk on generic scenes",
 ///             "Oracle equals walk on a coarse grid: ties, tangents, rational slopes",
 ///             "Oracle equals walk on ellipsoids, alone and mixed with balls"
-///  2. The same question in another basis, frame, unit or order has the same answer.
+///  2. The same query in another basis, frame, unit or order gets the same answer.
 ///     held by "Rewording: the oracle says the same in other words",
 ///             "The square and the cube look the same from all their sides"
 ///  3. Decimal digits and details are correctly rounded, too.
 ///     held by "Details are correctly rounded"
-///  4. Never `undecided`.
-///  5. Any number of threads may ask one oracle.
+///  4. The answer is never `undecided`.
+///  5. Any number of threads may use one oracle.
 ///     held by "Many threads may ask one engine, oracle, walk and judge"
 ///
-/// Units: as in Query: lengths are the scene's, times are such that x + t v is the particle's place.
+/// Units: as in Query: lengths are in the scene's unit, and times are such that x + t v is the particle's
+/// position.
 ///
-/// Cost: 4 to 7 us (2D) and 15 to 30 us (3D) for each atom of the scene at ordinary radii; it grows with
-/// the logarithms of 1/r, of the distance and of the numbers' range (docs/speed.md). The exception: which
-/// of very many obstacles around x is the smallest (10^10 of them, in a lattice both dense and skewed)
-/// can take long. Allocates.
+/// Cost: 4 to 7 us (2D) and 15 to 30 us (3D) for each atom of the scene at ordinary radii. It grows with the
+/// logarithms of 1/r, of the distance and of the range of the numbers (docs/speed.md). There is one
+/// exception: it can take long to find the smallest of very many obstacles around x (10^10 of them, in a
+/// lattice both dense and skewed). Allocates.
 ///
 /// Source: this project. oracle/README.md says why it can be trusted.
 class Oracle {
  public:
-  /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in). Reduces its lattices,
-  /// once.
+  /// Throws InputError if the scene is invalid (flaw_of) or has dependent vectors (dependence_in). Reduces
+  /// the lattices, once.
   explicit Oracle(const Scene& scene);
   Oracle(Oracle&&) noexcept;
   Oracle& operator=(Oracle&&) noexcept;
   ~Oracle();
 
-  /// The exact answer: `hit` (time correctly rounded to binary64), `inside`, `never`, or `later` if asked
-  /// for. An invalid query (flaw_of) yields `error`.
+  /// The exact answer: `hit` (with the time correctly rounded to binary64), `inside`, `never`, or, if there
+  /// is a time limit, `later`. An invalid query (flaw_of) yields `error`.
   Answer first_hit(const Query& query, const Request& request = {}) const;
 
   /// True if x lies in no open obstacle. Throws InputError if x is not finite.
@@ -65,7 +66,7 @@ class Oracle {
   Pimpl<const Impl> impl_;
 };
 
-/// The libraries that the oracle computes with, and their versions.
+/// Names and versions of the libraries that the oracle uses.
 std::string oracle_libraries();
 
 }  // namespace lorentz::oracle

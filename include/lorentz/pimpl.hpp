@@ -1,4 +1,4 @@
-// The inside of a class, which its header does not show.
+// Holds the implementation of a class, which its header does not show.
 #pragma once
 
 #include <memory>
@@ -8,12 +8,12 @@
 
 namespace lorentz {
 
-/// Apart from who uses it: a throw beside a hot path takes a tenth of a flight's time.
+/// Kept out of its callers, because a throw beside a hot path takes a tenth of a flight's time.
 [[noreturn, gnu::cold, gnu::noinline]] inline void throw_moved_from() {
   throw InputError("this object is empty: it was moved from; assign another to it, or use that one");
 }
 
-/// Moves with the class. What was moved from is empty, and says so where it is used: an InputError.
+/// Moves with the class. A moved-from object is empty, and its use throws InputError.
 template <class T>
 class Pimpl {
  public:

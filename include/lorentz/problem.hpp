@@ -1,5 +1,5 @@
-// The exact problem statement, shared by every engine, oracle and reader: scenes, queries, answers. Values,
-// without hidden state: copy them, and share them between threads as you would a double.
+// The exact problem statement, shared by every engine, oracle and reader: scenes, queries and answers. These
+// are values without hidden state: copy them, and share them between threads, as you would a double.
 #pragma once
 
 #include <lorentz/answer.hpp>

@@ -1,4 +1,4 @@
-// Writes certificates: proofs that an exact answer is right, for those who do not believe the oracle.
+// Writes certificates: proofs that an exact answer is right, for users who do not trust the oracle.
 #pragma once
 
 #include <lorentz/answer.hpp>
@@ -11,24 +11,24 @@ namespace lorentz::oracle {
 
 /// Certificates for the answers of one scene.
 ///
-///  1. What it writes of an exact answer is accepted by CertificateCheck and by data/check.py, if it takes no
-///     more than kMostSteps; of a wrong answer, refuted.
+///  1. CertificateCheck and data/check.py accept the certificate of an exact answer, if it takes at most
+///     kMostSteps steps. They refute the certificate of a wrong answer.
 ///     held by "Prover: the proofs of drawn answers are accepted",
 ///             "Prover: whatever it writes of a wrong answer is refuted"
 ///
-/// Cost: that of the oracle. Allocates. Any number of threads may ask one prover.
+/// Cost: that of the oracle. Allocates. Any number of threads may use one prover.
 class Prover {
  public:
-  /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in).
+  /// Throws InputError if the scene is invalid (flaw_of) or has dependent vectors (dependence_in).
   explicit Prover(const Scene& scene);
   Prover(Prover&&) noexcept;
   Prover& operator=(Prover&&) noexcept;
   ~Prover();
 
-  /// The certificate of an exact `hit`, `inside` or `never`; of an error an empty one. Of a wrong
-  /// answer, whatever it says is refuted by who checks it. Few windows of few rows, however long the flight;
-  /// but around obstacles of very many cells in radius, as many rows and obstacles as these cross: beyond
-  /// kMostSteps, which CertificateCheck counts, no checker accepts it.
+  /// The certificate of an exact `hit`, `inside` or `never`; for an `error` it is empty. If `exact` is wrong,
+  /// the certificate is unspecified and the checker rejects it. A certificate has few windows of few rows,
+  /// however long the flight. But around obstacles with radii of very many cells, it has as many rows and
+  /// obstacles as these cross: beyond kMostSteps, which CertificateCheck counts, no checker accepts it.
   Certificate prove(const Query& query, const Answer& exact) const;
 
  private:

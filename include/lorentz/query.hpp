@@ -1,5 +1,5 @@
-// The question: which obstacle is hit first from here in this direction? A velocity has any length, and times
-// are in units in which x + t v is the particle's place.
+// The query: which obstacle is hit first from a position in a direction? The velocity has any length, and
+// times are in units in which x + t v is the particle's position.
 #pragma once
 
 #include <optional>
@@ -19,11 +19,11 @@ struct Query {
   std::optional<ObstacleId> from;
 };
 
-/// What is wrong with a query in this scene, or nothing: finite numbers, v != 0, `from` names an atom that
-/// exists.
+/// What is wrong with a query in this scene, or nothing if it is valid: the numbers are finite, v != 0, and
+/// `from` names an atom that exists.
 std::optional<std::string> flaw_of(const Query& query, const Scene& scene);
 
-/// The query, or the obstacle, if it has no flaw in this scene; else throws InputError.
+/// Returns the query or the obstacle if it is valid in this scene; otherwise throws InputError.
 const Query& checked(const Query& query, const Scene& scene);
 const ObstacleId& checked(const ObstacleId& obstacle, const Scene& scene);
 

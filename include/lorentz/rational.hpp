@@ -1,4 +1,4 @@
-// Numbers that need not be binary64: rational ones, exactly as they are written, and scenes of them.
+// Numbers that need not be binary64: rational numbers, exactly as written, and scenes made of them.
 #pragma once
 
 #include <array>
@@ -21,13 +21,13 @@ struct Fraction {
 /// A rational number: a binary64, or a fraction.
 using Rational = std::variant<double, Fraction>;
 
-/// The number that a text is, exactly: "1/3", "-0.1" (the tenth, not the binary64 near it), "2.5e-3",
-/// "0x1.8p-1" (of at most 53 bits). Nothing for any other text, or one with an exponent beyond 10^4.
+/// The exact number that a text denotes: "1/3", "-0.1" (one tenth, not the binary64 near it), "2.5e-3",
+/// "0x1.8p-1" (of at most 53 bits). Nothing for any other text, or for an exponent beyond 10^4.
 std::optional<Rational> rational_from(std::string_view text);
 
 bool is_positive(const Rational& number);
 
-/// scale * sqrt(root) + shift, as far as starts need it: a rational number has no root.
+/// scale * sqrt(root) + shift, which is as much as starts need. A rational number has no root.
 struct Surd {
   Rational shift = 0.0, scale = 0.0;
   std::optional<Rational> root;  ///< >= 0
@@ -36,13 +36,13 @@ struct Surd {
   Surd(Rational number) : shift(std::move(number)) {}
 };
 
-/// A rational number, "sqrt(2)", "sqrt(1/3)", "-sqrt(5)", or "golden": (1 + sqrt(5)) / 2. Nothing for any
-/// other text.
+/// Reads a rational number, "sqrt(2)", "sqrt(1/3)", "-sqrt(5)", or "golden", which is (1 + sqrt(5)) / 2.
+/// Nothing for any other text.
 std::optional<Surd> surd_from(std::string_view text);
 
 using RationalVec = std::array<Rational, 3>;
 
-/// As Atom, Lattice and Scene (problem.hpp), in rational numbers.
+/// Atom, Lattice and Scene (problem.hpp) in rational numbers.
 struct RationalAtom {
   RationalVec position{};
   Rational radius = 0.0;
@@ -62,22 +62,22 @@ struct RationalScene {
   std::vector<RationalLattice> lattices;
 };
 
-/// What is wrong with a scene, or nothing: as of Scene (problem.hpp).
+/// What is wrong with a scene, or nothing if it is valid; as for Scene (problem.hpp).
 std::optional<std::string> flaw_of(const RationalScene& scene);
 
-/// Where a particle starts: the place exactly, the velocity exactly or to any precision.
+/// Where a particle starts: the position exactly, the velocity exactly or to any precision.
 struct Start {
   RationalVec x{};
   std::array<Surd, 3> v{};
-  std::optional<Rational> degrees;  ///< in place of v, in 2D: speed 1, turned so far from the first axis
+  std::optional<Rational> degrees;  ///< in place of v, in 2D: speed 1, at this angle from the first axis
   std::optional<ObstacleId> from;   ///< as in Query
 };
 
-/// What is wrong with a start in this scene, or nothing: v != 0, sqrt of no negative number, `from` names an
-/// atom that exists.
+/// What is wrong with a start in this scene, or nothing if it is valid: v != 0, and `from` names an atom that
+/// exists.
 std::optional<std::string> flaw_of(const Start& start, const RationalScene& scene);
 
-/// The same numbers.
+/// The same numbers as rational numbers.
 RationalScene rational(const Scene& scene);
 
 }  // namespace lorentz

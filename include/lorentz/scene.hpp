@@ -1,5 +1,5 @@
-// The obstacles: lattices of balls and ellipsoids. Every number is a binary64 value and means exactly the
-// dyadic rational that it is; lengths are in the scene's own unit.
+// The obstacles: lattices of balls and ellipsoids. Every number is a binary64 value and means exactly that
+// dyadic rational. Lengths are in the scene's own unit.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace lorentz {
 
 /// An obstacle of the motif: an open ball of `radius` > 0, or the open ellipsoid { position + A y : |y| < 1 }
-/// whose matrix A has the columns `semiaxes`. A cell coordinate n counts from `position`.
+/// whose matrix A has the columns `semiaxes`. Cell coordinates n count from `position`.
 struct Atom {
   Vec position{};
   double radius = 0;
@@ -20,16 +20,16 @@ struct Atom {
 
   bool is_ball() const { return semiaxes.empty(); }
 
-  /// The same numbers (-0 is 0), in the same order.
+  /// True if the numbers are the same (-0 equals 0), in the same order.
   friend bool operator==(const Atom&, const Atom&) = default;
 };
 
-/// Primitive vectors u_1..u_k (linearly independent) and the motif that is repeated at n_1 u_1 + ... + n_k
-/// u_k. In d dimensions k = d is a crystal, d - 1 a layer or (in the plane) a row, 0 single obstacles.
+/// Linearly independent primitive vectors u_1..u_k, and the motif that is repeated at n_1 u_1 + ... + n_k
+/// u_k. In d dimensions, k = d is a crystal, d - 1 a layer or (in the plane) a row, and 0 single obstacles.
 struct Lattice {
-  std::array<Vec, 3> vectors{};  ///< those that it does not have are zero
+  std::array<Vec, 3> vectors{};  ///< those after the first k are zero
   std::vector<Atom> atoms;
-  int missing = 0;  ///< d - k: directions in which it does not repeat
+  int missing = 0;  ///< d - k: the number of directions in which the lattice does not repeat
 
   int rank(int dimension) const { return dimension - missing; }  ///< k
 
@@ -44,10 +44,11 @@ struct Scene {
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// Does each lattice repeat in as many directions as there are?
+/// True if each lattice repeats in as many directions as the scene has dimensions.
 bool is_crystal(const Scene& scene);
 
-/// How many components vectors and cells have: in a scene, or in a dimension if all lattices are crystals.
+/// The numbers of components of vectors and cells: of a scene, or of a dimension if all lattices are
+/// crystals.
 class Components {
  public:
   Components(int dimension) : dimension_(dimension) {}
@@ -57,14 +58,14 @@ class Components {
   }
 
   int of_vectors() const { return dimension_; }
-  int of_cells(int lattice) const {  ///< of a lattice that is not there: the dimension
+  int of_cells(int lattice) const {  ///< the dimension if the lattice does not exist
     const auto l = static_cast<std::size_t>(lattice);
     return l < ranks_.size() ? ranks_[l] : dimension_;
   }
 
  private:
   int dimension_;
-  std::vector<int> ranks_;  ///< of each lattice; empty: all crystals
+  std::vector<int> ranks_;  ///< one for each lattice; empty if all are crystals
 };
 
 /// Calls visit(atom) for each atom of the scene, lattice by lattice.
@@ -80,20 +81,20 @@ void for_each_atom(const Scene& scene, const Visit& visit) {
     for (const Atom& atom : lattice.atoms) visit(atom);
 }
 
-/// What is wrong with a scene, or nothing: dimension, finite numbers, radii above zero, semiaxes complete, nothing out
-/// of the plane. That the primitive vectors are independent is decided exactly by the oracle
-/// (include/lorentz/scene_check.hpp).
+/// What is wrong with a scene, or nothing if it is valid. Checks the dimension, that numbers are finite,
+/// radii above zero and semiaxes complete, and that nothing is out of the plane. The oracle decides exactly
+/// whether the primitive vectors are independent (include/lorentz/scene_check.hpp).
 std::optional<std::string> flaw_of(const Scene& scene);
 
-/// The scene, if it has no flaw; else throws InputError, which names the place and the remedy. What takes a scene calls
-/// this first, once.
+/// Returns the scene if it is valid; otherwise throws InputError, which names the place and the remedy.
+/// Everything that takes a scene calls this first, once.
 const Scene& checked(const Scene& scene);
 
 /// The unit square (d = 2) or cubic (d = 3) lattice with one ball of this radius at the origin.
 Scene unit_scene(int dimension, double radius);
 
-/// True if the scene is one unit square or cubic lattice with one ball centred at the origin, the primitive
-/// vectors in the order of the axes.
+/// True if the scene is one unit square or cubic lattice with one ball centred at the origin, and its
+/// primitive vectors are in the order of the axes.
 bool is_unit_scene(const Scene& scene);
 
 }  // namespace lorentz

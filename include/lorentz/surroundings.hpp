@@ -1,5 +1,5 @@
-// What stands around a place on the line of a flight, seen from it: for pictures, and for people. The places
-// are computed exactly, however far away, and rounded when they are relative to one another.
+// The obstacles around a place on the line of a flight, as seen from it, for pictures and for people. Places
+// are computed exactly, however far away; only positions relative to one another are rounded.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,13 @@
 
 namespace lorentz::oracle {
 
-/// A place on the line of a flight: where it enters an obstacle (or, if it misses it, is nearest to its
-/// centre in the coordinates in which it is a ball), else where it is at a time.
+/// A place on the line of a flight. With an `obstacle`, it is where the line enters the obstacle, or, if the
+/// line misses it, where the line is nearest to its centre, in coordinates in which it is a ball. Otherwise
+/// it is where the flight is at a `time`.
 struct PlaceOnLine {
   std::optional<ObstacleId> obstacle;  ///< must exist
   double time = 0;                     ///< finite
-  double beyond = 0;                   ///< so far along the flight from there, a length; finite
+  double beyond = 0;                   ///< distance along the flight from there; finite
 
   static PlaceOnLine start() { return {}; }
   static PlaceOnLine at(ObstacleId id) { return {std::move(id), 0, 0}; }
@@ -31,28 +32,28 @@ struct Neighbour {
 
 struct Neighbourhood {
   std::vector<Neighbour> obstacles;
-  bool complete = true;  ///< false: there are more than were asked for
+  bool complete = true;  ///< false if there are more than were requested
 };
 
 /// Looks at flights in one scene. Numbers are rounded to about 52 bits at the end and not before (places are
-/// known to 150 digits); their sizes are 1e300 at the most. Any number of threads may ask one.
+/// known to 150 digits); their sizes are at most 1e300. Any number of threads may use one object.
 class Surroundings {
  public:
-  /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in).
+  /// Throws InputError if the scene is invalid (flaw_of) or has dependent vectors (dependence_in).
   explicit Surroundings(const Scene& scene);
   Surroundings(Surroundings&&) noexcept;
   Surroundings& operator=(Surroundings&&) noexcept;
   ~Surroundings();
 
-  /// The way along the line from one place to another, in lengths; below 0 if the second lies before the
+  /// The length of the way along the line from one place to another; negative if the second lies before the
   /// first.
   double way(const Query& query, const PlaceOnLine& from, const PlaceOnLine& to) const;
 
-  /// The centre of an obstacle, which must exist, relative to a place.
+  /// The centre of an obstacle relative to a place. The obstacle must exist.
   Vec centre(const Query& query, const PlaceOnLine& seen_from, const ObstacleId& obstacle) const;
 
-  /// The obstacles whose centres are nearer than `reach` (> 0, finite) to a place, `most` of each atom at the
-  /// most.
+  /// The obstacles whose centres are nearer than `reach` (> 0, finite) to a place, at most `most` for each
+  /// atom.
   Neighbourhood around(const Query& query, const PlaceOnLine& place, double reach, std::size_t most) const;
 
  private:

@@ -1,4 +1,4 @@
-// The path of a particle from collision to collision, with any engine for the flights.
+// The path of a particle from collision to collision. Any engine can compute the flights.
 #pragma once
 
 #include <cstdint>
@@ -12,38 +12,38 @@
 
 namespace lorentz {
 
-/// Where a particle is and how it moves: in the frame of an obstacle, so that the digits that it has don't
-/// depend on how far it went. Numbers have two parts, whose sum is meant; in binary64 the low ones are zero,
-/// but for the time's.
+/// The position and velocity of a particle. The position is relative to an obstacle, so that its precision
+/// does not depend on the distance travelled. Each number is the sum of two parts. In binary64 the low parts
+/// are zero, except that of the time.
 struct Particle {
-  std::int32_t lattice = 0, atom = 0;  ///< the obstacle that the offset counts from,
+  std::int32_t lattice = 0, atom = 0;  ///< the obstacle from which the offset counts,
   std::array<std::int64_t, 3> cell{};  ///< in this cell
-  bool leaves = false;                 ///< it comes from that obstacle, which the next flight ignores
+  bool leaves = false;                 ///< the particle leaves that obstacle, and the next flight ignores it
 
   Vec offset{}, offset_low{};                       ///< from the obstacle's centre, in the scene's unit
   Vec velocity{}, velocity_low{};                   ///< after the collision; any length
-  double speed_squared = 0, speed_squared_low = 0;  ///< what the velocity's square was at the start
+  double speed_squared = 0, speed_squared_low = 0;  ///< the square of the velocity at the start
 
-  double time = 0, time_low = 0;  ///< since the start, in units in which x + t v is the place
+  double time = 0, time_low = 0;  ///< since the start, in units in which x + t v is the position
   std::uint64_t collisions = 0;   ///< since the start
 };
 
-/// What numbers a state is kept in.
+/// The numbers in which a state is kept.
 enum class Precision {
   binary64,
   double_double  ///< 106 bits
 };
 
-/// Why a particle does not go on.
+/// Why a particle stopped.
 enum class Stop {
-  none,        ///< it does
-  collisions,  ///< it made as many as were asked for
-  time,        ///< the time that was asked for has come; it is where it is then
-  condition,   ///< the visitor wished it
-  never,       ///< it flies on for ever; from rows, layers and single obstacles particles escape
-  later,       ///< so says the engine, of a flight without a limit
-  inside,      ///< it lies in an obstacle: a start, or a corner between obstacles that touch or overlap
-  undecided,   ///< the engine does not know what is hit next
+  none,        ///< it has not stopped
+  collisions,  ///< it made the requested number of collisions
+  time,        ///< the requested time has come; the particle is where it is at that time
+  condition,   ///< the visitor returned false
+  never,       ///< it flies on for ever; particles escape from rows, layers and single obstacles
+  later,       ///< the engine answered `later` to a flight without a limit
+  inside,      ///< it lies in an obstacle: at the start, or in a corner of obstacles that touch or overlap
+  undecided,   ///< the engine does not know the next obstacle
   missed,      ///< the obstacle that the engine named is not on the line of flight, beyond all rounding
   overflow,    ///< the next obstacle's cell is beyond 64 bits, or 2^53 cells from where it is seen
   error        ///< the engine cannot answer: message() says why
@@ -52,59 +52,62 @@ enum class Stop {
 /// "never", "undecided", ..
 const char* name_of(Stop stop);
 
-/// A collision, as it happened.
+/// Data of one collision.
 struct Collision {
-  double flight = 0;  ///< time since the one before, the start, or a halt at a time
-  Vec arriving{};     ///< the velocity before
+  double flight = 0;  ///< time since the previous collision, the start, or a stop at a requested time
+  Vec arriving{};     ///< the velocity before the collision
   Vec normal{};       ///< outward, of unit length up to rounding
-  double cosine = 0;  ///< of the angle between the velocity after and the normal
+  double cosine = 0;  ///< of the angle between the normal and the velocity after the collision
 };
 
-/// First hits, by whoever is asked: the query, what comes after `max_time` is not wanted, the answer.
+/// Answers a query. Hits after `max_time` are not needed.
 using AskFirstHit = std::function<void(const Query& query, double max_time, Answer& answer)>;
 
-/// A particle that flies, and is reflected by the obstacles that it meets: the angle of reflection is that of
-/// incidence, the speed is kept.
+/// A particle that flies and is reflected by the obstacles that it hits. The angle of reflection equals the
+/// angle of incidence, and the speed is kept.
 ///
-///  1. Each collision is that of the state before it, with the obstacle that the engine named, computed from
-///     that obstacle alone and not from the engine's time. The offset errs by some u times the flight's
-///     length, the direction by that over the radius, both times 1 / cosine; u is 2^-53 in binary64, 2^-102
-///     in double_double. Of ellipsoids also times the ratio of their semiaxes.
+///  1. Each collision follows from the state before it and the obstacle that the engine named. It is computed
+///     from that obstacle alone, not from the engine's time. The error of the offset is of the order of u
+///     times the flight's length; that of the direction is this divided by the radius; both times 1 / cosine.
+///     Here u is 2^-53 in binary64 and 2^-102 in double_double. For ellipsoids, both are also multiplied by
+///     the ratio of the semiaxes.
 ///     held by "A collision is the oracle's, as exact as the state",
 ///             "A collision in binary64 is that in double-double, rounded",
 ///             "Problem 2 of the 100-digit challenge: the digits that each precision has"
-///  2. After each collision the particle is on the obstacle's surface and has its first speed, both up to
-///     some ulps, however many collisions there were.
+///  2. After each collision the particle is on the obstacle's surface and has its initial speed, both up to a
+///     few ulps, however many collisions there were.
 ///     held by "Speed and surface are kept over many collisions"
-///  3. No digit is lost to the distance travelled: the flight is asked in a frame in which the obstacle that
-///     is left lies in cell 0. Of superposed lattices there is no such frame, and the flight is asked in the
-///     scene's own; then what is asked is rounded to an ulp of the distance from the origin.
+///  3. The distance travelled costs no digits, because the engine is asked in a frame in which the obstacle
+///     that the particle leaves lies in cell 0. Superposed lattices have no such frame. There the engine is
+///     asked in the scene's own frame, and the query is rounded to an ulp of the distance from the origin.
 ///     held by "Far from the origin a trajectory is the same, to the bit"
-///  4. In double_double the engine sees the state rounded to binary64. It may so take a line that passes an
-///     obstacle for one that grazes it, or the other way round. The first is a collision with cosine 0 that
-///     changes no velocity; the second is not noticed. That is what 2^-50 of the flight's length decides.
+///  4. In double_double the engine gets the state rounded to binary64. So it may take a line that passes an
+///     obstacle for one that grazes it, or the other way round. The first is a collision with cosine 0, which
+///     does not change the velocity; the second goes unnoticed. This can happen only where 2^-50 of the
+///     flight's length decides.
 ///     held by "A line that grazes goes on unchanged"
-///  5. Whatever happens, it stops and says why (Stop); the state is then that of the last collision, or that
-///     at the time asked for. Nothing is thrown but by the engine, a constructor, or set_state.
+///  5. Whatever happens, the particle stops with a reason (Stop). The state is then that of the last
+///     collision, or that at the requested time. Only the engine, a constructor or set_state can throw.
 ///     held by "A trajectory that ends says why"
-///  6. Constant memory: nothing is kept of the past.
+///  6. Constant memory: the past is not kept.
 ///
-/// Units: those of the scene; |v| is any from 2^-100 to 2^100, and so are sizes of obstacles and vectors.
+/// Units: those of the scene. |v|, the sizes of obstacles and the vectors' lengths may be from 2^-100 to
+/// 2^100.
 ///
-/// Overlapping obstacles are allowed where the engine allows them. Once in some 10^15 collisions a particle
-/// is so near to a corner that rounding puts it inside.
+/// Overlapping obstacles are allowed where the engine allows them. About once in 10^15 collisions a particle
+/// is so near to a corner that rounding puts it inside an obstacle.
 ///
 /// Source: this project. The reflection is the textbook one: at the point A y, |y| = 1, of an ellipsoid it
-/// turns the part of v along A^-T y round.
+/// reverses the part of v along A^-T y.
 class Trajectory {
  public:
-  /// From the start of a query: at x, with the velocity v, off `from` if there is one. `engine` must live as
-  /// long, and be the scene's; a Reduction is asked without detours. Throws InputError for a
-  /// scene or start with a flaw (flaw_of), UnsupportedError for sizes beyond its range.
+  /// Starts as a query does: at x, with velocity v, leaving `from` if it is set. `engine` must be the
+  /// scene's, and must outlive the trajectory. If it is a Reduction, its `fly` is called directly. Throws
+  /// InputError if the scene or the start is invalid (flaw_of), UnsupportedError if sizes are out of range.
   Trajectory(const Engine& engine, const Scene& scene, const Query& start,
              Precision precision = Precision::binary64);
 
-  /// The same with somebody else for the flights.
+  /// The same, with a function that answers the queries.
   Trajectory(AskFirstHit ask, const Scene& scene, const Query& start,
              Precision precision = Precision::binary64);
 
@@ -114,24 +117,24 @@ class Trajectory {
 
   const Particle& state() const { return particle_; }
 
-  /// Takes another state in its place: one of another trajectory in this scene, say, to go on with it. One
-  /// with low parts makes a start of more than 53 bits. Throws InputError for one that names an
-  /// obstacle that is not there, or has no velocity or speed_squared.
+  /// Replaces the state, for example by that of another trajectory in this scene, to continue it. Low parts
+  /// make a start of more than 53 bits possible. Throws InputError if the state names an obstacle that does
+  /// not exist, or has no velocity or speed_squared.
   void set_state(const Particle& particle);
 
-  /// Makes one collision, unless it came after the time `until`: then the particle is brought to where it is
-  /// at `until`, and can go on from there; never back in time. False: there was no collision, and stop() says
-  /// why.
+  /// Makes one collision, unless it would come after the time `until`. In that case the particle moves to its
+  /// position at `until`, never back in time, and can continue from there. Returns false if there was no
+  /// collision; stop() says why.
   bool advance(double until = std::numeric_limits<double>::infinity());
 
   /// The last collision.
   const Collision& collision() const { return collision_; }
 
   Stop stop() const { return stop_; }
-  const std::string& message() const { return message_; }  ///< of `error`
+  const std::string& message() const { return message_; }  ///< set for `error`
 
-  /// Collisions until there were so many since the start, or the time has come, or `visit(*this)`, called
-  /// after each collision, is false.
+  /// Makes collisions until there are `collisions` of them since the start, or the time `until` has come, or
+  /// `visit(*this)`, called after each collision, returns false.
   template <class Visit>
   Stop run(std::uint64_t collisions, double until, const Visit& visit) {
     while (particle_.collisions < collisions) {
@@ -141,7 +144,7 @@ class Trajectory {
     return stop_ = Stop::collisions;
   }
 
-  /// The place in the scene's coordinates, rounded.
+  /// The position in the scene's coordinates, rounded.
   Vec place() const;
 
  private:
@@ -159,10 +162,11 @@ class Trajectory {
 /// The state at the start of a query. Throws as Trajectory's constructor does.
 Particle particle_at(const Scene& scene, const Query& start, Precision precision = Precision::binary64);
 
-/// Where a particle is in the scene's coordinates, rounded.
+/// The position of a particle in the scene's coordinates, rounded.
 Vec place_of(const Scene& scene, const Particle& particle);
 
-/// From one place to another, rounded once: exact where both are far from the origin.
+/// The vector from one particle's position to the other's, rounded once, and so exact even if both are far
+/// from the origin.
 Vec displacement(const Scene& scene, const Particle& from, const Particle& to);
 
 }  // namespace lorentz

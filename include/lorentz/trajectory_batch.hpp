@@ -1,4 +1,4 @@
-// The paths of many particles at once: their flights in the lanes of the processor's vectors.
+// The paths of many particles at once, with their flights in the lanes of the processor's vectors.
 #pragma once
 
 #include <cstddef>
@@ -10,39 +10,40 @@
 
 namespace lorentz {
 
-/// Particles in one scene that don't see each other, each as a Trajectory with a Reduction has it.
+/// Particles in one scene that do not interact. Each moves as in a Trajectory with a Reduction.
 ///
-///  1. What Trajectory says of each, to the bit, however many there are.
+///  1. Each particle moves as Trajectory says, to the bit, however many particles there are.
 ///     held by "Particles in a batch go where each goes alone, to the bit"
-///  2. One that stops disturbs no other.
+///  2. A particle that stops does not affect the others.
 ///     held by "Particles in a batch stop one by one"
 ///  3. Constant memory: `advance` allocates nothing.
 ///     held by "Many collisions take no memory"
-///  4. One set is for one thread; any number of them may share an engine.
+///  4. One set of particles is for one thread; any number of sets may share an engine.
 ///
-/// Units, ranges and exactness: those of Trajectory.
+/// Units, ranges and exactness: as for Trajectory.
 class Particles {
  public:
-  /// `engine` is the scene's, and must live as long. Throws as Trajectory does.
+  /// `engine` must be the scene's, and must outlive this object. Throws what Trajectory throws.
   Particles(const Batch& engine, const Scene& scene, Precision precision = Precision::binary64);
   ~Particles();
   Particles(Particles&&) noexcept;
   Particles& operator=(Particles&&) noexcept;
 
-  /// Another particle, at the start of a query or in any state. Throws as Trajectory does.
+  /// Adds a particle, at the start of a query or in any state. Throws what Trajectory throws.
   void add(const Query& start);
   void add(const Particle& particle);
   void clear();
 
   std::size_t size() const { return particles_.size(); }
   const Particle& operator[](std::size_t i) const { return particles_[i]; }
-  Stop stop(std::size_t i) const { return stops_[i]; }  ///< `none`: it goes on
+  Stop stop(std::size_t i) const { return stops_[i]; }  ///< `none` if it has not stopped
 
-  /// How many go on.
+  /// The number of particles that have not stopped.
   std::size_t going() const { return going_.size(); }
 
-  /// One collision of each that goes on, as Trajectory::advance makes it; calls `visit(i, particle,
-  /// collision)` after each. A particle of which that is false stops by `condition`. Returns going().
+  /// Makes one collision for each particle that has not stopped, as Trajectory::advance does, and then calls
+  /// `visit(i, particle, collision)`. If `visit` returns false, the particle stops with `condition`. Returns
+  /// going().
   template <class Visit>
   std::size_t advance(double until, const Visit& visit) {
     for (std::size_t begin = 0; begin < going_.size(); begin += kTogether) {
@@ -55,11 +56,11 @@ class Particles {
     return leave_stopped();
   }
 
-  /// Those that stopped at a time, or by a condition, go on from where they are.
+  /// Lets particles that stopped at a time or by a condition continue from where they are.
   void resume();
 
  private:
-  /// So many that what they need stays in the nearest cache.
+  /// Number of particles flown together: few enough that their data stays in the nearest cache.
   static constexpr std::size_t kTogether = 128;
 
   std::size_t fly(std::size_t begin, double until);

@@ -1,4 +1,4 @@
-// Judging an answer by the exact one, with a tolerance that is derived and not guessed (docs/verdicts.md).
+// Judges an answer by the exact one, with a tolerance that is derived, not guessed (docs/verdicts.md).
 #pragma once
 
 #include <optional>
@@ -14,90 +14,92 @@ namespace lorentz::oracle {
 
 enum class Verdict {
   agree,        ///< the same outcome and the same obstacle; `wrong_time` says whether its time is off
-  ill_posed,    ///< another one, but the inputs need to move by no more than k ulps each for it to be right
-  wrong,        ///< another one, and not so
-  undecided,    ///< it said that it does not know, or `later`
-  unsupported,  ///< it said that it does not do this kind of query
-  error,        ///< it said that the query is invalid, or it broke
-  missing       ///< there is no answer
+  ill_posed,    ///< another answer, which some movement of each input by at most k ulps makes right
+  wrong,        ///< another answer, which no such movement makes right
+  undecided,    ///< the engine answered that it does not know, or `later`
+  unsupported,  ///< the engine answered that it does not support this kind of query
+  error,        ///< the engine answered that the query is invalid, or it failed
+  missing       ///< no answer was given
 };
 
-/// The tolerance k, in ulps of the inputs, unless told otherwise.
+/// The default tolerance k, in ulps of the inputs.
 inline constexpr double kDefaultUlps = 4;
 
-/// How many obstacles and stretches of the line Judge::excused looks at before it says that they are too many.
+/// The largest number of obstacles and stretches of the line that Judge::excused examines before it gives up.
 inline constexpr long kExcusedBudget = 20'000;
 
-/// A time that is off by more than this many times what an ulp in each input makes of it is not rounded: it is
-/// another quantity, such as the time at which the line leaves the obstacle.
+/// If a time is off by more than this many times the change that an ulp in each input makes, it is not a
+/// rounding error but another quantity, such as the time at which the line leaves the obstacle.
 constexpr double other_quantity_from(NumberFormat precision) {
   return precision == NumberFormat::binary64 ? 0x1p30 : 0x1p14;
 }
 
-/// What an answer is worth beside the exact one.
+/// How an answer compares with the exact one.
 struct Judgement {
   Verdict verdict = Verdict::missing;
-  /// Where the obstacle hit is right and a finite time is given: |t - t_exact| / ulp(t_exact), from the
-  /// rounded t_exact.
+  /// If the obstacle hit is right and a finite time is given: |t - t_exact| / ulp(t_exact), with the rounded
+  /// t_exact.
   std::optional<double> ulps = {};
-  /// Of ill_posed and wrong: by how many ulps the inputs must move at least for the answer to be right. Of
-  /// wrong answers a lower bound (what condemned it first); infinite if nothing can make it right. Of a wrong
-  /// time: the tolerance that it would have needed, in units of its condition; infinite if it is not finite.
+  /// For ill_posed and wrong: the least number of ulps by which the inputs must move to make the answer
+  /// right. For wrong it is a lower bound, because the first reason to reject the answer ends the search; it
+  /// is infinite if nothing can make the answer right. For a wrong time: the tolerance that it would have
+  /// needed, in units of its condition; infinite if the time is NaN.
   double departs = 0;
-  bool wrong_time = false;      ///< of `agree`: the obstacle is right, the time is beyond its tolerance
+  bool wrong_time = false;      ///< for `agree`: the obstacle is right, but the time is beyond its tolerance
   bool other_quantity = false;  ///< a wrong time that no rounding explains (other_quantity_from)
-  /// Of ill_posed and wrong: the obstacle that `departs` is about (the one that is named and missed, or that
-  /// is passed over, or that contains x). Nothing if the scene does not have the obstacle that was named, and
-  /// where nothing needs to move (a tie that was decided the other way).
+  /// For ill_posed and wrong: the obstacle that `departs` is about (the one that is named and missed, or that
+  /// is passed over, or that contains x). Empty if the scene does not have the named obstacle, and if nothing
+  /// needs to move (a tie that was decided the other way).
   std::optional<ObstacleId> obstacle = {};
 };
 
-/// An answer other than the exact one, and by how many ulps each input must move, at least, for it to be right.
+/// An answer other than the exact one, and the least number of ulps by which each input must move to make it
+/// right.
 struct ExcusedAnswer {
   Answer answer;  ///< without a time
   double ulps = 0;
 };
 
-/// Judges answers to the queries of one scene.
+/// Judges answers to queries in one scene.
 ///
-///  1. `wrong` is an answer that no movement of each input by up to `ulps` units in its last place makes
-///     right (to first order, docs/verdicts.md); `ill_posed` one that some such movement does.
+///  1. An answer is `wrong` if no movement of each input by up to `ulps` units in its last place makes it
+///     right (to first order, docs/verdicts.md). It is `ill_posed` if some such movement does.
 ///     held by "Each answer gets its verdict",
 ///             "An answer that a few ulps would make right is ill-posed, with the tolerance that it needs"
-///  2. The time of the right obstacle is a wrong time if it errs, in its ulps, by more than `ulps` and by
-///     more than `ulps` times its condition. The answer agrees nevertheless, by however much the time is off.
+///  2. The time of the right obstacle is a wrong time if its error, in its ulps, is more than `ulps` and more
+///     than `ulps` times its condition. The answer agrees nevertheless, however large the error of the time.
 ///     held by "Errors of the time are counted in ulps, and judged by the condition",
 ///             "A time that is off by a good part of itself is another quantity"
-///  3. With `ulps` = 0 an answer is the exact one or `wrong`, and a time the correctly rounded one or a wrong
-///     time: not even a tie is forgiven that was decided the other way.
+///  3. With `ulps` = 0, an answer is the exact one or `wrong`, and a time is correctly rounded or a wrong
+///     time. Not even a tie that was decided the other way is forgiven.
 ///     held by "Where no ulp is forgiven an answer is the exact one or wrong"
-///  4. An ulp is one of the claim's precision. With a time tolerance T a time t is wrong if it is off by more
-///     than T t, and only then; a later obstacle is forgiven where each one entered earlier is entered at most T
-///     times its time before, and not yet left.
+///  4. Ulps are those of the claim's precision. With a time tolerance T, a time t is wrong if it is off by
+///     more than T t, and only then. A later obstacle is forgiven if each obstacle entered earlier is entered
+///     at most T times its time before, and not yet left.
 ///     held by "In binary32 an ulp is one of 24 bits",
 ///             "A tolerance of times, and what it forgives of the order"
-///  5. Any number of threads may ask one judge.
+///  5. Any number of threads may use one judge.
 ///     held by "Many threads may ask one engine, oracle, walk and judge"
 ///  6. excused() lists what judge() forgives, and nothing else.
 ///     held by "Excused answers are those that the judge calls ill-posed"
 ///
-/// Cost: nothing to speak of where the two agree, else 100 us and more.
+/// Cost: negligible if the two answers agree, otherwise 100 us and more.
 class Judge {
  public:
-  /// Throws InputError for a scene with a flaw (flaw_of) or dependent vectors (dependence_in).
+  /// Throws InputError if the scene is invalid (flaw_of) or has dependent vectors (dependence_in).
   explicit Judge(const Scene& scene, const Claim& claim = {});
   Judge(Judge&&) noexcept;
   Judge& operator=(Judge&&) noexcept;
   ~Judge();
 
-  /// `exact` is the oracle's answer to the query without a time limit. Costs nothing to speak of where the
-  /// two agree.
+  /// `exact` is the oracle's answer to the query without a time limit.
   Judgement judge(const Query& query, const Answer& exact, const Answer& given,
                   double ulps = kDefaultUlps) const;
 
-  /// All answers that judge() calls ill-posed with this tolerance, by `ulps`, the least first: whoever has them can
-  /// judge without a Judge. Nothing if they are more than `most`, or endless, or too many obstacles come into
-  /// question (kExcusedBudget). The claim's time tolerance is not looked at.
+  /// All answers that judge() calls ill-posed with this tolerance, the one with the least ExcusedAnswer::ulps
+  /// first. With this list, answers can be judged without a Judge. Nothing if there are more than `most` or
+  /// infinitely many, or if too many obstacles come into question (kExcusedBudget). The claim's time
+  /// tolerance is ignored.
   std::optional<std::vector<ExcusedAnswer>> excused(const Query& query, const Answer& exact, double ulps,
                                                     std::size_t most) const;
 

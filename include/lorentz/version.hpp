@@ -1,4 +1,4 @@
-// The version of the library, semantic (docs/packages.md): a program may ask for it before it is compiled.
+// The semantic version of the library (docs/packages.md), for use by the preprocessor.
 #pragma once
 
 #define LORENTZ_VERSION_MAJOR 0
