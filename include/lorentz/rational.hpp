@@ -65,6 +65,9 @@ struct RationalScene {
 /// What is wrong with a scene, or nothing if it is valid; as for Scene (problem.hpp).
 std::optional<std::string> flaw_of(const RationalScene& scene);
 
+/// Returns the scene if it is valid; otherwise throws InputError.
+const RationalScene& checked(const RationalScene& scene);
+
 /// Where a particle starts: the position exactly, the velocity exactly or to any precision.
 struct Start {
   RationalVec x{};
@@ -73,9 +76,12 @@ struct Start {
   std::optional<ObstacleId> from;   ///< as in Query
 };
 
-/// What is wrong with a start in this scene, or nothing if it is valid: v != 0, and `from` names an atom that
-/// exists.
+/// What is wrong with a start in this scene, or nothing if it is valid: finite numbers, v != 0, no square root of a
+/// number below zero, and `from` names an atom that exists.
 std::optional<std::string> flaw_of(const Start& start, const RationalScene& scene);
+
+/// Returns the start if it is valid in this scene; otherwise throws InputError.
+const Start& checked(const Start& start, const RationalScene& scene);
 
 /// The same numbers as rational numbers.
 RationalScene rational(const Scene& scene);

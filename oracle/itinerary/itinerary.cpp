@@ -51,14 +51,14 @@ Arrival follow_in(const RationalScene& scene, const Start& start, const Journey&
   }
 }
 
-// Dimension, radii above 0, independent vectors and semiaxes.
+// Independent vectors and semiaxes.
 template <std::size_t D>
 void check(const RationalScene& scene) {
   const Start origin;
   const IntegerProblem<D> problem(scene, origin);
   for (std::size_t l = 0; l < problem.scene.lattices.size(); ++l) {
     const auto& lattice = problem.scene.lattices[l];
-    const std::string place = "lattices[" + std::to_string(l) + "]";
+    const std::string place = "scene: lattice " + std::to_string(l);
     const auto independent = [&](const std::array<ZVec<D>, D>& vectors, std::size_t rank) {
       Basis<D> basis;
       for (std::size_t i = 0; i < rank; ++i) basis[i].p = vectors[i];
@@ -66,13 +66,11 @@ void check(const RationalScene& scene) {
       return determinant<D>(basis) != 0;
     };
     if (!independent(lattice.vectors, lattice.rank))
-      throw InputError(place + ".vectors: are linearly dependent");
+      throw InputError(place + ": the primitive vectors are linearly dependent");
     for (std::size_t a = 0; a < lattice.atoms.size(); ++a) {
       const auto& atom = lattice.atoms[a];
-      const std::string its = place + ".atoms[" + std::to_string(a) + "]";
-      if (!atom.semiaxes && atom.radius <= 0) throw InputError(its + ".radius: must be above 0");
       if (atom.semiaxes && !independent(*atom.semiaxes, D))
-        throw InputError(its + ".semiaxes: are linearly dependent");
+        throw InputError(place + ", atom " + std::to_string(a) + ": the semiaxes are linearly dependent");
     }
   }
 }
@@ -83,7 +81,7 @@ struct Itinerary::Impl {
   RationalScene scene;
 };
 
-Itinerary::Itinerary(const RationalScene& scene) : impl_(std::make_unique<const Impl>(Impl{scene})) {
+Itinerary::Itinerary(const RationalScene& scene) : impl_(std::make_unique<const Impl>(Impl{checked(scene)})) {
   if (scene.dimension == 2)
     check<2>(scene);
   else
@@ -95,6 +93,7 @@ Itinerary& Itinerary::operator=(Itinerary&&) noexcept = default;
 Itinerary::~Itinerary() = default;
 
 Arrival Itinerary::follow(const Start& start, const Journey& journey, const OnCollision& on_collision) const {
+  checked(start, impl_->scene);
   if (journey.digits < 1) throw InputError("digits: needs 1 or more");
   if (journey.time && !is_positive(*journey.time)) throw InputError("time: must be above zero");
   if (!journey.collisions && !journey.time && !journey.stop && !on_collision)

@@ -66,6 +66,8 @@ class Rounded final : public RoundedItinerary::Impl {
 }  // namespace
 
 RoundedItinerary::RoundedItinerary(const RationalScene& scene, const Start& start, long bits) {
+  checked(start, checked(scene));
+  if (bits < 2) throw InputError("bits: needs 2 or more");
   if (scene.dimension == 2)
     impl_ = std::make_unique<Rounded<2>>(scene, start, bits);
   else

@@ -4,9 +4,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <string>
 
-#include "src/problem/from_flaw.hpp"
+#include <lorentz/errors.hpp>
 
 namespace lorentz {
 namespace {
@@ -110,38 +111,67 @@ bool is_positive(const Rational& number) {
 
 namespace {
 
-std::optional<std::string> flaw_of_rational_atom(const RationalAtom& atom, int dimension) {
-  if (atom.is_ball())
-    return is_positive(atom.radius) ? std::nullopt : std::optional("radius must be above zero");
-  if (atom.semiaxes.size() == static_cast<std::size_t>(dimension)) return std::nullopt;
-  return "needs as many semiaxes as dimensions (" + std::to_string(dimension) + ")";
+// -1, 0, 1; what is not finite, and a fraction without a denominator above zero, is no number. Whether a scene or a start
+// has a flaw depends on signs alone, so these are asked of ones in binary64.
+double sign_of(const Rational& number) {
+  if (const double* value = std::get_if<double>(&number))
+    return std::isfinite(*value) ? (*value > 0) - (*value < 0) : *value;
+  const auto& [numerator, denominator] = std::get<Fraction>(number);
+  if (!is_positive(Fraction{denominator, 1})) return std::numeric_limits<double>::quiet_NaN();
+  return numerator == Integer(0) ? 0 : is_positive(Fraction{numerator, 1}) ? 1 : -1;
+}
+
+Vec signs_of(const RationalVec& a) {
+  return {sign_of(a[0]), sign_of(a[1]), sign_of(a[2])};
+}
+
+Scene signs_of(const RationalScene& scene) {
+  Scene signs{scene.dimension, {}};
+  for (const RationalLattice& lattice : scene.lattices) {
+    Lattice& its = signs.lattices.emplace_back();
+    its.missing = lattice.missing;
+    for (std::size_t i = 0; i < 3; ++i) its.vectors[i] = signs_of(lattice.vectors[i]);
+    for (const RationalAtom& atom : lattice.atoms) {
+      Atom& obstacle = its.atoms.emplace_back();
+      obstacle.position = signs_of(atom.position);
+      obstacle.radius = sign_of(atom.radius);
+      for (const RationalVec& axis : atom.semiaxes) obstacle.semiaxes.push_back(signs_of(axis));
+    }
+  }
+  return signs;
+}
+
+// 0, not 0, or no number.
+double sign_of(const Surd& number) {
+  const double root = number.root ? sign_of(*number.root) : 0, part = root * sign_of(number.scale);
+  return part == 0 ? sign_of(number.shift) : part + 0 * sign_of(number.shift);
 }
 
 }  // namespace
 
 std::optional<std::string> flaw_of(const RationalScene& scene) {
-  if (scene.dimension != 2 && scene.dimension != 3) return "dimension must be 2 or 3";
-  if (scene.lattices.empty()) return "a scene needs at least one lattice";
-  for (std::size_t l = 0; l < scene.lattices.size(); ++l) {
-    const std::string where = "lattice " + std::to_string(l);
-    if (scene.lattices[l].atoms.empty()) return where + ": needs at least one atom";
-    for (std::size_t a = 0; a < scene.lattices[l].atoms.size(); ++a)
-      if (auto flaw = flaw_of_rational_atom(scene.lattices[l].atoms[a], scene.dimension))
-        return where + ", atom " + std::to_string(a) + ": " + *flaw;
-  }
-  return std::nullopt;
+  return flaw_of(signs_of(scene));
 }
 
 std::optional<std::string> flaw_of(const Start& start, const RationalScene& scene) {
-  const auto is_zero = [](const Rational& number) {
-    if (const double* value = std::get_if<double>(&number)) return *value == 0;
-    return std::get<Fraction>(number).numerator == Integer(0);
-  };
-  const bool rests = std::all_of(start.v.begin(), start.v.end(), [&](const Surd& component) {
-    return component.root ? is_zero(*component.root) && is_zero(component.shift) : is_zero(component.shift);
-  });
-  if (rests && !start.degrees) return "v is zero: the particle needs a direction";
-  return start.from ? from_flaw(*start.from, scene) : std::nullopt;
+  Query signs{signs_of(start.x), {}, start.from};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (start.v[i].root && sign_of(*start.v[i].root) < 0)
+      return "v has the square root of a number below zero";
+    signs.v[i] = sign_of(start.v[i]);
+  }
+  if (start.degrees) signs.v = {1 + 0 * sign_of(*start.degrees), 0, 0};
+  return flaw_of(signs, signs_of(scene));
+}
+
+const RationalScene& checked(const RationalScene& scene) {
+  if (const auto flaw = flaw_of(scene)) throw InputError("scene: " + *flaw);
+  return scene;
+}
+
+const Start& checked(const Start& start, const RationalScene& scene) {
+  if (const auto flaw = flaw_of(start, scene)) throw InputError("start: " + *flaw);
+  return start;
 }
 
 RationalScene rational(const Scene& scene) {

@@ -112,6 +112,7 @@ std::vector<Class> exact_classes() {
           {"Margins", [](const Scene& s) { oracle::Margins{s}; }},
           {"Judge", [](const Scene& s) { oracle::Judge{s}; }},
           {"Prover", [](const Scene& s) { oracle::Prover{s}; }},
+          {"Itinerary", [](const Scene& s) { oracle::Itinerary{rational(s)}; }},
           {"Surroundings", [](const Scene& s) { oracle::Surroundings{s}; }},
           {"horizon_of", [](const Scene& s) { (void)oracle::horizon_of(s); }},
           {"look_along",
@@ -322,4 +323,57 @@ TEST_CASE("All classes move and assign, and what was moved from says that it is 
     return end.x[0] + ' ' + end.x[1] + ' ' + end.distance;
   });
   CHECK_THROWS_AS(oracle::Itinerary(rational(scene)).follow(start, {}), InputError);
+}
+
+TEST_CASE("Odd starts of itineraries are refused", "[oracle][odd]") {
+  const RationalScene scene = rational(unit_scene(2, 0.25));
+  const Fraction nothing{1, 0}, third{1, 3};
+  Surd root;
+  root.scale = 1.0;
+  struct BadStart {
+    const char* words;
+    std::function<void(Start&)> change;
+  };
+  const auto with_root = [&](Rational under) {
+    return [root, under](Start& start) mutable { root.root = under, start.v[1] = root; };
+  };
+  const BadStart bad[] = {{"x is not finite", [](Start& s) { s.x[0] = kNaN; }},
+                          {"x is not finite", [](Start& s) { s.x[1] = kInf; }},
+                          {"x is not finite", [&](Start& s) { s.x[1] = nothing; }},
+                          {"third must be zero", [&](Start& s) { s.x[2] = third; }},
+                          {"v is not finite", [](Start& s) { s.v[0] = Rational(-kInf); }},
+                          {"v is not finite", [&](Start& s) { s.v[0] = Rational(nothing); }},
+                          {"v is not finite", [](Start& s) { s.degrees = kNaN; }},
+                          {"v is not finite", with_root(kNaN)},
+                          {"v is not finite", with_root(nothing)},
+                          {"square root of a number below zero", with_root(-2.0)},
+                          {"square root of a number below zero", with_root(Fraction{-1, 3})},
+                          {"v is zero", [](Start& s) { s.v = {}; }},
+                          {"v is zero", [&](Start& s) { s.v = {}, with_root(0.0)(s); }},
+                          {"from names lattice 1",
+                           [](Start& s) {
+                             s.from = ObstacleId{1, 0, {}};
+                           }},
+                          {"from names atom -1", [](Start& s) {
+                             s.from = ObstacleId{0, -1, {}};
+                           }}};
+  const oracle::Itinerary itinerary(scene);
+  oracle::Journey journey;
+  journey.collisions = 1;
+  const auto start = [&] {
+    Start good;
+    good.x = {third, 0.5, 0.0};
+    good.v = {Rational(1.0), Rational(0.1), Rational(0.0)};
+    return good;
+  };
+  CHECK(itinerary.follow(start(), journey).end == oracle::JourneyEnd::collisions);
+  for (const BadStart& one : bad) {
+    Start odd = start();
+    one.change(odd);
+    INFO(one.words);
+    CHECK_THROWS_WITH(itinerary.follow(odd, journey),
+                      Catch::StartsWith("start: ") && Catch::Contains(one.words));
+    CHECK_THROWS_WITH(oracle::RoundedItinerary(scene, odd, 53), Catch::StartsWith("start: "));
+  }
+  CHECK_THROWS_WITH(oracle::RoundedItinerary(scene, start(), 1), Catch::Contains("bits"));
 }
