@@ -210,6 +210,22 @@ class Signals(unittest.TestCase):
         self.assertTrue(caught >> (signal.SIGTERM - 1) & 1)
         self.assertEqual(run.end(signal.SIGTERM), -signal.SIGTERM)
 
+    def test_a_program_as_engine_ends_with_the_program(self):
+        guest = Path(self.folder, "guest.sh")
+        guest.write_text("#!/bin/sh\necho $$ > pid.new\nmv pid.new pid\nexec sleep 1000\n")
+        guest.chmod(0o755)
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGPIPE):
+            with self.subTest(number.name):
+                pid = Path(self.folder, "pid")
+                pid.unlink(missing_ok=True)
+                run = Run(self.folder, "compare --engine cmd:./guest.sh --count 10")
+                run.wait_for(lambda run: pid.exists())
+                its = Path("/proc", pid.read_text().strip())
+                run.wait_for(lambda run: (its / "comm").read_text() == "sleep\n")
+                self.assertEqual(run.end(number), -number)
+                while its.exists() and "(zombie)" not in (its / "status").read_text():
+                    time.sleep(0.01)  # ends when the guest does, or CTest ends it
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
