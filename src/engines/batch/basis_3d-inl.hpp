@@ -17,7 +17,7 @@ namespace {
 using Arm3 = ArmOf3<LaneFma>;
 using Basis3 = BasisOf3<LaneFma>;
 
-/// But for what is computed anew after any exchange.
+/// Exchanges everything except what is computed anew after any exchange.
 HWY_INLINE void exchange(M m, Arm3& a, Arm3& b) {
   for (int i = 0; i < 3; ++i) exchange(m, a.n[i], b.n[i]);
   exchange(m, a.p[0], b.p[0]), exchange(m, a.p[1], b.p[1]), exchange(m, a.z, b.z);

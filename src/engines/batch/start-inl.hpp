@@ -38,8 +38,7 @@ struct Start : Offset<LaneFma, D> {
 
   /// Returns the lanes whose start lies in the obstacle of the home cell. Lanes in which that is not certain
   /// are left over, and so are lanes whose start may lie in an obstacle of another cell. `leaving` is
-  /// ignored; where that settles a
-  /// decision which is not certain, `stage2` has it.
+  /// ignored; where that settles a decision that is not certain, `stage2` has it.
   HWY_INLINE M inside(const Leaving<D>* leaving, Lanes& lanes, M& stage2) const {
     if constexpr (!(kUnit && kBall))
       if (lattice->reaches_out) lanes.leave(may_be_in_others(leaving, lanes.active));

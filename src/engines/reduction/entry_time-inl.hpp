@@ -52,7 +52,7 @@ class CloseTime {
   }
   LORENTZ_INLINE Mask is_near(Number q) const { return Not(entry_.s > kNear * q); }
 
-  /// Of balls that are neither grazed nor near.
+  /// For balls that are neither grazed nor near.
   LORENTZ_INLINE Number plain(Number q) const {
     Number v2 = v_[0] * v_[0], s = v_[0] * distance(0);
     for (int k = 1; k < D; ++k) v2 = v2 + v_[k] * v_[k], s = s + v_[k] * distance(k);

@@ -18,7 +18,7 @@ struct SparseRange {
   Number first, last;
   typename Numbers::Mask known;
 
-  /// `within` of the middle, where both together err by at most `unsure`.
+  /// The integers within `within` of `middle`, where the two together err by at most `unsure`.
   LORENTZ_INLINE SparseRange(Number middle, Number within, Number unsure)
       : first(Ceil(middle - within - unsure)),
         last(Floor(middle + within + unsure)),
