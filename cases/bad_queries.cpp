@@ -9,7 +9,7 @@ std::string question(const std::string& x, const std::string& v) {
   return "\"x\":" + x + ",\"v\":" + v;
 }
 
-// What is no number, in place of one.
+// JSON values that are not numbers, where a number is expected.
 const char* const kNoNumbers[] = {"null",    "true",      "false",        "\"\"",     "\"1\"",
                                   "\"NaN\"", "\"nan\"",   "\"inf\"",      "\"-inf\"", "\"Infinity\"",
                                   "\"one\"", "\"1.5.2\"", "\"1,5\"",      "[0]",      "[]",

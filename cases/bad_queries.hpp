@@ -1,4 +1,4 @@
-// Invalid queries: what a reader of the exchange format must refuse.
+// Invalid queries that a reader of the exchange format must refuse.
 #pragma once
 
 #include <string>
@@ -8,18 +8,18 @@
 
 namespace lorentz::cases {
 
-/// A query as JSON text, without the braces and the id: `"x":[0,0],"v":[0,0]`. It is well-formed JSON (only
-/// what it says is wrong), and begins with "x" unless x is what is missing.
+/// A query as JSON text, without the braces and the id: `"x":[0,0],"v":[0,0]`. The text is well-formed JSON;
+/// only its content is invalid. It begins with "x" unless x is missing.
 struct BadQuery {
   std::string text, tag;
 };
 
-/// All there are, each different.
+/// All invalid queries, each different.
 const std::vector<BadQuery>& bad_queries();
 
 const std::vector<Tag>& bad_query_tags();
 
-/// The scene that they are asked in: the square lattice with two discs a cell.
+/// The scene in which they are asked: the square lattice with two discs per cell.
 const Scene& bad_query_scene();
 
 }  // namespace lorentz::cases

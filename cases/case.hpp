@@ -1,5 +1,5 @@
-// A case: a scene, a query, and what is hard about them. A case follows from (seed, family, index, precision)
-// and nothing else: neither the order of asking nor the thread changes it.
+// A case: a scene, a query, and what is hard about them. A case depends on (seed, family, index, precision)
+// and nothing else: not on the order in which cases are made, nor on the thread.
 #pragma once
 
 #include <string>
@@ -19,14 +19,14 @@ struct Case {
   std::vector<std::string> tags;
 };
 
-/// What a case may be marked with, and what it is out to break.
+/// A mark of a case, with a note on what the case is meant to break.
 struct Tag {
   std::string_view name, note;
   std::string_view note_in_binary32 = note;  ///< empty: no case in binary32 has the tag
 };
 
-/// So many cases in a row share a scene, bit for bit, because a stream has a line for each new scene. (The
-/// examples that `published-faults` begins with do not.)
+/// Number of consecutive cases that share a scene, bit for bit, because a stream has a line for each new
+/// scene. (The examples at the start of `published-faults` do not share one.)
 inline constexpr std::uint64_t kCasesPerScene = 32;
 
 /// What one case is made from.
@@ -35,7 +35,7 @@ struct Source {
   Random scene;   ///< the same for all cases that share a scene: the scene follows from this alone
   Random random;  ///< the case's own
   NumberFormat precision =
-      NumberFormat::binary64;  ///< of the case's numbers: Family::make rounds what is finer
+      NumberFormat::binary64;  ///< of the case's numbers: Family::make rounds those with more bits
 };
 
 }  // namespace lorentz::cases

@@ -18,7 +18,7 @@ Vec point_in_cell(Random& random, const Scene& scene) {
   return Box::cell_of(scene).point(random);
 }
 
-// By certified: for most points a few comparisons in binary64.
+// Asks `certified`: for most points that takes a few comparisons in binary64.
 bool starts_inside(const Scene& scene, const Query& query) {
   struct Latest {
     explicit Latest(const Scene& scene) : scene(scene), engine(scene) {}

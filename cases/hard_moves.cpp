@@ -19,8 +19,8 @@ Vec near_integer_direction(Random& random, int dimension, NumberFormat precision
 
 namespace {
 
-// In coordinates y in which the obstacle is the unit ball: the normal n of the collision stands at y ~ A^T n,
-// the line passes the centre at the part of y across it, and is moved along that.
+// In coordinates y the obstacle is the unit ball. The normal n of the collision is at y ~ A^T n there. The
+// line passes the centre at the part of y across it, and is moved along that part.
 template <class OffEdge>
 bool move_by(const OffEdge& off_edge, const Scene& scene, const oracle::Oracle& oracle, Query& query,
              NumberFormat precision) {

@@ -102,9 +102,9 @@ Squared drawn_quadruple(Random& random, std::int64_t range) {
   return {{1, 2, 2}, {2, 1, -2}, 3};
 }
 
-// (w - p)(w + p) = q^2 - 1 or q^2 + 1, so a factorisation of the right side into factors of one parity gives
-// a near square. q = 2ab + 1: q^2 - 1 = 2a 2b(ab + 1), p^2 + q^2 = w^2 + 1. And where ad + bc = 1
-// (Brahmagupta), q = ac - bd: q^2 + 1 = (a^2 + b^2)(c^2 + d^2), p^2 + q^2 = w^2 - 1.
+// (w - p)(w + p) = q^2 - 1 or q^2 + 1, so a factorisation of the right side into two factors of the same
+// parity gives a near square. With q = 2ab + 1, q^2 - 1 = 2a 2b(ab + 1) and p^2 + q^2 = w^2 + 1. With
+// ad + bc = 1 (Brahmagupta) and q = ac - bd, q^2 + 1 = (a^2 + b^2)(c^2 + d^2) and p^2 + q^2 = w^2 - 1.
 NearSquare drawn_near_square(Random& random, std::int64_t below) {
   for (int tries = 0; tries < 16; ++tries) {
     const auto size = std::int64_t{1} << random.integer(1, 12);
@@ -126,7 +126,7 @@ NearSquare drawn_near_square(Random& random, std::int64_t below) {
 }
 
 std::vector<IntegerRatio> convergents_of_root(std::int64_t n, std::int64_t h, int bits) {
-  // (p + sqrt(d)) / q, q dividing d - p^2.
+  // Complete quotients are (p + sqrt(d)) / q, where q divides d - p^2.
   const std::int64_t d = n * h, root = floor_root(d);
   std::int64_t p = 0, q = h;
   Wide k1 = 1, k0 = 0, r1 = 0, r0 = 1;
@@ -143,8 +143,8 @@ std::vector<IntegerRatio> convergents_of_root(std::int64_t n, std::int64_t h, in
   return all;
 }
 
-// With u.v = 1, e = across x u satisfies v x e = across (v.u) - u (v.across) = across. So all solutions d of
-// v x d = turns across are turns e + s v; s is free, and is chosen to bring d near the place wanted.
+// Because u.v = 1, e = across x u satisfies v x e = across (v.u) - u (v.across) = across. So all solutions d
+// of v x d = turns across are turns e + s v. s is free; it is chosen to bring d near the place wanted.
 std::optional<Vec> start_beside(const IntVec& v, const IntVec& across, std::int64_t turns, int exponent,
                                 double along, int bits) {
   const IntVec u = bezout(v);
@@ -156,7 +156,7 @@ std::optional<Vec> start_beside(const IntVec& v, const IntVec& across, std::int6
       static_cast<Wide>(std::ldexp(along * std::sqrt(static_cast<double>(dot(v, v))), exponent));
   const Wide left = wanted - turns * e_along;
   Wide s = rounded_quotient(left, v2);
-  if (s * v2 < left) ++s;  // a long v has few solutions near the place: none behind it
+  if (s * v2 < left) ++s;  // rounds up: a long v has few solutions near the place, and none behind it is used
   Vec x{};
   for (int i = 0; i < 3; ++i) {
     const Wide d = turns * e[i] + s * v[i];

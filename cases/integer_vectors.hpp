@@ -1,5 +1,5 @@
-// Small integer vectors, and what exact constructions are made of: Bezout's identity, squares, Pell's
-// equation. A 2D vector has a third component 0.
+// Small integer vectors, and the tools of exact constructions: Bezout's identity, squares, Pell's equation. A
+// 2D vector has a third component 0.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ IntVec bezout(const IntVec& a);
 /// a divided by its content, which must not be 0.
 IntVec primitive(IntVec a);
 
-/// Primitive, components from -range to range.
+/// A drawn primitive vector with components from -range to range.
 IntVec drawn_primitive(Random& random, int dimension, std::int64_t range);
 
 /// Two independent primitive vectors at right angles to n.
@@ -65,17 +65,17 @@ struct NearSquare {
 };
 NearSquare drawn_near_square(Random& random, std::int64_t below);
 
-/// Convergents k / r of sqrt(n / h), r up to 2^bits, at most 50: n r^2 - h k^2 is as small as it gets, so that r, k solve
-/// Pell's equation or nearly. Ends early if the root is rational.
+/// Convergents k / r of sqrt(n / h), r up to 2^bits (bits at most 50). n r^2 - h k^2 is as small as possible,
+/// so r and k solve Pell's equation or nearly. Ends early if the root is rational.
 struct IntegerRatio {
   std::int64_t k, r;
 };
 std::vector<IntegerRatio> convergents_of_root(std::int64_t n, std::int64_t h, int bits);
 
-/// The start x from which the flight along the primitive v passes the origin at the closest point after
-/// the distance `along` or a little more, with v x (0 - x) = `turns` 2^-exponent `across` exactly. `across`
-/// must be at right angles to v (2D: a multiple of (0, 0, 1)). Nothing if no vector of numbers of that precision
-/// near there does that.
+/// The start x from which the flight along the primitive v passes the origin at its closest point after the
+/// distance `along` or a little more, with v x (0 - x) = `turns` 2^-exponent `across` exactly. `across` must
+/// be at right angles to v (2D: a multiple of (0, 0, 1)). Nothing if no vector with numbers of that precision
+/// does that near there.
 std::optional<Vec> start_beside(const IntVec& v, const IntVec& across, std::int64_t turns, int exponent,
                                 double along, int bits);
 

@@ -1,4 +1,4 @@
-// Random numbers that are the same whoever draws them, and on every machine.
+// Random numbers that are the same on every machine, in whatever order they are drawn.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace lorentz::cases {
 
-/// What numbers are drawn for: each has its own, whatever the others take.
+/// The uses of random numbers. Each has numbers of its own, however many the others take.
 enum class Use : std::uint64_t { cases, scenes, variants, rewordings, reworded_scenes };
 
-/// What a series of random numbers is called, hashed once (FNV-1a): for who draws from it 10^8 times.
+/// The name of a series of random numbers, hashed once (FNV-1a), for callers that draw from it 10^8 times.
 struct Series {
   explicit constexpr Series(std::string_view name) {
     for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
@@ -21,10 +21,11 @@ struct Series {
 };
 
 /// Random numbers by Philox4x64-10, a bijection of 256-bit counters under a 128-bit key (Salmon, Moraes,
-/// Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", 2011; here Random123's). The key is (seed,
-/// FNV-1a of the name), the counter (index, use, block, attempt): the numbers depend on these only, so that a
-/// query is the same whoever draws it, in whatever order, on whatever thread or machine. Each block is four
-/// words. Nothing but integer arithmetic, exact conversions, single roundings and square roots is used.
+/// Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", 2011; here Random123's). The key is
+/// (seed, FNV-1a of the name), the counter (index, use, block, attempt). The numbers depend on these only, so
+/// a query is the same in whatever program, order or thread, and on whatever machine, it is drawn. A block is
+/// four words. The only operations are integer arithmetic, exact conversions, single roundings and square
+/// roots.
 class Random {
  public:
   Random(std::uint64_t seed, Series series, std::uint64_t index, Use use = Use::cases,
@@ -52,7 +53,7 @@ class Random {
 
   std::array<std::uint64_t, 2> key_;
   std::array<std::uint64_t, 4> counter_, block_{};
-  std::size_t taken_ = 4;  ///< of the block
+  std::size_t taken_ = 4;  ///< words of the block that are used up
 };
 
 }  // namespace lorentz::cases

@@ -1,4 +1,4 @@
-// A symmetry of the square or cubic lattice, drawn.
+// A drawn symmetry of the square or cubic lattice.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace lorentz::cases {
 
-/// A vector with its components permuted and reflected: a symmetry of the square or cubic lattice.
+/// Permutes and reflects the components of a vector: a symmetry of the square or cubic lattice.
 class Symmetry {
  public:
   Symmetry(Random& random, int dimension);

@@ -7,7 +7,8 @@
 namespace lorentz::cases {
 namespace {
 
-// Numbers in order, as integers: -0 and +0 both 0. Each format is mirrored at its least integer.
+// The rank of a number in the order of its format, as an integer; -0 and +0 both have rank 0. The integers of
+// negative numbers are mirrored at the format's least integer.
 template <class Bits, class Number>
 std::int64_t rank_of(Number x) {
   const auto bits = std::bit_cast<Bits>(x);

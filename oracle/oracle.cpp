@@ -12,10 +12,11 @@ Quadratic surd(const Z& p, const Z& q, const Z& d, const Z& denominator, long ex
   return {p, q > 0 ? -1 : +1, q * q * d, denominator, exponent};
 }
 
-// A direction p - sqrt(d) q, not of unit length, made so. The square of a component of the unit vector is
-//   (p_i - sqrt(d) q_i)^2 / |p - sqrt(d) q|^2 = (a - b sqrt(d)) / (e - f sqrt(d)),
-// which times e + f sqrt(d) is a quadratic number again. (e + f sqrt(d) = |p + sqrt(d) q|^2 belongs to the
-// place where the line leaves the obstacle, and there is a normal there, too: it is not zero.)
+// Makes the direction p - sqrt(d) q a unit vector. The square of a component of the unit vector is
+//   (p_i - sqrt(d) q_i)^2 / |p - sqrt(d) q|^2 = (a - b sqrt(d)) / (e - f sqrt(d)).
+// Multiplying numerator and denominator by e + f sqrt(d) gives a quadratic number again. That factor is not
+// zero, because e + f sqrt(d) = |p + sqrt(d) q|^2 belongs to the point where the line leaves the obstacle,
+// and there is a normal there, too.
 template <std::size_t D>
 void set_unit_vector(const ZVec<D>& p, const ZVec<D>& q, const Z& d, Vec& unit) {
   const Z e = dot(p, p) + d * dot(q, q), f = 2 * dot(p, q);
@@ -27,9 +28,9 @@ void set_unit_vector(const ZVec<D>& p, const ZVec<D>& q, const Z& d, Vec& unit) 
   }
 }
 
-// The collision in the scene's own coordinates. The point is x + t v, seen from the centre c of the obstacle
-// w = t v - c; with v2 t = s - sqrt(d), v2 w = (s v - v2 c) - sqrt(d) v. The normal is along w for a ball,
-// along adj(A)^T adj(A) w for an ellipsoid.
+// The collision in the scene's own coordinates. Relative to the centre c of the obstacle, the point x + t v
+// is w = t v - c. With v2 t = s - sqrt(d) this is v2 w = (s v - v2 c) - sqrt(d) v. The normal is along w for
+// a ball, and along adj(A)^T adj(A) w for an ellipsoid.
 template <std::size_t D>
 Detail detail_of(const ExactScene<D>& scene, const ExactQuery<D>& query, const ExactEntry<D>& entry) {
   const ZVec<D>& v = query.velocity.v;

@@ -1,9 +1,9 @@
-// axis-and-diagonal: the numbers that people type, and the ends of binary64's range. Directions along axes,
+// axis-and-diagonal: numbers that people type, and the ends of binary64's range. Directions are along axes,
 // diagonals and other small integers, with zeros of either sign or components too small to matter in any cell
-// that will be reached; starts at halves, on cell edges and corners, in negative cells and beyond 2^53;
-// velocities that are subnormal or near overflow, whose squares are neither. All of them exact, so that every
-// formula that divides by a component, takes a floor of a coordinate, or squares a velocity, meets its worst
-// arguments.
+// that is reached. Starts are at halves, on cell edges and corners, in negative cells and beyond 2^53.
+// Velocities are subnormal or near overflow, so that their squares leave the range. All numbers are exact, so
+// every formula that divides by a component, takes the floor of a coordinate, or squares a velocity meets its
+// worst arguments.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -49,7 +49,7 @@ void set_direction(Source& source, int dimension, Case& made) {
     if (v[i] != 0) v[i] *= huge ? factor : factor * static_cast<double>(random.integer(1, 4096));
 }
 
-// A multiple of 1/8 in a cell near or far, mostly moved along v, which keeps it on the same line.
+// A multiple of 1/2 or 1/8 in a cell near or far; in one case in four moved by up to 2 ulps.
 void set_axis_start(Source& source, int dimension, const Lattice& lattice, Case& made) {
   Random& random = source.random;
   const bool is_wide = source.precision == NumberFormat::binary64;

@@ -1,11 +1,12 @@
 // boundary-starts: particles on an obstacle's surface, and ulps from it.
 //
-// x - c is on the sphere exactly where r = w 2^-m and x - c = (a, b, c) 2^-m with a^2 + b^2 + c^2 = w^2; w
-// with many prime factors of the kind 4k + 1 has many such points in the plane, rows of a quaternion's matrix
-// are some in space. From there a flight inwards hits at t = 0, one outwards or along the tangent does not
-// hit this obstacle at all; an ulp inwards the start is inside, an ulp outwards the hit comes at t > 0. In
-// other lattices the nearest binary64 to a point of the surface is a start that is as likely inside as
-// outside. `from` takes one obstacle out of the question, wherever x lies: on it, in it, or far from it.
+// x - c is exactly on the sphere if r = w 2^-m and x - c = (a, b, c) 2^-m with a^2 + b^2 + c^2 = w^2. In the
+// plane, a w with many prime factors of the kind 4k + 1 has many such points; in space, rows of a
+// quaternion's matrix are such points. From there a flight inwards hits at t = 0; one outwards or along the
+// tangent does not hit this obstacle at all. An ulp inwards the start is inside; an ulp outwards the hit
+// comes at t > 0. In other lattices the start is the binary64 vector nearest to a point of the surface, and
+// is as likely inside as outside. `from` excludes one obstacle from the question, wherever x is: on it, in
+// it, or far from it.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -19,7 +20,7 @@
 namespace lorentz::cases {
 namespace {
 
-// An integer point of the circle of radius w, found upwards from a drawn one; (w, 0) ends the search.
+// An integer point of the circle of radius w, searched upwards from a drawn one; (w, 0) ends the search.
 IntVec circle_point(Random& random, std::int64_t w) {
   for (std::int64_t a = random.integer(0, w);; ++a) {
     const auto b = static_cast<std::int64_t>(std::sqrt(static_cast<double>(w * w - a * a)));
@@ -27,7 +28,7 @@ IntVec circle_point(Random& random, std::int64_t w) {
   }
 }
 
-// Rows and columns of a quaternion's rotation matrix have its norm's length.
+// Rows and columns of a quaternion's rotation matrix have the length of its norm.
 IntVec sphere_point(Random& random, const std::array<std::int64_t, 4>& quaternion) {
   const auto [a, b, c, d] = quaternion;
   const IntVec rows[] = {{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)},
@@ -60,7 +61,7 @@ Vec drawn_velocity(Source& source, const Vec& n, int dimension, std::vector<std:
   }
 }
 
-// What `from` says, if anything; `own` is the obstacle that x is on.
+// Draws `from`, or leaves it empty; `own` is the obstacle that x is on.
 void set_from(Random& random, const ObstacleId& own, const Vec& n, int dimension, Case& made) {
   switch (random.below(6)) {
     case 0:
@@ -69,7 +70,7 @@ void set_from(Random& random, const ObstacleId& own, const Vec& n, int dimension
       made.query.from = own;
       break;
     case 2:
-      made.tags.front() = "from-around-x";  // in place of how near the surface x was
+      made.tags.front() = "from-around-x";  // instead of the tag of x's distance from the surface
       made.query.from = own;
       made.query.x = sum(made.query.x, scaled(n, -random.between(0, 1)));
       break;
@@ -86,7 +87,7 @@ void set_from(Random& random, const ObstacleId& own, const Vec& n, int dimension
   }
 }
 
-// x on or ulps from the surface around `centre`.
+// Puts x on the surface around `centre`, or ulps from it.
 void set_start(Source& source, const Vec& centre, const Vec& n, int dimension, bool exact, Case& made) {
   Random& random = source.random;
   made.query.x = sum(centre, n);

@@ -1,11 +1,11 @@
 // corridor-edge: starts on the edge of a corridor, or ulps from it, along its axis or ulps off it.
 //
-// Rows of obstacles along the lattice vector g stand at the distances area / |g|; a line parallel to g at the
-// distance y from a row meets none of it iff y >= r: on the edge, y = r, it is tangent to every one, and
-// flies for ever; an ulp below it hits. An ulp off the axis the hit comes after some 10^15 cells. In the
-// square lattice the edge of g is exact in binary64 where |g| is an integer: along the axes, and Pythagorean
-// triples. In space the channel between planes with the indices n (|n| an integer) takes the corridor's
-// place. Elsewhere the nearest binary64 start stands for the edge.
+// Rows of obstacles along the lattice vector g are area / |g| apart. A line parallel to g at the distance y
+// from a row meets none of its obstacles iff y >= r. On the edge, y = r, it is tangent to every one and flies
+// for ever; an ulp below the edge it hits. An ulp off the axis the hit comes after about 10^15 cells. In the
+// square lattice the edge of g is exact in binary64 where |g| is an integer: along the axes, and for
+// Pythagorean triples. In space the channel between planes with the indices n (|n| an integer) takes the
+// corridor's place. Elsewhere the nearest binary64 start stands for the edge.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -25,7 +25,7 @@ constexpr int edge_grid(NumberFormat precision) {
   return precision == NumberFormat::binary64 ? 40 : 18;
 }
 
-// A radius below the half width, or within ulps of it; on the grid if `exact` and not closing.
+// A radius below the half width, or within ulps of it; on the grid if `exact` and not within ulps.
 double drawn_radius(Random& random, NumberFormat precision, double closing, bool exact,
                     std::vector<std::string>& tags) {
   if (random.one_in(3)) {
@@ -42,7 +42,8 @@ bool on_grid(double r, NumberFormat precision) {
   return steps == std::floor(steps);
 }
 
-// v parallel to the axis, or ulps off it; a zero component of the axis becomes an ulp of the length.
+// Sets v parallel to the axis, or ulps off it; off the axis a zero component becomes a few ulps of the
+// length.
 void set_corridor_direction(Source& source, Vec v, int dimension, Case& made) {
   Random& random = source.random;
   const int most = source.precision == NumberFormat::binary64 ? 1000 : 30;
@@ -59,7 +60,7 @@ void set_corridor_direction(Source& source, Vec v, int dimension, Case& made) {
   made.query.v = v;
 }
 
-// Moves a start on the edge off it in one component, or leaves it there.
+// Moves a start off the edge in one component, or leaves it on the edge.
 void move_off_edge(Source& source, bool exact, int dimension, Case& made) {
   Random& random = source.random;
   const bool off = random.below(3) > 0;

@@ -1,12 +1,12 @@
 // dense-layers: lattice planes so dense that a radius spans 5 to 24 spacings, in one direction or two, with
-// up to three atoms. Balls then merge into a wall (or, where one direction is dense, into corrugated rods)
-// whose surface is rough by some s^2 / 8r, s the spacing: a flight comes down on hundreds of rows that all
-// lead to nearly the same time. Which row is first depends on the slope; which atom, on heights that differ
-// by no more than the roughness. Searches that take rows by their order, that stop at the first row with a
-// hit, or that hold the times of two atoms against each other in different units go wrong here and nowhere
+// up to three atoms. Balls then merge into a wall (or, if one direction is dense, into corrugated rods) whose
+// surface has a roughness of about s^2 / 8r, s the spacing. A flight comes down on hundreds of rows that all
+// lead to nearly the same time. Which row is first depends on the slope; which atom is first depends on
+// heights that differ by no more than the roughness. Searches that take rows by their order, that stop at the
+// first row with a hit, or that compare the times of two atoms in different units go wrong here and nowhere
 // else.
 //
-// Starts are a few spacings above the wall, so that a walk from cell to cell can go there, too.
+// Starts are a few spacings above the wall, so that a walk from cell to cell can get there, too.
 #include <algorithm>
 #include <cmath>
 
@@ -22,8 +22,8 @@ struct Layers {
   bool coarse;
 };
 
-// An obstacle whose highest point is at z = 1 but for the roughness of the wall. An ellipsoid has two
-// semiaxes in the plane of the layer, and one that leads out of it.
+// An obstacle whose highest point is at z = 1, up to the roughness of the wall. An ellipsoid has two semiaxes
+// in the plane of the layer, and one that leads out of it.
 Atom drawn_atom(Random& drawn, const Layers& layers, bool ellipsoid) {
   Atom atom;
   const double size = drawn.one_in(2) ? 1 : drawn.between(0.6, 1), rough = layers.s * layers.s;
@@ -41,7 +41,7 @@ Atom drawn_atom(Random& drawn, const Layers& layers, bool ellipsoid) {
   return atom;
 }
 
-// Every number on a grid of a 16th of the spacing, which is a power of two: ties among rows and atoms.
+// Rounds every number to a grid of a 16th of the spacing, which is a power of two: ties among rows and atoms.
 void coarsen(Scene& scene, double s) {
   const auto round = [&](double& a) { a = std::round(a / s * 16) * (s / 16); };
   Lattice& lattice = scene.lattices[0];
@@ -86,7 +86,7 @@ Scene layered_scene(Random& drawn, const Layers& layers, Case& made) {
   return scene;
 }
 
-// Down onto the wall: at any slope, steeply, straight down, or as integers say.
+// A velocity down onto the wall: at any slope, steeply, straight down, or with small integers.
 Vec layered_velocity(Random& random, Case& made) {
   switch (random.below(8)) {
     case 0:
@@ -109,7 +109,7 @@ Vec layered_velocity(Random& random, Case& made) {
   }
 }
 
-// On top of the first obstacle but for rounding, and off to the next layer.
+// A start on top of the first obstacle, up to rounding; the flight goes to the next layer.
 void leave_layer(Random& random, const Layers& layers, Case& made) {
   const Atom& atom = made.scene.lattices[0].atoms[0];
   made.tags.push_back("leaving");

@@ -1,9 +1,9 @@
 // dense-rows: layers far apart, made of dense rows at right angles to the flight, which comes down to a layer
-// at a small slope. Within rows obstacles are some eightieth of r apart, rows stand 1 apart, and layers so
-// far that a free path is some thousand rows. The layer's section of the cylinder begins at a tip, as wide as
-// sqrt(2 r slope s) after s, which is soon more than obstacles are apart: the first row after the tip is the
-// one that is hit, and the search has to find it in a stretch of many. Who looks in parts of the stretch,
-// short ones first, has to let them join.
+// at a small slope. Obstacles are about r / 80 apart within a row, rows are 1 apart, and layers are far
+// enough apart for a free path of about a thousand rows. The layer's section of the cylinder begins at a tip;
+// at the distance s from it, it is sqrt(2 r slope s) wide, which soon exceeds the spacing of the obstacles.
+// So the first row after the tip is the one that is hit, and the search has to find it in a stretch of many
+// rows. A search that takes the stretch in parts, short ones first, must leave no gap between them.
 #include <cmath>
 
 #include "cases/families/family_list.hpp"

@@ -1,12 +1,13 @@
 // drift: flights in a channel between lattice planes that drift out of it, by the last bits of v or by a
-// small slope, and start just out of a plane's reach. Who jumps to where the next plane comes within reach
-// has to know which one it is: the sign of the drift, which is v . N for the planes' normal N, a sum whose
-// terms cancel. Planes through (1, 0, P 2^-k) and (0, 1, Q 2^-k), P and Q odd, have N = (-P, -Q, 2^k), and
-// for integers V_0, V_1 with P V_0 + Q V_1 = -j modulo 2^k there is a V_2 with N . V = j: of 2^50 or so each
-// these drift by j 2^-50-k, below what binary64 knows of the sum.
+// small slope, and start just out of a plane's reach. An engine that jumps to where the next plane comes
+// within reach has to know which plane that is. This depends on the sign of the drift v . N, with N the
+// planes' normal: a sum whose terms cancel. Planes through (1, 0, P 2^-k) and (0, 1, Q 2^-k), P and Q odd,
+// have N = (-P, -Q, 2^k). For integers V_0, V_1 with P V_0 + Q V_1 = -j modulo 2^k there is a V_2 with
+// N . V = j. If these integers are about 2^50, the flight drifts by j 2^-50-k, less than binary64 can resolve
+// in the sum.
 //
 // Once the line is within reach of a plane, the plane's section of the cylinder is as long as r over the
-// slope, and the first of many obstacles is asked for in an ellipse as slender as the slope is small.
+// slope. The first of many obstacles has to be found in an ellipse that is as slender as the slope is small.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -34,13 +35,13 @@ struct SlantedLayers {
     const auto place = [&](std::int64_t a) { return std::ldexp(static_cast<double>(a), -k); };
     return lattice_scene(3, {Vec{1, 0, place(P)}, Vec{0, 1, place(Q)}, Vec{0, 0, apart}}, 1);
   }
-  // In the layers but for N . v = j 2^-50-k (in binary32 j 2^-21-k).
+  // In the layers, except that N . v = j 2^-50-k (in binary32 j 2^-21-k).
   Vec velocity(Random& random, NumberFormat precision, std::int64_t j) const {
     const int bits = bits_of(precision) - 3;
     const std::int64_t large = std::int64_t{1} << bits;
     const std::int64_t V0 = random.integer(-large, large);
     std::int64_t inverse =
-        Q;  // of Q modulo 2^3, and after each of Newton's steps modulo a power twice as high
+        Q;  // of Q modulo 2^3, and after each of Newton's steps modulo the square of that power
     for (int step = 0; step < 3; ++step) inverse = (inverse * ((2 - Q * inverse) & low())) & low();
     const std::int64_t rest = (-j - P * (V0 & low())) & low();
     const std::int64_t V1 = (random.integer(-large, large) & ~low()) + ((rest * inverse) & low());

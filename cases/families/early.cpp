@@ -1,12 +1,12 @@
 // early: times that fall short of midway between two binary64 by less than double-double can tell.
 //
-// A flight along an axis that passes the centre of a ball of radius 5 k at the distance 3 k enters it 4 k
-// before the centre: at the time (u - 4 k) / v, u the distance along the axis. With k = K 2^-57, K odd, 4 k
-// is an odd multiple of 2^-55, with u a multiple of 2^-54 and u - 4 k in [1/4, 1/2), whose last place is
-// 2^-54, and v a power of two, that is midway. Nearer to the centre by d it is earlier by 3 d / 4, and is to
-// be rounded down: of d = 2^-112 and less a pair of binary64 next to the midpoint keeps nothing. The atom,
-// not the start, stands 3 k off the axis, since 3 k - d would be no binary64. (Times a little late are in
-// `rounding`.)
+// A flight along an axis passes the centre of a ball of radius 5 k at the distance 3 k. It enters the ball
+// 4 k before the centre, at the time (u - 4 k) / v, with u the distance along the axis. With k = K 2^-57 and
+// K odd, 4 k is an odd multiple of 2^-55. If u is a multiple of 2^-54, v a power of two, and u - 4 k in
+// [1/4, 1/2), whose last place is 2^-54, then the time is midway. A flight that is nearer to the centre by d
+// is earlier by 3 d / 4, so its time must be rounded down. But a pair of binary64 numbers next to the
+// midpoint keeps nothing of a d of 2^-112 or less. The atom, not the start, is 3 k off the axis, because
+// 3 k - d is not a binary64. (Times a little late are in `rounding`.)
 #include <cmath>
 
 #include "cases/families/family_list.hpp"

@@ -1,7 +1,7 @@
 // ellipsoid-edges: starts on the surface of slender tilted ellipsoids, and lines that touch them along their
-// length from nearby. In the metric in which an ellipsoid is a ball the terms of a velocity along its length
-// cancel but for its slenderness, 2^-6 to 2^-10 here, and with them go the digits: what is off is a roundoff
-// of the length, not of the width. A line that is given by binary64 misses its tangent by about as much.
+// length from nearby. In the metric in which an ellipsoid is a ball, the terms of a velocity along its length
+// cancel except for its slenderness, here 2^-6 to 2^-10, and the digits are lost with them: the error is a
+// roundoff of the length, not of the width. A line given in binary64 misses its tangent by about as much.
 //
 // With A the semiaxes, v = A w and a unit vector n at a right angle to w, the line through p + A n along v
 // touches the ellipsoid { p + A y : |y| < 1 }.
@@ -14,7 +14,8 @@
 namespace lorentz::cases {
 namespace {
 
-// At right angles, the first one the longest and at most 0.3 long, so that a start beyond its end is near.
+// Semiaxes at right angles; the first is the longest, and at most 0.3 long, so that a start beyond its end is
+// near.
 std::vector<Vec> drawn_semiaxes(Random& drawn, int dimension) {
   const double longest = drawn.between(0.1, 0.3), slender = drawn.octave(-10, -6);
   const Vec along = drawn.direction(dimension);

@@ -10,7 +10,7 @@ namespace lorentz::cases {
 
 namespace {
 
-constexpr std::uint64_t kMostAttempts = 1000;  // more than any family needs: a bug, if they are not enough
+constexpr std::uint64_t kMostAttempts = 1000;  // more than any family needs: needing more is a bug
 constexpr std::uint64_t kMostIntoObstacles = 100;
 
 bool is_sound(const Scene& scene) {
@@ -35,8 +35,8 @@ Case Family::attempt(std::uint64_t seed, std::uint64_t index, NumberFormat preci
   return maker_(source);
 }
 
-// The scene follows from its own random numbers alone, and so does which attempt at it is the first sound one:
-// all cases that share a scene agree on it.
+// The scene depends only on its own random numbers, and so does the number of the first sound attempt at it.
+// So all cases that share a scene agree on it.
 Case Family::make(std::uint64_t seed, std::uint64_t index, NumberFormat precision) const {
   if (precision == NumberFormat::binary64) return attempt(seed, index, precision, 0, 0);
   std::uint64_t scene = 0;

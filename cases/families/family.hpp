@@ -12,7 +12,7 @@ namespace lorentz::cases {
 class Family {
  public:
   using Maker = Case (*)(Source&);
-  /// The last: what it is in binary32, if that is something else.
+  /// `description_in_binary32` is the description of the family in binary32, if that differs.
   Family(std::string_view name, std::string_view description, std::vector<Tag> tags, Maker maker,
          std::string_view description_in_binary32 = {})
       : name_(name),
@@ -25,12 +25,13 @@ class Family {
   std::string_view description(NumberFormat precision = NumberFormat::binary64) const {
     return precision == NumberFormat::binary64 ? description_ : description_in_binary32_;
   }
-  /// Those that cases in the precision have, with what they are there.
+  /// The tags that cases in the precision have, with their notes in that precision.
   std::vector<Tag> tags(NumberFormat precision = NumberFormat::binary64) const;
 
-  /// A case without flaws; with at least one tag, all of them of tags(). Some 10 us in 2D and 100 us in 3D.
-  /// Scene and query consist of numbers of the precision, and what is an ulp in the tags' notes is one of it. A
-  /// case is drawn again where rounding would put its start into an obstacle; after some tries it stays there.
+  /// A case without flaws, with at least one tag; all its tags are in tags(). Takes about 10 us in 2D and 100
+  /// us in 3D. Scene and query consist of numbers of the precision, and an ulp in the tags' notes is an ulp
+  /// of it. If rounding would put the start into an obstacle, the case is drawn again; after 100 tries the
+  /// start stays there.
   Case make(std::uint64_t seed, std::uint64_t index, NumberFormat precision = NumberFormat::binary64) const;
 
  private:
@@ -42,10 +43,10 @@ class Family {
   Maker maker_;
 };
 
-/// Those that golden sets are made of. Campaigns have some more (target.hpp).
+/// The families that golden sets are made of. Campaigns have more (target.hpp).
 const std::vector<Family>& families();
 
-/// Null if there is none of that name.
+/// Null if no family has that name.
 const Family* family_named(std::string_view name);
 
 }  // namespace lorentz::cases

@@ -1,4 +1,4 @@
-// The families, each defined in a file of its own or with its kin.
+// The families, each defined in a file of its own or with related ones.
 #pragma once
 
 #include "cases/families/family.hpp"
@@ -27,7 +27,7 @@ Family ball_3d();
 Family ellipsoid_alone();
 Family rows_and_layers();
 
-// Of campaigns only: golden sets are made of families(), and these are not among them.
+// Families of campaigns only: golden sets are made of families(), which does not contain these.
 Family leaving();
 Family scale();
 Family mixture();

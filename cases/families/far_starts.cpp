@@ -1,12 +1,13 @@
 // far-starts: starts up to 2^50 cells away beside obstacles that nearly touch, in cells whose vectors have 53
 // bits.
 //
-// An engine takes a start to its home cell, x - U n with n the nearest integers to U^-1 x. Where x is far and
-// U is no short number, n itself is off in the last bits of the quotient: near the boundary between two cells
-// by a whole cell. If the obstacles nearly touch, the start may then lie in one of the neighbour's. So:
-// radii within 2^-1 to 2^-40 of half the cell, starts midway between two neighbours or on an obstacle's edge
-// towards the next, the other coordinates exactly or nearly those of a row of centres; and mostly just so far
-// out that a quotient errs by about the gap between the obstacles.
+// An engine takes a start to its home cell, x - U n with n the nearest integers to U^-1 x. If x is far and
+// the numbers of U have many bits, n itself is off in the last bits of the quotient: near the boundary
+// between two cells, by a whole cell. If the obstacles nearly touch, the start may then lie in an obstacle of
+// the neighbouring cell. So radii are within 2^-1 to 2^-40 of half the cell. Starts are midway between two
+// neighbours, or on an obstacle's edge towards the next; the other coordinates are exactly or nearly those of
+// a row of centres. In three cases of four the start is just far enough out for a quotient to err by about
+// the gap between the obstacles.
 #include <algorithm>
 #include <cmath>
 
@@ -43,17 +44,18 @@ Scene far_scene(Random& drawn, NumberFormat precision, std::vector<std::string>&
   return lattice_scene(dimension, vectors, size / 2 * (1 - gap));
 }
 
-// What part of the way between the centres of two neighbours along a vector lies outside both; at most 1/2.
+// The share of the way between the centres of two neighbours along a vector that lies outside both; at most
+// 1/2.
 double gap_along(const Vec& u, const Atom& atom) {
   return atom.is_ball() ? std::clamp(1 - 2 * atom.radius / length(u), 0x1p-40, 0.5) : 0x1p-8;
 }
 
-// 2^this many cells out a quotient of 53 bits (or 24) errs by about the gap.
+// At 2^this many cells a quotient of 53 bits (or 24) errs by about the gap.
 int matching_distance(double gap, NumberFormat precision) {
   return std::clamp(bits_of(precision) + std::ilogb(gap), 4, precision == NumberFormat::binary64 ? 44 : 18);
 }
 
-// Up to 2^this many cells out along one vector; along all of them in every third case.
+// A cell up to 2^this many cells out along one vector; in every third case along all of them.
 IntVec drawn_cell(Random& random, int dimension, std::uint64_t along, int bits,
                   std::vector<std::string>& tags) {
   const auto size = std::int64_t{1} << bits;

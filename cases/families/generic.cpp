@@ -1,6 +1,6 @@
-// generic-2d, generic-3d: nothing aimed at. Uniform starts in the free part of a cell, isotropic directions,
-// radii from 0.3 down to 1e-6. The nearest that n such queries come to a wrong decision is a relative 1/n:
-// they show what is wrong often, and are the measure for how much harder the other families are.
+// generic-2d, generic-3d: not aimed at anything. Uniform starts in the free part of a cell, isotropic
+// directions, radii from 0.3 down to 1e-6. Among n such queries the one nearest to a wrong decision has a
+// relative margin of 1/n. They show what is often wrong, and measure how much harder the other families are.
 #include <cmath>
 #include <iterator>
 
@@ -20,7 +20,7 @@ Case make_generic(Source& source, int dimension) {
   Case made;
   const bool unit = source.scene.one_in(2);
   made.scene = unit ? unit_scene(dimension, 1) : drawn_crystal(source.scene, dimension).scene;
-  // In binary32 flights beyond 10^6 cells are noise: below 1e-3 nothing can be told.
+  // In binary32 flights beyond 10^6 cells are noise: nothing can be told of radii below 1e-3.
   const std::uint64_t decades = source.precision == NumberFormat::binary64 ? std::size(kPowers) : 3;
   const std::uint64_t decade = source.index / kCasesPerScene % decades;
   const double largest = decade > 0 ? 10 : made.scene.lattices[0].atoms.size() == 1 ? 3 : 2.1;

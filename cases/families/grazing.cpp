@@ -3,18 +3,19 @@
 // With d = c - x the line meets the ball iff |v x d|^2 < r^2 v^2. For integer v and dyadic r, d both sides
 // are integers over a power of two, and can be equal, or next to equal.
 //
-// Squares: |v| = w an integer (Pythagorean triples; in space quaternions give an integer vector h of length
-// w at a right angle to v). A dyadic d has v x d = r h (start_beside), and the line is exactly tangent.
+// Squares: |v| = w is an integer (Pythagorean triples; in space quaternions give an integer vector h of
+// length w at a right angle to v). A dyadic d has v x d = r h (start_beside), and the line is exactly
+// tangent.
 //
 // Near squares: v^2 = w^2 +- 1. Then v x d = r w misses tangency by r / (2 w^2), less than an ulp for
 // w > 2^26.
 //
-// Pell: r = R 2^-m and v x d = K 2^-m h with K / R a convergent of |v| / |h|. K^2 h^2 - R^2 v^2 solves
-// Pell's equation or nearly, so dist / r is 1 within about 1 / R^2: down to 2^-100, beyond twice binary64's
+// Pell: r = R 2^-m and v x d = K 2^-m h with K / R a convergent of |v| / |h|. K^2 h^2 - R^2 v^2 solves Pell's
+// equation or nearly, so dist / r is 1 within about 1 / R^2: down to 2^-100, beyond twice binary64's
 // precision.
 //
-// Then up to 4 ulps off, in x, v or r, or up to 2^10 in x. The start lies within 1.8 r of the centre, so that
-// nothing is met before: whether this obstacle is, is the whole question.
+// Then x, v or r is moved by up to 4 ulps, or x by up to 2^10. The start lies within 1.8 r of the centre, so
+// that nothing is met before: the only question is whether this obstacle is met.
 #include <algorithm>
 #include <cmath>
 
@@ -32,7 +33,7 @@ constexpr int grazing_grid(NumberFormat precision) {
   return precision == NumberFormat::binary64 ? 40 : 22;
 }
 
-// Moves x and v by ulps, and says so; mostly nothing moves.
+// Moves x or v by ulps, and adds the tag; in half of the cases nothing moves.
 void move_off(Random& random, NumberFormat precision, int dimension, Case& made) {
   const std::uint64_t how = random.below(8);
   if (how < 4) return;
@@ -54,7 +55,7 @@ void set_query(Source& source, int dimension, const IntVec& v, const IntVec& acr
   std::optional<Vec> x;
   for (double along = r * random.between(0.1, 1.5); !x && along > 0; along = along > 0.01 * r ? along / 2 : 0)
     x = start_beside(v, across, turns, exponent, along, bits);
-  if (!x) x = Vec{-1.5 * r, 0, 0};  // no exact start: any
+  if (!x) x = Vec{-1.5 * r, 0, 0};  // no start is exact: take any
   const Symmetry symmetry(random, dimension);
   made.query.x = symmetry(*x);
   made.query.v = symmetry(to_vec(v));
@@ -62,7 +63,7 @@ void set_query(Source& source, int dimension, const IntVec& v, const IntVec& acr
     made.query.v = scaled(made.query.v, std::ldexp(1, static_cast<int>(random.integer(-longest, longest))));
 }
 
-// Whole numbers give the distance exactly. r is a multiple of the grid, or some ulps from that.
+// Integers give the distance exactly. r is a multiple of the grid, or a few ulps from one.
 Case make_squares(Source& source) {
   Case made;
   const bool is_wide = source.precision == NumberFormat::binary64;
@@ -94,7 +95,7 @@ Case make_squares(Source& source) {
   return made;
 }
 
-// v and h belong to the scene, since r follows from them.
+// v and h belong to the scene, because r depends on them.
 Case make_pell(Source& source) {
   Case made;
   made.tags.push_back("pell");
@@ -109,12 +110,12 @@ Case make_pell(Source& source) {
     if (dimension == 3) h = across_of(v)[0];
     fractions = convergents_of_root(dot(v, v), dot(h, h), bits - 3);
   }
-  const std::size_t few = fractions.size() / 4;  // the first are not near
+  const std::size_t few = fractions.size() / 4;  // the first convergents are not near
   const auto [k, r_steps] = fractions[few + drawn.below(fractions.size() - few)];
   const int exponent = std::ilogb(static_cast<double>(r_steps)) + static_cast<int>(drawn.integer(3, 6));
   const double r = std::ldexp(static_cast<double>(r_steps), -exponent);
   made.scene = unit_scene(dimension, r);
-  // On a finer grid, so that there are starts enough.
+  // A finer grid, so that there are enough starts.
   const int finer = std::max(0, (bits == 53 ? 43 : 21) - std::ilogb(static_cast<double>(r_steps)));
   set_query(source, dimension, v, h, k << finer, exponent + finer, r, made);
   move_off(source.random, source.precision, dimension, made);

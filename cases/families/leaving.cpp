@@ -1,8 +1,8 @@
-// leaving: what a simulation asks all the time. The particle is on an obstacle that it has just hit, goes off
-// by the cosine law (the flux of a gas in equilibrium), and says so with `from`. The start is on the surface
-// but for rounding, so half of the starts are inside by an ulp; the next obstacle is often a neighbour, at a
-// slope that no uniform start has. Programs that take the first cell for empty, or the obstacle left for one
-// that cannot be next, show it here.
+// leaving: the question that a simulation asks at every step. The particle is on an obstacle that it has just
+// hit, leaves by the cosine law (the flux of a gas in equilibrium), and names the obstacle in `from`. The
+// start is on the surface up to rounding, so half of the starts are inside by an ulp. The next obstacle is
+// often a neighbour, at a slope that no uniform start has. Programs that take the first cell for empty, or
+// that exclude the obstacle left as the next one, fail here.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -14,7 +14,7 @@
 namespace lorentz::cases {
 namespace {
 
-// A direction off the surface with the outward unit normal n: its cosine has the density 2 c (3D), c (2D).
+// A direction off the surface with the outward unit normal n: its cosine c has the density 2 c (3D), c (2D).
 Vec outwards(Random& random, const Vec& n, int dimension) {
   constexpr int kTries = 100;
   for (int tries = 0; tries < kTries; ++tries) {

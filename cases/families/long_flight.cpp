@@ -1,10 +1,10 @@
-// long-flight: slow drifts out of corridors, plane channels and cylindrical ones.
+// long-flight: slow drifts out of corridors, planar channels and cylindrical ones.
 //
-// v = (1, 2^-k) in a corridor along the first axis leaves it after about 2^k times its width, and the disc
-// that is hit is the first of the next row that reaches into the strip that is left: nothing can be walked,
-// and all of the 2^k cells count. k up to 100 (in binary32 46): times to 1e30. Near the end the line is so nearly parallel to
-// the row that it meets the first disc about at its highest point: the entry is a square root of a difference
-// that has cancelled.
+// v = (1, 2^-k) in a corridor along the first axis leaves it after about 2^k times its width. The disc that
+// is hit is the first of the next row that reaches into the strip that is left: no walk can get there, and
+// all of the 2^k cells count. k goes up to 100 (in binary32 46), so times go up to 1e30. Near the end the
+// line is so nearly parallel to the row that it meets the first disc near its highest point: the entry is the
+// square root of a difference that has cancelled.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>

@@ -1,7 +1,7 @@
-// mixture: superpositions of lattices that are themselves motifs, of balls and ellipsoids, some of which hold
-// many cells, and some 2^13 times as long as wide. Whoever keeps lists by lattice, by atom and by shape has
-// to keep them apart here; and where obstacles of many cells contain the start, the smallest of a thousand is
-// asked for.
+// mixture: superpositions of lattices that are themselves motifs, of balls and ellipsoids. Some of these hold
+// many cells, and some are 2^13 times as long as wide. An engine that keeps lists by lattice, by atom and by
+// shape has to keep them apart here. If obstacles of many cells contain the start, the answer is the smallest
+// of a thousand.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -41,8 +41,8 @@ Lattice drawn_lattice(Random& drawn, int dimension, bool many_cells) {
   return lattice;
 }
 
-// Up to three obstacles that contain x are taken out of the question, one after the other, and the last stays
-// out.
+// Excludes the obstacle that contains x by `from`, up to three times in turn; only the last one stays
+// excluded.
 void leave(Random& random, Case& made) {
   const oracle::Oracle& oracle = oracle_of(made.scene);
   for (int i = 0; i < 3; ++i) {

@@ -1,10 +1,10 @@
-// near-rational: directions ulps from a lattice vector g, or with g as a convergent that a huge partial
-// quotient follows. In the plane the first hit is a question of the continued fraction of the slope in
-// lattice coordinates: v = n g + g' with det(g, g') = 1 has the convergent g and the next quotient about n,
-// and the flight follows a row along g for about n cells. A slope of golden ratio's convergents is the
-// contrary: the most steps. In space v ~ a g_1 + b g_2 lies near a lattice plane, at distance 1 / |g_1 x g_2|
-// from the next. Radii put the corridors (channels) of g within 2^-10 to 2^-50 of closing, relatively, or
-// close them by as much.
+// near-rational: directions ulps from a lattice vector g, or with g as a convergent before a huge partial
+// quotient. In the plane the continued fraction of the slope in lattice coordinates determines the first hit.
+// v = n g + g' with det(g, g') = 1 has the convergent g and the next quotient about n, and the flight follows
+// a row along g for about n cells. A slope of the golden ratio's convergents is the opposite: it takes the
+// most steps. In space v ~ a g_1 + b g_2 lies near a lattice plane, at distance 1 / |g_1 x g_2| from the
+// next. Radii bring the corridors (channels) of g within 2^-10 to 2^-50 of closing, relatively, or close them
+// by as much.
 #include <cmath>
 #include <utility>
 
@@ -20,7 +20,7 @@
 namespace lorentz::cases {
 namespace {
 
-// A radius beside the half width at which the corridors close.
+// A radius near the half width at which the corridors close.
 double drawn_radius(Random& random, NumberFormat precision, double closing, std::vector<std::string>& tags) {
   const int least = -51 + missing_bits(precision);
   switch (random.below(4)) {
@@ -114,7 +114,7 @@ Vec solid_direction(Random& random, NumberFormat precision, const Lattice& latti
   return sum(in_plane, scaled(cartesian(lattice, next), slope));
 }
 
-// Planes with the indices n: g_1, g_2 span a sublattice of them, and next . n = 1.
+// Planes with the indices n: g_1, g_2 span a sublattice of each, and next . n = 1.
 Case make_solid(Source& source) {
   Case made;
   made.scene = source.scene.one_in(2) ? unit_scene(3, 1) : drawn_crystal(source.scene, 3).scene;

@@ -1,8 +1,8 @@
 // nearby: starts outside an obstacle, 2^-40 to 1/4 of its radius from where they enter it. With s = v . d the
-// distance of the centre along the line and q half the chord, both times v, the time of entry is (s - q) /
-// v^2, two numbers that are nearly equal; (d^2 - r^2) / (s + q) loses nothing. What the difference loses is a
-// roundoff of the radius, half of what an ulp in the start may do: to tell the two apart takes a tolerance of
-// less than an ulp.
+// distance of the centre along the line and q half the chord, both times v, the time of entry is
+// (s - q) / v^2. These two numbers are nearly equal; (d^2 - r^2) / (s + q) loses nothing. The difference
+// loses a roundoff of the radius, half of what an ulp in the start may change. So only a tolerance of less
+// than an ulp tells the two formulas apart.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>

@@ -1,12 +1,12 @@
-// nearly-parallel: velocities that are parallel to a lattice vector w but for less than double-double can
-// tell.
+// nearly-parallel: velocities so nearly parallel to a lattice vector w that double-double cannot tell the
+// difference.
 //
-// Two vectors of the lattice are full binary64, and in their sum w = (w_0, w_1) their second components
-// cancel down to 2^-23. In units w = (W_0, W_1) with some 53 and 30 bits, v = (V_0, V_1) likewise, and
-// Bezout's identity gives for any small j a v with v x w = V_0 W_1 - V_1 W_0 = j: that is j 2^-127, while the
-// heights v x b of the two vectors are about 1 and keep 2^-107 in double-double. Whoever adds these finds
-// zero, and a period where there is none: the flight in the corridor along w ends, after some 2^100 cells,
-// and `never` is wrong.
+// Two vectors of the lattice are full binary64, and in their sum w = (w_0, w_1) the second components cancel
+// down to 2^-23. In suitable units w = (W_0, W_1) has about 53 and 30 bits, and v = (V_0, V_1) likewise. For
+// any small j Bezout's identity gives a v with v x w = V_0 W_1 - V_1 W_0 = j. That is j 2^-127, but the
+// heights v x b of the two vectors are about 1 and keep 2^-107 in double-double. An engine that adds these
+// finds zero, and thus a period that does not exist: the flight in the corridor along w ends, after about
+// 2^100 cells, and `never` is wrong.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -20,8 +20,9 @@ namespace {
 
 __extension__ typedef __int128 Wide;
 
-// v with V_0 W_1 2^22 - V_1 W_0 = j (in binary32 2^10) times their common divisor g. V_0 is not 0: u_0 K / g is 1 modulo W_0 /
-// g, so that W_0 / g would divide j; but W_0 is odd, g at most W_1 < 2^30, and W_0 / g > 2^22 > j.
+// A v with V_0 W_1 2^22 - V_1 W_0 = j (in binary32 2^10) times their common divisor g. V_0 is not 0:
+// u_0 K / g is 1 modulo W_0 / g, so that W_0 / g would divide j; but W_0 is odd, g at most W_1 < 2^30, and
+// W_0 / g > 2^22 > j.
 Vec nearly_parallel_to(std::int64_t W0, std::int64_t W1, std::int64_t j, NumberFormat precision) {
   const int bits = bits_of(precision), shift = precision == NumberFormat::binary64 ? 22 : 10;
   const std::int64_t K = W1 << shift;
@@ -53,7 +54,7 @@ Case make_nearly_parallel(Source& source) {
   made.tags.push_back(exactly ? "parallel" : "nearly");
   const std::int64_t j = random.integer(1, std::int64_t{1} << random.integer(0, is_wide ? 21 : 9));
   const Vec w = sum(b0, b1), v = exactly ? w : nearly_parallel_to(W0, W1, j, source.precision);
-  // The corridor is in the middle between two rows along w; in space near their plane, or no plane is met.
+  // The start is in the middle between two rows along w; in space it is near their plane, or no plane is met.
   const Vec x = sum(scaled(b0, 0.5 + random.between(-0.05, 0.05)), scaled(w, random.between(-1, 1)));
   made.query.x = symmetry(sum(x, Vec{0, 0, dimension == 3 ? r * random.between(-0.9, 0.9) : 0}));
   made.query.v = symmetry(v);

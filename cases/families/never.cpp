@@ -1,11 +1,11 @@
-// never: flights that hit nothing, ever, and ones beside them that do.
+// never: flights that never hit anything, and flights beside them that do.
 //
-// All inputs are rational, so a line is periodic modulo each lattice, and misses everything only if v is
+// All inputs are rational, so a line is periodic modulo each lattice. It misses everything only if v is
 // parallel to a lattice vector (a lattice plane) and x lies in a channel: a corridor, a layer between planes,
-// a hole through overlapping spheres, each of which several atoms, several lattices or ellipses can leave
+// or a hole through overlapping spheres. Several atoms, several lattices or ellipses can leave each of these
 // open in common. A program has to know that; it cannot find out by flying. The lattices have few bits, so
-// that v is parallel exactly; an ulp of v then makes a hit of it, mostly after 10^15 cells. (Starts beside
-// the edge are the business of corridor-edge.)
+// that v is parallel exactly. A change of v by an ulp then makes the flight a hit, in most cases after 10^15
+// cells. (Starts beside the edge belong to corridor-edge.)
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -22,7 +22,7 @@ double sixty_fourths(Random& random, std::int64_t low, std::int64_t high) {
   return static_cast<double>(random.integer(low, high)) / 64;
 }
 
-// Between low and high, sometimes just so.
+// Between low and high; in one case in four close to low.
 double within(Random& random, NumberFormat precision, double low, double high) {
   const int least = precision == NumberFormat::binary64 ? -40 : -16;
   if (random.one_in(4)) return low + (high - low) * random.octave(least, -4);
@@ -89,7 +89,7 @@ void motif(Source& source, Case& made) {
   made.query = {{random.between(-2, 2), within(random, source.precision, r, y - other)}, {1, 0}, {}};
 }
 
-// Two lattices whose rows along the first axis coincide, or stand in the middle of each other's.
+// Two lattices whose rows along the first axis coincide, or are midway between each other's.
 void superposition(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   made.tags.push_back("superposition");

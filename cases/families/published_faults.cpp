@@ -1,10 +1,11 @@
-// published-faults: where the efficient algorithm of Kraemer, Kryukov and Sanders (2016), as published, goes
-// wrong (docs/published.md). The examples given there come first, then constructions of each kind.
+// published-faults: queries on which the efficient algorithm of Kraemer, Kryukov and Sanders (2016), as
+// published, goes wrong (docs/published.md). The examples given there come first, then constructions of each
+// kind.
 //
-// Skipped disc: a flight leaves the disc (0, 0), and passes the column of its own centre at the height b, r <
-// b < eps = r sqrt(1 + m^2), m the slope. The first step's tolerance is 2b instead of eps + b: a disc at the
-// convergent (q, p) with 2b < p - q m < eps + b is met and passed over. So m = (p - t) / q for a drawn t
-// between the two.
+// Skipped disc: a flight leaves the disc (0, 0), and passes the column of its own centre at the height b,
+// with r < b < eps = r sqrt(1 + m^2), m the slope. The first step's tolerance is 2b instead of eps + b. So a
+// disc at the convergent (q, p) with 2b < p - q m < eps + b is met but passed over. Therefore m = (p - t) / q
+// for a drawn t between the two.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -23,7 +24,7 @@ struct FaultExample {
   Vec x, v;
   bool leaving;
   const char* tag;
-  std::int64_t ulps_off = 0;  // by which x is moved to the left and upwards, off the disc
+  std::int64_t ulps_off = 0;  // ulps by which x is moved to the left and upwards, off the disc
 };
 
 const FaultExample kExamples[] = {
@@ -54,7 +55,7 @@ Query skipped_disc(Random& random, NumberFormat precision, double r, std::vector
   const auto q = static_cast<double>(random.integer(1, 4)),
              p = static_cast<double>(random.integer(1, static_cast<std::int64_t>(q)));
   double slope = p / q, b = 0;
-  for (int step = 0; step < 3; ++step) {  // eps depends on the slope, weakly
+  for (int step = 0; step < 3; ++step) {  // eps depends weakly on the slope
     const double eps = r * std::sqrt(1 + slope * slope);
     b = r + (eps - r) * random.between(0.05, 0.95);
     slope = (p - random.between(2 * b, eps + b)) / q;

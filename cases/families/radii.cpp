@@ -1,8 +1,8 @@
-// large-radius: from touching obstacles to those that leave nearly nothing. Above half the shortest vector
-// obstacles overlap their neighbours: who is entered first is no longer who is nearest along the line,
+// large-radius: from touching obstacles to those that leave nearly nothing free. Above half the shortest
+// vector, obstacles overlap their neighbours: the first one entered is no longer the nearest along the line,
 // several contain x, and the free part is cut into pockets, until at the covering radius none is left. In
-// elongated cells a radius of 50 shortest vectors is sparse in one direction all the same: rows merge into
-// walls with corridors between them. Radii come within ulps of touching, and within 2^-40 of covering.
+// elongated cells a radius of 50 shortest vectors is still sparse in one direction: rows merge into walls
+// with corridors between them. Radii come within ulps of touching, and within 2^-40 of covering.
 //
 // tiny-radius: flights of 1 / 2r cells (2D) or 1 / (pi r^2) (3D) among obstacles of the size of the
 // coordinates' last bits.
@@ -18,7 +18,7 @@
 namespace lorentz::cases {
 namespace {
 
-// A start about the hole between obstacles, `room` away from it at most, or anywhere in the cell.
+// A start near the hole between obstacles, at most `room` away from it, or anywhere in the cell.
 Vec drawn_start(Random& random, const Scene& scene, const Vec& hole, double room) {
   if (random.one_in(8)) return point_in_cell(random, scene);
   Vec x = sum(hole, scaled(random.direction(scene.dimension), room * random.uniform()));

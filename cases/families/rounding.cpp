@@ -1,10 +1,10 @@
 // rounding: times that lie midway between two binary64, exactly or nearly.
 //
-// Along an axis through the centre of a ball the time is rational, (u - r) / v with u the distance of the
-// start. With r an odd multiple of 2^-55 q in [1/8, 1/4) q, u a multiple of 2^-54 q and u - r in [1/4, 1/2)
-// q, whose last place is 2^-54 q, a time with v a power of two is exactly midway, and ties go to even. Beside
-// the axis by y it is later by y^2 / 2r, which decides the rounding however small it is. At v near 2^1023 the
-// time is subnormal, and has fewer places.
+// Along an axis through the centre of a ball the time is rational: (u - r) / v with u the distance of the
+// start. Let r be an odd multiple of 2^-55 q in [1/8, 1/4) q, u a multiple of 2^-54 q, u - r in [1/4, 1/2) q,
+// whose last place is 2^-54 q, and v a power of two. Then the time is exactly midway, and ties go to even.
+// Beside the axis by y it is later by y^2 / 2r, which decides the rounding however small it is. With v near
+// 2^1023 the time is subnormal, and has fewer places.
 #include <cmath>
 
 #include "cases/families/family_list.hpp"
@@ -17,7 +17,7 @@ Case make_rounding(Source& source) {
   Case made;
   Random &drawn = source.scene, &random = source.random;
   const bool is_wide = source.precision == NumberFormat::binary64;
-  // On a grid of 2^-55, as whole numbers.
+  // Integers on a grid of 2^-55.
   const int grid = bits_of(source.precision) + 2;
   const std::int64_t eighth = std::int64_t{1} << (grid - 3);
   const int dimension = drawn.one_in(3) ? 3 : 2, smaller = static_cast<int>(drawn.integer(0, 12));

@@ -1,9 +1,8 @@
 // rows-and-layers: lattices that repeat in fewer directions than there are, alone and with others.
 //
-// A row or a layer is cut from a crystal: it keeps the first primitive vectors. What is hard about it is not
-// what is hard in a crystal, where something is always hit in the end: a flight beside a row is long, one
-// away from it hits nothing, and one in the plane of a layer is a flight in two dimensions, exactly or
-// nearly.
+// A row or a layer is cut from a crystal: it keeps the first primitive vectors. Its hard cases differ from
+// those of a crystal, where something is always hit in the end. A flight beside a row is long, and one away
+// from it hits nothing. A flight in the plane of a layer is a flight in two dimensions, exactly or nearly.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -24,7 +23,7 @@ Lattice cut(Lattice lattice, int dimension, int rank) {
   return lattice;
 }
 
-// A lattice of 1 to d - 1 vectors; and, in half of the scenes, another of any number of them.
+// A lattice of 1 to d - 1 vectors; in half of the scenes also another lattice with any number of them.
 Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
   const int dimension = drawn.one_in(4) ? 2 : 3;
   Scene scene = drawn_crystal(drawn, dimension).scene;
@@ -44,7 +43,7 @@ Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
   return scene;
 }
 
-// Along the lattice, with small integers, exactly or up to ulps and tilts.
+// A velocity along the lattice, with small integers, exactly or up to ulps and tilts.
 Vec along(Random& random, NumberFormat precision, const Lattice& lattice, int dimension) {
   Vec v{};
   for (int i = 0; i < lattice.rank(dimension); ++i)

@@ -1,8 +1,9 @@
-// scale: ordinary flights in extraordinary units. The answer does not depend on the unit of length, nor on
-// that of time; an absolute tolerance, a square that overflows or vanishes, a cell number that no longer fits
-// a type does. So: the whole scene times 2^k, k up to 300 either way; velocities from the smallest subnormal
-// to the largest binary64; radii at the limits that engines state (1e-12 and 1e-7 of the cell, 1/2 of it);
-// starts up to 2^52 cells away, where the last bits are the place in the cell.
+// scale: ordinary flights in extraordinary units. The answer depends neither on the unit of length nor on
+// that of time. But an absolute tolerance depends on them, and so does a square that overflows or vanishes,
+// or a cell number that no longer fits a type. So the whole scene is multiplied by 2^k, k up to 300 either
+// way. Velocities go from the smallest subnormal to the largest binary64. Radii are at the limits that
+// engines state (1e-12 and 1e-7 of the cell, 1/2 of it). Starts are up to 2^52 cells away, where the place in
+// the cell is in the last bits.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -18,7 +19,7 @@ namespace {
 
 constexpr double kTinyFlat = 1e-12, kTinySolid = 1e-7;
 
-// Every length times a power of two, which is exact.
+// Multiplies every length by a power of two, which is exact.
 void scale_scene(Scene& scene, double factor) {
   for (Lattice& lattice : scene.lattices) {
     for (Vec& u : lattice.vectors) u = scaled(u, factor);

@@ -1,12 +1,12 @@
-// crystals, superpositions, ellipsoids: scenes beyond one ball a cell, each with drawn, near-rational and
+// crystals, superpositions, ellipsoids: scenes beyond one ball per cell, each with drawn, near-rational and
 // grazing flights.
 //
-// Several obstacles a cell are several questions, and the first answer counts; their order is decided by
-// times from different offsets. Lattices turned by pi/5 or pi/7, whose cosines are irrational, have no common
-// period, in binary64 one of 10^30 cells: obstacles of the two come as near to each other as one likes. An
-// ellipsoid is a ball in another metric: the slender ones stretch the cell by as much, and a poorly reduced
-// cell then loses digits. Grazing flights are drawn ones, moved across until the first obstacle is passed or
-// met within 2^-10 to 2^-50 of its size of its edge.
+// Several obstacles per cell are several questions, of which the earliest answer counts; times from different
+// offsets decide their order. Lattices turned by pi/5 or pi/7, whose cosines are irrational, have no common
+// period; in binary64 they have one of 10^30 cells. Obstacles of the two come arbitrarily near to each other.
+// An ellipsoid is a ball in another metric: slender ones stretch the cell by as much as they are slender, and
+// a poorly reduced cell then loses digits. Grazing flights are drawn ones that are moved across until the
+// first obstacle is passed or met within 2^-10 to 2^-50 of its size from its edge.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -65,7 +65,7 @@ std::vector<Tag> with_kinds(std::vector<Tag> tags) {
 
 Case make_crystal(Source& source) {
   Case made;
-  // Each in its turn, and in every third of its turns at its own size.
+  // Crystals take turns; in every third turn a crystal has its own size.
   const std::uint64_t turn = source.index / kCasesPerScene, which = turn % crystals().size();
   const Crystal& crystal = crystals()[which];
   made.scene = crystal.scene;

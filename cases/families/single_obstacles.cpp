@@ -1,12 +1,12 @@
-// ball-2d, ball-3d, ellipsoid-alone: a ray and one obstacle, as ray tracers, physics engines and transport
-// codes ask it, where binary64 is short.
+// ball-2d, ball-3d, ellipsoid-alone: a ray and one obstacle, the question of ray tracers, physics engines and
+// transport codes, where binary64 does not suffice.
 //
-// A case is made beside the ball of radius w around the origin, w an integer with many points (a, b, c) of
-// integers on its surface, in numbers of few bits: a start that is meant to be on the surface, or a line that
+// A case is made beside the ball of radius w around the origin, in numbers of few bits. w is an integer with
+// many integer points (a, b, c) on its surface. So a start that is meant to be on the surface, or a line that
 // is meant to touch, is exactly that. A line along an axis at the height w, tilted by 2^-k, passes the edge
-// as nearly as 10^-30 radii. Then all is scaled by a power of two, and moved by integers. An ellipsoid { p +
-// A y : |y| < 1 } takes the line x + t v beside the unit ball to p + A x + t A v: where A is a diagonal of
-// powers of two, exactly.
+// as nearly as 10^-30 radii. Then everything is scaled by a power of two, and moved by integers. An ellipsoid
+// { p + A y : |y| < 1 } takes the line x + t v beside the unit ball to p + A x + t A v; this is exact if A is
+// a diagonal of powers of two.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +19,7 @@
 namespace lorentz::cases {
 namespace {
 
-// A point of the surface of the ball of radius w, and a direction along it there.
+// A point on the surface of the ball of radius w, and a tangent direction there.
 struct Touching {
   double w;
   Vec n, tangent;
@@ -39,10 +39,10 @@ Touching drawn_touching(Random& drawn, Random& random, int dimension) {
   return {5 * size, symmetry(Vec{5 * x, up * y, tilt * y}), symmetry(Vec{-5 * y, up * x, tilt * x})};
 }
 
-// Beside the ball of radius w around the origin.
+// A ray beside the ball of radius w around the origin.
 struct Ray {
   Vec x, v;
-  bool on_obstacle = false;  // then `from` may be it
+  bool on_obstacle = false;  // then `from` may name it
   std::vector<std::string> tags;
 };
 
@@ -52,7 +52,7 @@ Vec across(Random& random, const Vec& v, int dimension) {
   return size > 0 ? scaled(n, 1 / size) : Vec{0, 1, 0};
 }
 
-// From so far away, past the centre at `beside`; exactly, up to rounding, along a direction of any kind.
+// A ray from the distance `far`, past the centre at the distance `beside`, up to rounding, in any direction.
 Ray aimed(Random& random, int dimension, double far, double beside) {
   const Vec v = random.direction(dimension);
   return {sum(scaled(across(random, v, dimension), beside), scaled(v, -far)), v, false, {}};
@@ -64,7 +64,7 @@ Ray plain(Random& random, int dimension, double w) {
   return ray;
 }
 
-// What depends on the precision of the case's numbers.
+// Constants that depend on the precision of the case's numbers.
 struct RayRange {
   explicit RayRange(NumberFormat its_precision)
       : precision(its_precision), is_wide(its_precision == NumberFormat::binary64) {}
@@ -74,13 +74,13 @@ struct RayRange {
   const int bits = bits_of(precision);
   const int farthest = is_wide ? 50 : 21;                       // of a start: 2^this radii
   const int least_depth = is_wide ? -100 : -40;                 // past the edge by 2^this radii
-  const double depth_of_numbers = is_wide ? 0x1p-48 : 0x1p-19;  // a rounded start still tells such depths
+  const double depth_of_numbers = is_wide ? 0x1p-48 : 0x1p-19;  // a rounded start still resolves such depths
   const int tangent_bits = is_wide ? 20 : 9;
   const int smallest = is_wide ? -600 : -90, largest = is_wide ? 600 : 80;  // of a unit: 2^this
   const int ordinary = is_wide ? 40 : 20;                                   // units up to 2^this either way
 };
 
-// Past the edge by 10^-30 (in binary32 10^-12) to 1 radii, on either side, and from any distance.
+// A ray past the edge by 10^-30 (in binary32 10^-12) to 1 radii, on either side, and from any distance.
 Ray past_edge(Random& random, const RayRange& range, int dimension, double w, bool far_away) {
   const double far = far_away ? w * random.octave(10, range.farthest) : std::round(w * random.between(2, 20));
   const double depth = random.octave(range.least_depth, 0) * random.sign();
@@ -105,7 +105,8 @@ Ray tangent(Random& random, const RayRange& range, const Touching& touching) {
   return ray;
 }
 
-// On the surface, or some ulps to 10^-3 radii off it; inwards, outwards, along it or nearly so.
+// A start on the surface, or a few ulps to 10^-3 radii off it; flights inwards, outwards, along it or nearly
+// so.
 Ray at_surface(Random& random, const RayRange& range, int dimension, const Touching& touching) {
   Ray ray{touching.n, {}, true, {"self-intersection"}};
   switch (random.below(3)) {
@@ -176,7 +177,7 @@ bool cancels(const Ray& ray, const RayRange& range, double w) {
   return std::fabs(b * b - a * c) < std::ldexp(b * b, -range.bits / 2);
 }
 
-// v times a power of two: of no consequence but to squares.
+// Multiplies v by a power of two, which matters only to its square.
 void stretch(Random& random, const RayRange& range, Ray& ray) {
   if (!random.one_in(8)) return;
   const bool longer = random.one_in(2), subnormal = !longer && random.one_in(2);
@@ -201,7 +202,7 @@ Scene alone(int dimension, Atom atom) {
   return scene;
 }
 
-// The ray beside the ball of radius w, and what follows from it.
+// The ray beside the ball of radius w, with its tags and `from`.
 Ray finished_ray(Random& random, const RayRange& range, int dimension, const Touching& touching, Case& made) {
   Ray ray = ray_beside(random, range, dimension, touching);
   if (cancels(ray, range, touching.w)) ray.tags.push_back("cancellation");
@@ -239,8 +240,8 @@ Vec image(const std::vector<Vec>& semiaxes, const Vec& y) {
   return result;
 }
 
-// At right angles to each other, or along the axes and powers of two; the longest up to 2^8 times the
-// shortest.
+// Semiaxes at right angles to each other, or along the axes and powers of two; the longest is up to 2^8 times
+// the shortest.
 std::vector<Vec> semiaxes_alone(Random& drawn, int dimension, bool aligned) {
   std::vector<Vec> semiaxes(static_cast<std::size_t>(dimension), Vec{});
   for (int i = 0; i < dimension; ++i) semiaxes[i][i] = 1;
@@ -274,7 +275,7 @@ Case ellipsoid_case(Source& source) {
   const Ray ray = finished_ray(source.random, RayRange(source.precision), dimension, touching, made);
   made.query.x = sum(centre, image(semiaxes, ray.x));
   made.query.v = image(semiaxes, ray.v);
-  if (made.query.v == Vec{}) made.query.v[0] = 1;  // a subnormal one vanished
+  if (made.query.v == Vec{}) made.query.v[0] = 1;  // a subnormal v vanished
   made.tags.push_back(aligned ? "axis-aligned" : "rotated");
   return made;
 }

@@ -1,8 +1,9 @@
-// sizes: obstacles of every size that engines do, 1e-12 (2D) or 1e-7 (3D) to 1/2 of the cell, in scenes of
-// every kind. A mistake in one octave of the radius, for one kind of scene, shows nowhere else; where sizes
-// are drawn for some other purpose some of these never come up. So nothing is left to chance: kinds and
-// dimensions take turns, and of each the octaves, by steps that have no common factor with their number, so
-// that the first few scenes are as widely spread as they can be, and none comes twice before each has come.
+// sizes: obstacles of every size that engines support, 1e-12 (2D) or 1e-7 (3D) to 1/2 of the cell, in scenes
+// of every kind. A mistake in one octave of the radius, for one kind of scene, shows nowhere else; if sizes
+// are drawn for another purpose, some of these never come up. So nothing is left to chance. Kinds and
+// dimensions take turns, and so do the octaves of each, by steps that have no common factor with their
+// number. The first few scenes are then as widely spread as possible, and no octave comes twice before each
+// has come once.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -18,7 +19,7 @@ namespace {
 enum Kind : std::size_t { kUnit, kCell, kMotif, kEllipsoid, kSuperposition, kMixed };
 constexpr std::string_view kKinds[] = {"unit", "cell", "motif", "ellipsoid", "superposition", "mixed"};
 
-// The radius, or the shortest semiaxis of an ellipsoid up to 2^5 times as long as wide.
+// An obstacle whose radius or shortest semiaxis is `size`; an ellipsoid is up to 2^5 times as long as wide.
 Atom drawn_obstacle(Random& drawn, int dimension, double size, bool is_ball) {
   Atom atom;
   atom.radius = size;
@@ -51,8 +52,8 @@ Scene sized_scene(Random& drawn, std::size_t kind, int dimension, double size) {
   return scene;
 }
 
-// Off an obstacle of the last lattice, from its surface as far as binary64 has it, and along its normal or
-// near that.
+// A flight off an obstacle of the last lattice, from its surface up to the precision of binary64, along its
+// normal or nearly so.
 void leave_obstacle(Random& random, Case& made) {
   const int lattice = static_cast<int>(made.scene.lattices.size()) - 1, dimension = made.scene.dimension;
   const auto& atoms = made.scene.lattices[lattice].atoms;

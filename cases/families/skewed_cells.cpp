@@ -2,10 +2,10 @@
 // out.
 //
 // With a an integer, (1 + a^2, a) and (a, 1) are another basis of the square lattice: their determinant is 1.
-// The obstacle at the integers c has the cell numbers (c_0 - a c_1, (1 + a^2) c_1 - a c_0) in it, and on the
-// way back to where it is an engine meets products of the size a^4 |c|, of more than 64 bits, of which all
-// but |c| cancels. Whoever gives up there forgets `from`, and answers `inside` the obstacle that the particle
-// leaves, or hits it at once.
+// In this basis the obstacle at the integers c has the cell numbers (c_0 - a c_1, (1 + a^2) c_1 - a c_0). On
+// the way back to the obstacle's position an engine meets products of the size a^4 |c|, of more than 64 bits,
+// of which all but |c| cancels. An engine that gives up there forgets `from`: it answers `inside` the
+// obstacle that the particle leaves, or hits it at once.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,7 @@
 namespace lorentz::cases {
 namespace {
 
-// Edges of the cells as one sees them, and how the basis shears two of them.
+// The edges of the cells as they look, and the basis that shears two of them.
 struct Skewed {
   std::array<Vec, 3> edges{};
   int i = 0, j = 1;
@@ -47,7 +47,7 @@ Scene skewed_scene(Random& drawn, int dimension, const Skewed& cells) {
   return lattice_scene(dimension, vectors, part * std::max(length(e), length(f)));
 }
 
-// What cell the obstacle at these edges has in the skewed basis.
+// The obstacle at these edges, with its cell in the skewed basis.
 ObstacleId named(const Skewed& cells, const IntVec& c) {
   IntVec cell = c;
   cell[cells.i] = c[cells.i] - cells.a * c[cells.j];

@@ -1,10 +1,11 @@
-// skin: starts outside an obstacle's surface, nearer to it than an ulp of the place of either.
+// skin: starts outside an obstacle's surface, nearer to it than an ulp of the coordinates of either.
 //
-// With a Pythagorean triple (a, b, w) and semiaxes w A e_1, w B e_2 an obstacle around (a A, 0) has (0, -b B)
-// on its surface, exactly. There the first component of a start is zero, so it may be any tiny number: 2^-45
-// to 2^-100 of the radius outside. The atom's place is not zero, so x - p is of many more digits than x and
-// p. The time of entry is as small: what rounding makes of it is no time at all, and whatever is compared
-// with it (a limit, the time of another atom's obstacle whose surface is as near) is compared with noise.
+// With a Pythagorean triple (a, b, w) and semiaxes w A e_1, w B e_2, an obstacle around (a A, 0) has
+// (0, -b B) exactly on its surface. The first component of a start there is zero, so it may be any tiny
+// number: 2^-45 to 2^-100 of the radius outside. The atom's position is not zero, so x - p has many more
+// digits than x and p. The time of entry is as small as that distance, so rounding leaves nothing of it.
+// Whatever is compared with it (a limit, the time of another atom's obstacle whose surface is as near) is
+// compared with noise.
 #include <array>
 #include <cmath>
 
@@ -21,7 +22,7 @@ struct Triple {
 constexpr Triple kTriples[] = {{1, 0, 1},   {3, 4, 5},   {4, 3, 5},   {5, 12, 13},
                                {12, 5, 13}, {8, 15, 17}, {24, 7, 25}, {20, 21, 29}};
 
-// Semiaxes along the axes, up to 8 times as long as others: exact products of small integers.
+// Semiaxes along the axes, up to 8 times as long as one another: exact products of small integers.
 std::vector<Vec> drawn_semiaxes(Random& drawn, const Symmetry& symmetry, int w, double size, Vec& lengths) {
   std::vector<Vec> semiaxes;
   for (int i = 0; i < 3; ++i) lengths[i] = size * static_cast<double>(drawn.integer(1, 8));
@@ -33,7 +34,7 @@ std::vector<Vec> drawn_semiaxes(Random& drawn, const Symmetry& symmetry, int w, 
   return semiaxes;
 }
 
-// Another atom with nearly the same surface.
+// Adds another atom with nearly the same surface.
 void add_twin(Random& drawn, NumberFormat precision, const Symmetry& symmetry, double size, Case& made) {
   Atom twin = made.scene.lattices[0].atoms[0];
   const double aside =

@@ -1,7 +1,8 @@
 // slender: ellipses and ellipsoids up to 2^12 times as long as wide, tilted in the unit cell, and flown along
 // their long axis. In their own metric such a flight is the slow one: v^2, heights and the width of the strip
 // are differences of terms 2^24 times as large, and a bound that is right for discs is too small by the
-// condition. The line passes the obstacle's end, or its flank from which it leans away by 2^-40 to 2^-4.
+// condition number. The line passes the obstacle's end, or its flank, from which it leans away by 2^-40 to
+// 2^-4.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -13,7 +14,7 @@
 namespace lorentz::cases {
 namespace {
 
-// A frame at random angles; or with a long axis of small integers.
+// A frame at random angles, or with a long axis of small integers.
 std::array<Vec, 3> drawn_frame(Random& drawn, int dimension) {
   Vec a = drawn.direction(dimension);
   if (drawn.one_in(3)) {
@@ -41,8 +42,8 @@ Atom drawn_needle(Random& drawn, int dimension, Case& made) {
   return atom;
 }
 
-// The obstacle's centre, up to some cells before it, and beside it by about its width: at its edge to within
-// 2^-50 to 1.
+// A start up to a few cells before the obstacle's centre, and beside it by about its width: at its edge to
+// within 2^-50 to 1.
 Vec beside(Random& random, NumberFormat precision, const Atom& atom) {
   const Vec &along = atom.semiaxes[0], &across = atom.semiaxes[1 + random.below(atom.semiaxes.size() - 1)];
   const double edge =

@@ -1,10 +1,10 @@
-// specks: cells, starts and velocities with components that are next to nothing, and not nothing.
+// specks: cells, starts and velocities with components that are tiny but not zero.
 //
 // A component of 2^-1074 beside one of 2 vanishes when the larger is scaled to 1, and a product with it
-// underflows; what is then computed is exact for another lattice. Along a row that a speck tilts the flight
-// meets an obstacle after 10^300 cells, and without it never; across it the speck decides nothing, but its
-// reciprocal overflows. So: square, cubic and skewed cells from 2^-400 to 2^1000 with specks in place of
-// zeros, flights along rows and across.
+// underflows. The result is then exact for another lattice. Along a row that a speck tilts the flight meets
+// an obstacle after 10^300 cells; without the speck it never does. Across the row the speck decides nothing,
+// but its reciprocal overflows. So there are square, cubic and skewed cells from 2^-400 to 2^1000 with specks
+// in place of zeros, and flights along rows and across.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -15,16 +15,16 @@
 namespace lorentz::cases {
 namespace {
 
-// What depends on the precision: powers of two.
+// Powers of two that depend on the precision.
 struct SpeckRange {
   explicit SpeckRange(NumberFormat precision) : is_wide(precision == NumberFormat::binary64) {}
   const bool is_wide;
   const int least = is_wide ? -1074 : -149, next_to_least = is_wide ? 60 : 12;
-  const int below = is_wide ? 400 : 60;  // specks are smaller than 1, and than the size, by so much
+  const int below = is_wide ? 400 : 60;  // specks are below 1, and below the size, by 2^-this
   const int ordinary = is_wide ? 400 : 50, largest = is_wide ? 1000 : 110;
 };
 
-// The smallest numbers, or any below 2^-400 of the size; at times with all digits.
+// The smallest numbers, or any below 2^-400 of the size; in half of the cases with all digits.
 double speck(Random& random, const SpeckRange& range, int exponent_of_size) {
   const int most = std::max(range.least, std::min(exponent_of_size - range.below, -range.below));
   const auto exponent = static_cast<int>(
@@ -34,7 +34,7 @@ double speck(Random& random, const SpeckRange& range, int exponent_of_size) {
   return std::ldexp(random.one_in(2) ? 1 : 1 + random.uniform(), std::min(exponent, most)) * random.sign();
 }
 
-// A speck in place of some of the zeros.
+// Puts a speck in place of some of the zeros.
 void add_specks(Random& random, const SpeckRange& range, Vec& a, int dimension, int exponent_of_size) {
   for (int i = 0; i < dimension; ++i)
     if (a[i] == 0 && random.one_in(2)) a[i] = speck(random, range, exponent_of_size);

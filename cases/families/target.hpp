@@ -1,5 +1,5 @@
-// What a campaign aims at: each target is a family of cases, or several in turn. A case follows from (seed,
-// target, index, precision) and nothing else.
+// The targets of campaigns: each is a family of cases, or several in turn. A case depends on (seed, target,
+// index, precision) and nothing else.
 #pragma once
 
 #include <string_view>
@@ -11,7 +11,7 @@ namespace lorentz::cases {
 
 class Target {
  public:
-  /// Of one family, or of several that take turns, kCasesPerScene cases each.
+  /// A target of one family, or of several that take turns, kCasesPerScene cases each.
   Target(std::string_view name, std::vector<Family> families) : name_(name), families_(std::move(families)) {}
 
   std::string_view name() const { return name_; }
@@ -26,7 +26,7 @@ class Target {
 
 const std::vector<Target>& targets();
 
-/// One of targets(), or generic-2d or generic-3d alone. Null if there is none of that name.
+/// One of targets(), or generic-2d or generic-3d alone. Null if no target has that name.
 const Target* target_named(std::string_view name);
 
 }  // namespace lorentz::cases

@@ -1,11 +1,11 @@
-// ties: two obstacles entered at the same time, exactly or within ulps; the answer is then the smallest
-// (lattice, atom, cell), or hangs on the last bit of the difference of two square roots.
+// ties: two obstacles entered at the same time, exactly or within ulps. The answer is then the smallest
+// (lattice, atom, cell), or depends on the last bit of the difference of two square roots.
 //
-// Exact ties: obstacles that are mirror images in the line of flight (or, in space, in a plane that holds it,
-// or turned into each other about the diagonal); two balls with a common surface point that the line goes
-// through, made of Pythagorean triples; the same obstacle written twice, as two atoms or in two lattices,
-// also in another basis, so that its cells have other numbers. Then the start or the velocity is moved by a
-// few ulps.
+// Exact ties are obstacles that are mirror images in the line of flight (or, in space, in a plane that
+// contains it, or are turned into each other about the diagonal); two balls with a common surface point that
+// the line goes through, made of Pythagorean triples; and the same obstacle written twice, as two atoms or in
+// two lattices, also in another basis, so that its cells have other numbers. Then the start or the velocity
+// is moved by a few ulps.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -27,13 +27,13 @@ double dyadic(Random& random, int low, int high) {  // eighths of a power of two
                     static_cast<int>(random.integer(low, high)) - 3);
 }
 
-// A start at whole 2^-40 (in binary32 2^-20) along the line behind the origin, so that it is exact.
+// A start at a multiple of 2^-40 (in binary32 2^-20) along the line behind the origin, so that it is exact.
 double behind(Random& random, NumberFormat precision) {
   const int grid = precision == NumberFormat::binary64 ? 40 : 20;
   return std::ldexp(static_cast<double>(random.integer(1l << (grid - 2), 1l << (grid - 1))), -grid);
 }
 
-// Atoms mirrored at the line of flight, which runs along the first axis or the diagonal.
+// Atoms that are mirror images in the line of flight, which runs along the first axis or the diagonal.
 Case make_mirrored(Source& source, int dimension) {
   Case made;
   Random &drawn = source.scene, &random = source.random;
@@ -59,7 +59,7 @@ Case make_mirrored(Source& source, int dimension) {
   return made;
 }
 
-// Two balls through the origin, with centres at triples; any line into both through it enters both there.
+// Two balls through the origin, with centres at triples; any line through it into both enters both there.
 Case make_shared_point(Source& source, int dimension) {
   Case made;
   Random &drawn = source.scene, &random = source.random;
@@ -71,7 +71,7 @@ Case make_shared_point(Source& source, int dimension) {
   for (int i = 0; i < 2; ++i) {
     Squared one = dimension == 2 ? drawn_triple(drawn, 9) : drawn_quadruple(drawn, 3);
     if (i == 0) first = one.v;
-    if (dot(one.v, first) < 0)  // both on one side
+    if (dot(one.v, first) < 0)  // both on the same side
       for (std::int64_t& component : one.v) component = -component;
     const int exponent = -std::ilogb(static_cast<double>(one.length)) - static_cast<int>(drawn.integer(3, 5));
     atoms.push_back(ball(scaled(to_vec(one.v), std::ldexp(1, exponent)),
@@ -147,7 +147,7 @@ Case make_tie(Source& source) {
       made = make_neighbours(source, dimension);
   }
   Random& random = source.random;
-  // By few bits, so that an exact tie stays one.
+  // Multiplied by a number of few bits, so that an exact tie stays exact.
   made.query.v = scaled(made.query.v, std::ldexp(static_cast<double>(random.integer(1, 4095)), -12));
   if (random.one_in(3)) {
     made.tags.push_back("within-ulps");

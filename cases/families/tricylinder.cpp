@@ -1,12 +1,12 @@
-// tricylinder: lines that meet the three shadows of a sphere and not the sphere.
+// tricylinder: lines that meet the three shadows of a sphere but not the sphere.
 //
 // With d = c - x and h = v x d, the line meets the disc that is the sphere's shadow in the plane across axis
 // i iff |h_i| < r sqrt(v^2 - v_i^2), and the sphere iff |h| < r |v|. Seen along v the three conditions are
-// strips about the disc's centre whose edges touch the disc: they cut out a hexagon around it, and its
-// corners are what an algorithm that works in projections takes for hits. Here h lies on a ray from the
-// centre, drawn until the ray leaves the hexagon farther out than the disc, at a drawn decade of relative
-// distance from the disc's edge, down to 1e-14; one in three just inside, as a hit. x = c - (h x v) / v^2 - s
-// v.
+// strips about the disc's centre whose edges touch the disc. They cut out a hexagon around it, and an
+// algorithm that works in projections takes the hexagon's corners for hits. Here h lies on a ray from the
+// centre, drawn until the ray leaves the hexagon farther out than the disc. The relative distance from the
+// disc's edge is in a drawn decade, down to 1e-14; one in three is just inside, as a hit.
+// x = c - (h x v) / v^2 - s v.
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
@@ -20,8 +20,8 @@ constexpr const char* kMisses[] = {"miss-1e-2",  "miss-1e-4",  "miss-1e-6", "mis
 constexpr double kTop[] = {0.6, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
 constexpr double kBottom[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14};
 
-// A line's shape against a ball: its direction, the unit direction of h, and how far out along h, in r |v|,
-// the hexagon reaches.
+// A line relative to a ball: its direction, the unit direction of h, and how far the hexagon reaches along h,
+// in units of r |v|.
 struct HexagonRay {
   Vec v, h;
   double reach;

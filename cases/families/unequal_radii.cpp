@@ -1,7 +1,7 @@
 // unequal-radii: balls of one lattice in space whose radii differ by 2^3 to 2^6. The free paths differ by the
-// square of that, and a basis that is short for a window of the one length is long in the other's: whoever
-// prepares a direction for one atom and goes on from there for the next has to change the scale along the
-// flight, too.
+// square of that, and a basis that is short for a window of one length is long for a window of the other. An
+// engine that prepares a direction for one atom and continues from there for the next has to change the scale
+// along the flight, too.
 #include <cmath>
 
 #include "cases/crystals.hpp"

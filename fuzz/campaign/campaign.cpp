@@ -17,7 +17,7 @@ using CampaignClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetweenRecords{5};
 
-// Records and serves until all is done, the time is up, or somebody says stop.
+// Records and serves until all is done, the time is up, or `bounds.stop` is set.
 void keep(Ledger& ledger, const Bounds& bounds, Journal& journal, Ranks* ranks) {
   const auto start = CampaignClock::now();
   for (bool more = true; more;) {
@@ -75,7 +75,7 @@ bool run(const Plan& plan, const Bounds& bounds, const MakeAnswerer& make_answer
   ledger.stop_all();
   workers.join();
   if (ranks) ranks->dismiss(ledger);
-  ledger.record();  // what came in while all were told to stop
+  ledger.record();  // results that came in while the threads were told to stop
   journal.tick();
   return ledger.had_failing_answerer();
 }

@@ -1,6 +1,6 @@
-// A campaign: cases of several targets and variants of some of them, asked of an engine, judged by the
-// oracle, what goes wrong shrunk. What is found depends on the plan and on how far each target went; not on
-// the number of threads, nor on how often it was stopped and gone on with.
+// A campaign asks an engine about cases of several targets and variants of some of them. The oracle judges
+// the answers, and wrong ones are shrunk. The findings depend on the plan and on how far each target went,
+// but not on the number of threads, nor on how often the campaign was stopped and continued.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ namespace lorentz::fuzz {
 using question::Answerer;
 using question::MakeAnswerer;
 
-/// Which scenes a campaign keeps to: what an engine can do.
+/// The scenes that a campaign keeps to: those that an engine can do.
 struct Scope {
   enum class Scenes {
     any,
@@ -34,46 +34,46 @@ struct Scope {
 
   bool admits(const Scene& scene) const;
   bool is_all() const { return scenes == Scenes::any && dimension == 0; }
-  /// Whether some of the first scenes of a target are within.
+  /// Whether some of the first scenes of a target are within the scope.
   bool meets(const cases::Target& target, std::uint64_t seed) const;
 };
 
-/// All that findings depend on, but for the engine.
+/// All that findings depend on, except the engine.
 struct Plan {
   std::vector<const cases::Target*> targets;
-  Scope scope;  ///< cases beyond are left out, and other words that lead there; shrinking stays within
+  Scope scope;  ///< cases beyond it, and other words that lead there, are left out; shrinking stays within
   std::uint64_t seed = 0;
   std::uint64_t shard = 0, shards = 1;  ///< only indices that are `shard` modulo `shards`
   Counts counts;
-  std::uint64_t keep = 3;     ///< findings kept and shrunk of each sort, of each target; all are counted
-  std::uint64_t mutate = 32;  ///< one in so many cases is climbed from; 0: none
+  std::uint64_t keep = 3;     ///< findings of each sort and target that are kept and shrunk; all are counted
+  std::uint64_t mutate = 32;  ///< a climb starts from one in `mutate` cases; 0: from none
   std::uint64_t reword =
-      1;  ///< one in so many cases, with its variants, is asked in other words, too; 0: none
+      1;  ///< one in `reword` cases, with its variants, is also asked in other words; 0: none
   Truth truth = Truth::oracle;
   Claim claim = {};  ///< of the engine: cases consist of its numbers, and answers are judged by it
 };
 
-/// How far a target is, and what was met on the way.
+/// How far a target is, and what the campaign met on the way.
 struct TargetTally {
   std::uint64_t next = 0;  ///< the first index that is not done
   std::uint64_t cases = 0, variants = 0;
   std::uint64_t reworded = 0;                               ///< of both, asked in other words and answered
-  std::array<std::uint64_t, kKinds> kinds{};                ///< of all of these, by Kind
-  std::array<std::uint64_t, 3> stages{};                    ///< of the same, by Stage, where it is told
+  std::array<std::uint64_t, kKinds> kinds{};                ///< replies to all of these, by Kind
+  std::array<std::uint64_t, 3> stages{};                    ///< the same, by Stage, if the reply names it
   std::map<std::string, std::uint64_t> sorts;               ///< findings met, by sort, kept or not
   double margin = std::numeric_limits<double>::infinity();  ///< the smallest above 0 that a climb reached,
   std::uint64_t margin_index = 0;                           ///< from this case
 
-  /// Adds what another stint of indices met. `next` is the caller's to set.
+  /// Adds what another stint of indices met, except `next`, which the caller sets.
   void add(const TargetTally& other);
 };
 
-/// Where a campaign's work goes. Called by one thread.
+/// Receives a campaign's results. Called by one thread.
 class Journal {
  public:
   virtual ~Journal() = default;
 
-  /// The tally of a target after some more of its work, and the findings kept of this. A finding comes when
+  /// The tally of a target after more of its work, and the findings kept from that work. A finding comes when
   /// it is found, and again when it is shrunk.
   virtual void record(const cases::Target& target, const TargetTally& tally,
                       const std::vector<Finding>& kept) = 0;
@@ -82,24 +82,23 @@ class Journal {
   virtual void tick() = 0;
 };
 
-/// When to stop: each target at so many cases, or all after so many seconds, or both; or at a finding.
+/// When to stop: at a number of cases of each target, after a time for all, or both; or at a finding.
 struct Bounds {
   std::uint64_t count = std::numeric_limits<std::uint64_t>::max();  ///< indices, of all shards together
   double seconds = std::numeric_limits<double>::infinity();
   unsigned jobs = 1;
-  bool first = false;                       ///< also as soon as a finding is recorded
-  const std::atomic<bool>* stop = nullptr;  ///< set by somebody else, to stop early
+  bool first = false;                       ///< also stop as soon as a finding is recorded
+  const std::atomic<bool>* stop = nullptr;  ///< set by the caller to stop early
 
   bool limits_time() const { return seconds < std::numeric_limits<double>::infinity(); }
 };
 
 class Ranks;
 
-/// Goes on from the tallies (one for each target of the plan), which it brings up to date, and from the
-/// findings of these that are not shrunk to the end. Threads get equal times for each target, shrinking
-/// included. Work that is unfinished when the time is up is dropped: at most the few cases, or the one
-/// finding, that each thread was at. Returns whether an engine failed. With `ranks` (this is rank 0) other
-/// processes help.
+/// Continues from the tallies (one for each target of the plan), which it updates, and from those of their
+/// findings that are not fully shrunk. Each target gets the same time of the threads, shrinking included.
+/// Work that is unfinished when the time is up is dropped: at most the few cases, or the one finding, that
+/// each thread was at. Returns whether an engine failed. With `ranks` (this is rank 0) other processes help.
 bool run(const Plan& plan, const Bounds& bounds, const MakeAnswerer& make_answerer,
          std::vector<TargetTally>& tallies, Journal& journal, Ranks* ranks = nullptr,
          const std::vector<Finding>& unshrunk = {});

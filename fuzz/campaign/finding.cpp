@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFar = 1e6, kExtreme = 1e100;
 
-// The kinds of findings, as rank_of() has them.
+// The kinds of findings in the order of rank_of().
 constexpr Kind kInOrder[] = {Kind::wrong, Kind::wrong_time, Kind::error, Kind::undecided, Kind::slow};
 
 std::string outcomes_of(const Examined& examined) {
@@ -63,7 +63,7 @@ std::string_view without_line_end(const std::string& line) {
   return std::string_view(line).substr(0, line.size() - 1);
 }
 
-// What text_of() wrote.
+// Reads a line that text_of() wrote.
 StreamItem read(const std::string& line, const Scene* scene) {
   static thread_local ExchangeReader reader;
   const std::string padded = line + std::string(LineReader::kPadding, ' ');
@@ -89,8 +89,8 @@ Answer read_answer(const std::string& line) {
   return answer;
 }
 
-// As a line that can be read back. What no answer stream has a word for is left out: a time that is no
-// number, and the bytes of a message that are not ASCII, where they are not UTF-8.
+// The answer as a line that can be read back. It leaves out what answer streams cannot express: a time that
+// is NaN or minus infinity, and the bytes of a message that are not ASCII, if they are not UTF-8.
 std::string answer_text(const std::string& id, Answer answer, const Scene& scene) {
   if (!(answer.time.value_or(0) > -HUGE_VAL)) answer.time.reset();
   const auto line_of = [&] {

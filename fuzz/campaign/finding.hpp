@@ -1,4 +1,4 @@
-// What a campaign keeps of a case that went wrong, in the words of the exchange formats.
+// The record that a campaign keeps of a case that went wrong, in the words of the exchange formats.
 #pragma once
 
 #include <cstdint>
@@ -13,34 +13,34 @@
 
 namespace lorentz::fuzz {
 
-/// A case in words: one line each, without the line end. The answers are as in answer streams.
+/// A case as text: one line each, without the line end. The answers are as in answer streams.
 struct CaseText {
   std::string scene, query, given, exact;
   double departs = 0;            ///< as in oracle::Judgement
   std::optional<double> margin;  ///< of the exact answer
 };
 
-/// How far a finding is on its way to the simplest case.
+/// How far the shrinking of a finding has come.
 enum class Shrinking {
-  due,        ///< nobody has begun
-  cut_short,  ///< as far as the time allowed
-  done        ///< as far as it goes, or it cannot be shrunk
+  due,        ///< not begun
+  cut_short,  ///< ended by the time limit
+  done        ///< complete, or the finding cannot be shrunk
 };
 
 struct Finding {
   std::string target;
   std::uint64_t index = 0;
-  int step = 0;       ///< 0: the case itself; else its variant of this number
-  std::string words;  ///< of a case asked in other words, and found there: which; else empty
+  int step = 0;       ///< 0: the case itself; otherwise the number of its variant
+  std::string words;  ///< the other words in which the case was asked; empty if in its own
   std::string kind;   ///< name_of(Kind)
-  std::string sort;   ///< what of each target only the first few are kept of (sort_of)
+  std::string sort;   ///< of each sort (sort_of) and target only the first few are kept
   std::string cause;  ///< of the shrunk case (cause_of)
   CaseText text;      ///< as found
   CaseText shrunk;    ///< the same until shrinking begins
   Shrinking shrinking = Shrinking::due;
-  int bits = 0;         ///< the most that a number of the shrunk case has
+  int bits = 0;         ///< the largest number of significant bits in the shrunk case
   long complexity = 0;  ///< of the shrunk case
-  int tries = 0;        ///< that shrinking took
+  int tries = 0;        ///< number of tries of shrinking
 };
 
 /// Kinds in the order in which they matter: `wrong` first, then wrong time, error, undecided, slow. They are
@@ -49,36 +49,36 @@ int rank_of(std::string_view kind);
 
 CaseText text_of(const std::string& id, const Scene& scene, const Query& query, const Examined& examined);
 
-/// A case as its lines say it.
+/// A case as read from its lines.
 struct ReadCase {
   Scene scene;
   Query query;
   Answer given, exact;
 };
 
-/// Throws FileError if these are no lines of text_of().
+/// Throws FileError if these are not lines that text_of() wrote.
 ReadCase case_in(const CaseText& text);
 
-/// Why a finding is not one that a campaign keeps, or nothing. A finding without a flaw has lines that
+/// Why a campaign does not keep the finding; empty if it does. A finding without a flaw has lines that
 /// case_in() reads, each of them JSON, and no control characters.
 std::string flaw_of(const Finding& finding);
 
-/// Does the scene have what the answer names?
+/// Does the scene have the obstacle that the answer names?
 bool is_in(const Scene& scene, const Answer& answer);
 
-/// What is plain from a case as it was met: kind, dimension, outcomes, `from`. Like "wrong, 2D, hit for hit,
-/// leaving".
+/// The obvious properties of a case as it was met: kind, dimension, outcomes, `from`. Like "wrong, 2D, hit
+/// for hit, leaving".
 std::string sort_of(const Scene& scene, const Query& query, const Examined& examined);
 
-/// What a shrunk case says about the fault behind it. Findings of one cause are taken for duplicates. It is
-/// made of
-/// - the kind; of wrong hits: whether the obstacle named comes before the true one (then the line does not
-///   even meet it) or after it (then the true one was passed over); of others: both outcomes;
+/// What a shrunk case says about the fault behind it. Findings with the same cause are taken for duplicates.
+/// The cause consists of
+/// - the kind; for wrong hits, whether the obstacle named comes before the true one (then the line does not
+///   even meet it) or after it (then the true one was passed over); for others, both outcomes;
 /// - the dimension, and the scene: unit lattice, lattice, several atoms, several lattices, with ellipsoids;
 /// - of the query: leaving (`from` matters), along an axis, in a plane of axes (3D), a far start, numbers
 ///   near the ends of the range.
-/// What is read back otherwise than it was written is one cause: a fault of the reader shows in one notation
-/// as in another, and in scenes of every kind.
+/// Everything that is read back differently from what was written has one cause, because a fault of the
+/// reader shows in any notation and in scenes of every kind.
 std::string cause_of(const Scene& scene, const Query& query, const Examined& examined);
 
 }  // namespace lorentz::fuzz

@@ -7,25 +7,25 @@
 namespace lorentz::fuzz {
 namespace {
 
-// How many stints of a target may be under way for each thread.
+// Number of a target's stints that may be under way for each thread.
 constexpr std::size_t kAhead = 64;
 
-// What a case, or shrinking, is taken to cost before the first of its target is done, in seconds.
+// Assumed seconds for a case, and for shrinking, before the first of its target is done.
 constexpr double kUsual = 0.025, kUsualShrinking = 0.1;
 
-// Stints of cheap cases are made longer, as long as they take no longer than this: handing out and recording
-// is to cost nothing to speak of, and going home in the middle of a stint is to lose little. Far away there
-// is the way there and back. Somebody who likes many cases at once gets as many as take no longer than
-// kSecondsOfMany: another program's answers are waited for once in a stint.
+// Stints of cheap cases are made longer, as long as they take no longer than this. Then handing out and
+// recording cost next to nothing, and a stop in the middle of a stint loses little. For another process
+// (kSecondsFarAway) the way there and back counts, too. An answerer that takes many cases at once gets as
+// many as take no longer than kSecondsOfMany, because another program's answers are awaited once per stint.
 constexpr double kSecondsOfBatch = 0.002, kSecondsFarAway = 0.05, kSecondsOfMany = 0.25;
 constexpr std::uint64_t kMostCasesAhead = 1024;
 
-// Up to these shares of a target's time go into shrinking, while there are cases: of what is wrong in some
-// way, and of all.
+// The largest shares of a target's time that go into shrinking, while there are cases: kShareOfWrong if the
+// next finding is wrong in some way, kShareOfOthers otherwise.
 constexpr double kShareOfWrong = 0.5, kShareOfOthers = 0.25;
 
-// Where the time of a campaign is limited, so is that for one finding: to this share of the time of its
-// target, so that no target falls behind for long, and to so many seconds.
+// If the time of a campaign is limited, so is the time for one finding: to this share of the time of its
+// target, so that no target falls behind for long, and to this number of seconds.
 constexpr double kShareOfOne = 0.125, kMostSecondsOfOne = 10;
 
 double most_shrinking(const Plan& plan, const Bounds& bounds, std::size_t threads) {
@@ -55,7 +55,7 @@ Ledger::Ledger(const Plan& plan, const Bounds& bounds, std::size_t threads, std:
     track.tally = tallies[t];
     track.handed_out = tallies[t].next;
     for (const Finding& one : unshrunk) {
-      // What was cut short would be again, unless there is time without end.
+      // Shrinking that was cut short would be cut short again, unless the time is unlimited.
       const bool is_due =
           one.shrinking == Shrinking::due || (one.shrinking == Shrinking::cut_short && !bounds.limits_time());
       if (is_due && one.target == plan.targets[t]->name()) track.due.emplace(rank_of(one.kind), one);
@@ -74,13 +74,13 @@ double Ledger::usual_shrinking(const Track& track) const {
                           : std::min(kUsualShrinking, most_shrinking_);
 }
 
-// What it had, and what it will have had when all is back that is under way.
+// The time that the target had, and will have had when all that is under way is back.
 double Ledger::time_of(const Track& track) const {
   return track.seconds + track.usual.value_or(kUsual) * static_cast<double>(track.pending) +
          usual_shrinking(track) * static_cast<double>(track.in_shrinking);
 }
 
-// Of the targets that have work, the one that had the least time.
+// The target with the least time among those that have work.
 Ledger::Track* Ledger::next_track() {
   Track* next = nullptr;
   for (Track& track : tracks_) {
@@ -112,7 +112,7 @@ Assignment Ledger::assign_shrinking(Track& track) {
   return one;
 }
 
-// One case until it is known what one takes. Ends on a multiple of its length, so that stints share a scene
+// One case until the time for a case is known. Ends on a multiple of its length, so that stints share a scene
 // where cases do.
 Assignment Ledger::assign_cases(Track& track, std::uint64_t batch_size, double seconds) {
   const std::uint64_t begin = track.handed_out;
@@ -203,7 +203,7 @@ bool Ledger::is_complete(const Track& track) const {
   return (is_closing_ || track.tally.next >= count_) && track.due.empty() && track.in_shrinking == 0;
 }
 
-// Returns whether there is something new to be shrunk.
+// Returns whether there is a new finding to shrink.
 bool Ledger::record(std::size_t target) {
   Track& track = tracks_[target];
   std::vector<Finding> news = std::exchange(track.shrunk, {});
@@ -220,7 +220,7 @@ bool Ledger::record(std::size_t target) {
   return track.due.size() != due_before;
 }
 
-// Only now it is certain how many findings of each sort come before.
+// Only now is it certain how many findings of each sort come before.
 void Ledger::record(Track& track, const Stint& stint, StintResult& result, std::vector<Finding>& kept) {
   for (StintResult::Kept& one : result.kept) {
     if (track.tally.sorts[one.finding.sort] + one.ordinal > plan_.keep) continue;

@@ -1,5 +1,5 @@
-// Ranks by MPI. Messages are a report from a rank and orders in return, and nothing else; both sides look for
-// them now and then and sleep in between, because a wait inside MPI keeps a processor busy.
+// Ranks by MPI. The only messages are a report from a rank and orders in return. Both sides poll for them and
+// sleep in between, because a wait inside MPI keeps a processor busy.
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/string.hpp>
@@ -25,7 +25,7 @@ enum Message { kReport = 1, kOrders };
 
 constexpr std::chrono::milliseconds kLook{2}, kLongestSilence{100};
 
-// A rank's threads always have a few stints before them.
+// Number of stints that a rank keeps ready for each of its threads.
 constexpr std::size_t kBatchesAhead = 4;
 
 }  // namespace

@@ -21,14 +21,14 @@ using namespace cases;
 
 namespace {
 
-// Work (in the engine's own count) that shrinking one case may cost: some seconds of `published`.
+// Work (in the engine's own count) that shrinking one case may cost: a few seconds of `published`.
 constexpr double kShrinkWork = 1.5e7;
 
-// In so many other words each scene is asked about, and one in so many questions is asked with a time limit,
-// or in other digits instead.
+// Each scene is asked about in kWordings other wordings. One question in kCasesPerLimit is asked with a time
+// limit, and one in kCasesPerNotation in other digits instead.
 constexpr std::uint64_t kWordings = 3, kCasesPerLimit = 4, kCasesPerNotation = 8;
 
-// Does a case fail as another one did: in kind, and in both outcomes?
+// Does a case fail as another one did, in the same kind and with the same two outcomes?
 class SameFailure {
  public:
   SameFailure(Answerer& answerer, const Plan& plan, const Examined& like, LimitAt limit)
@@ -47,12 +47,12 @@ class SameFailure {
            last_.exact.outcome == like_.exact.outcome;
   }
 
-  // No more is to be asked: it took too much work, or there is nobody to ask.
+  // Ends shrinking: it took too much work, or the answerer has failed.
   bool is_over() const { return work_ > kShrinkWork || answerer_.failed(); }
 
   double flight() const { return last_.exact.time ? *last_.exact.time * speed_ : -1; }
 
-  // Whatever is left to spend.
+  // Ignores the budget.
   Examined examine(const Scene& scene, const Query& query) const {
     return examiner_in(scene).examine(query, limit_);
   }
@@ -76,7 +76,7 @@ std::optional<double> margin_of(const oracle::Margins& margins, const Query& que
   return decision ? std::optional(decision->margin) : std::nullopt;
 }
 
-// The simplest case of a finding that is known.
+// Makes this case the simplest known one of the finding.
 void take_for_shrunk(Finding& finding, const Scene& scene, const Query& query, const Examined& examined,
                      std::optional<double> margin) {
   finding.shrunk = text_of(label_of(finding), scene, query, examined);
@@ -88,16 +88,16 @@ void take_for_shrunk(Finding& finding, const Scene& scene, const Query& query, c
 
 }  // namespace
 
-// A case or a variant that was asked about, as it was made or in other words.
+// A case or a variant to be asked, as it was made or in other words.
 struct StintRunner::Case {
   const Target* target;
   std::uint64_t index;
   int step;
   Question question;
   SceneContext* context;
-  std::string words = {};                // if in other words: which
+  std::string words = {};                // the other words, if any
   bool is_carried = false;               // the exact answer came from the case in its own words
-  std::optional<Examined> misread = {};  // nobody needs to be asked
+  std::optional<Examined> misread = {};  // if set, the engine is not asked
 };
 
 // A scene, with all that is needed to ask and to judge in it.
@@ -105,12 +105,12 @@ struct StintRunner::SceneContext {
   SceneContext(Answerer& answerer, const Scene& scene, const Plan& plan, std::size_t number)
       : number(number),
         examiner(answerer, std::make_shared<Place>(scene, plan.truth, plan.claim), plan.counts.ulps) {}
-  const std::size_t number;  // in the order in which they were needed
+  const std::size_t number;  // in the order in which the contexts were needed
   Examiner examiner;
 
   const std::shared_ptr<Place>& place() const { return examiner.place(); }
 
-  // The scene in other words, and the context of that.
+  // The scene in other words, and the context of that scene.
   struct OtherWords {
     Rewording rewording;
     SceneContext* context;
@@ -118,21 +118,21 @@ struct StintRunner::SceneContext {
   std::map<std::uint64_t, OtherWords> other_words;
 };
 
-// All that is asked about in one stint, and the margins met in its climbs.
+// All questions of one stint, and the margins met in its climbs.
 struct StintRunner::Questions {
   std::deque<SceneContext> contexts;
   std::vector<Case> cases;
-  std::vector<std::size_t> asked;  // of the cases, in the order in which they were asked
+  std::vector<std::size_t> asked;  // indices of the cases, in the order in which they were asked
   std::vector<Reply> replies;      // to these
   TargetTally met;
-  SceneContext* as_made = nullptr;  // of the scene of the cases that are being made
+  SceneContext* as_made = nullptr;  // the context of the scene in which cases are being made
 
   SceneContext& add_context(Answerer& answerer, const Scene& scene, const Plan& plan) {
     return contexts.emplace_back(answerer, scene, plan, contexts.size());
   }
 
-  // The case's scene in the words of this number. They follow from the scene and where it is, so that they
-  // are the same in whichever stint.
+  // The case's scene in the words of this number. They depend only on the scene and its place in the target,
+  // so that they are the same in every stint.
   SceneContext::OtherWords& other_words(const Plan& plan, Answerer& answerer, const Case& one,
                                         std::uint64_t number) {
     auto& known = one.context->other_words;
@@ -207,8 +207,8 @@ void StintRunner::pose(const Stint& stint, Questions& questions) {
   ask(questions);
 }
 
-// The cases from `first` on, each in other words: one of a few for the scene, in turn, and its own. The
-// answer comes with it, where it can.
+// Poses the cases from `first` on in other words. The scene's words are one of kWordings, in turn; the
+// query's are its own. The exact answer is carried over where possible.
 void StintRunner::pose_in_other_words(Random& random, Questions& questions, std::size_t first) {
   for (std::size_t i = first, last = questions.cases.size(); i < last && !stop_; ++i) {
     const Case& one = questions.cases[i];
@@ -236,7 +236,7 @@ void StintRunner::pose_in_other_words(Random& random, Questions& questions, std:
   }
 }
 
-// The same words in other digits, if they are read otherwise; by the engine they are not seen.
+// The case in other digits, if they are read differently; the engine does not see them.
 std::optional<StintRunner::Case> StintRunner::in_other_digits(Random& random, const Case& one) {
   auto misread = misreading(random, one.context->examiner.scene(), one.question.query);
   if (!misread) return std::nullopt;
@@ -262,7 +262,7 @@ void StintRunner::ask(Questions& questions) {
   questions.replies = replies_to(in_order, *answerer_);
 }
 
-// Judges the replies. Of a case and its variants one finding of a sort is enough.
+// Judges the replies. One finding of a sort is enough for a case and its variants.
 void StintRunner::take(Questions& questions, const std::map<std::string, std::uint64_t>& known,
                        StintResult& result) {
   std::vector<Reply>& replies = questions.replies;
@@ -275,7 +275,7 @@ void StintRunner::take(Questions& questions, const std::map<std::string, std::ui
     const Examined examined =
         one.misread ? *one.misread : one.context->examiner.judge(one.question, *reply_to[i], one.is_carried);
     const bool in_other_words = !one.words.empty();
-    // What it does not do in other words says nothing.
+    // That an engine does not support the other words is not a finding.
     if (in_other_words && examined.kind == Kind::unsupported) continue;
     result.met.reworded += in_other_words;
     ++result.met.kinds[static_cast<std::size_t>(examined.kind)];
@@ -330,7 +330,7 @@ std::optional<Finding> StintRunner::shrink(Finding finding, double seconds) {
     finding.tries = shrunk.tries;
     if (!stop_ && !answerer_->failed()) {
       const Examined after = fails.examine(shrunk.scene, shrunk.query);
-      // Else the engine answers now like this, now like that, and the finding stays as it was found.
+      // Otherwise the engine's answers vary, and the finding stays as it was found.
       if (name_of(after.kind) == finding.kind)
         take_for_shrunk(
             finding, shrunk.scene, shrunk.query, after,

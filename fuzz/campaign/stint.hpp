@@ -1,5 +1,4 @@
-// A stint: consecutive cases of a target, worked through by one thread. What it finds is shrunk later, one
-// finding at a time.
+// A stint: consecutive cases of a target, done by one thread. Its findings are shrunk later, one at a time.
 #pragma once
 
 #include <atomic>
@@ -14,12 +13,12 @@
 namespace lorentz::fuzz {
 
 struct Stint {
-  std::size_t target;        ///< of the plan's
+  std::size_t target;        ///< index in the plan's targets
   std::uint64_t begin, end;  ///< indices
 };
 
 struct StintResult {
-  TargetTally met;  ///< of this stint alone
+  TargetTally met;  ///< by this stint alone
   struct Kept {
     Finding finding;
     std::uint64_t ordinal;  ///< among the stint's findings of its sort, from 1
@@ -32,18 +31,19 @@ class StintRunner {
   StintRunner(const Plan& plan, const MakeAnswerer& make_answerer, const std::atomic<bool>& stop);
   ~StintRunner();
 
-  /// Nothing if it was stopped. `known` is how many findings of each sort the target has for certain from
-  /// earlier indices: those beyond the plan's `keep` are counted only.
+  /// Nothing if it was stopped. `known` is the number of findings of each sort that the target is certain to
+  /// have from earlier indices; findings beyond the plan's `keep` are only counted.
   std::optional<StintResult> run(const Stint& stint, const std::map<std::string, std::uint64_t>& known);
 
-  /// A finding that is due, shrunk for so many seconds at the most; without these it is the same whoever does
-  /// it. One that does not fail again stays as it was found. Nothing if it was stopped.
+  /// Shrinks a finding that is due, for at most `seconds`. If the time does not end it, the result is the
+  /// same in every thread. A finding that does not fail again stays as it was found. Nothing if it was
+  /// stopped.
   std::optional<Finding> shrink(Finding finding, double seconds);
 
-  /// The engine broke at least once. (It was made anew.)
+  /// The engine broke at least once. (It was started again.)
   bool answerer_failed() const { return answerer_failed_; }
 
-  /// How many cases a stint should have, if they do not take long.
+  /// The number of cases that a stint should have, if they do not take long.
   std::uint64_t batch_size() const { return answerer_->batch_size(); }
 
  private:
@@ -65,8 +65,8 @@ class StintRunner {
   bool answerer_failed_ = false;
 };
 
-/// The name of a finding in its campaign: TARGET/INDEX, or TARGET/INDEX.STEP of a variant; with an `r` behind
-/// it if it was found in other words.
+/// The name of a finding in its campaign: TARGET/INDEX, or TARGET/INDEX.STEP of a variant; an `r` follows if
+/// it was found in other words.
 std::string label_of(const Finding& finding);
 
 }  // namespace lorentz::fuzz

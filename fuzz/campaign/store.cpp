@@ -68,7 +68,7 @@ struct Store::Impl {
 
   const runs::Connection& connection() const { return database.connection(); }
 
-  // A finding that cannot be read costs the others nothing.
+  // A finding that cannot be read does not affect the others.
   void leave_out(const std::string& label, const std::string& why) {
     if (left_out.insert(label).second && on_left_out)
       on_left_out(database.path() + ": the finding " + label + " is left out: " + why);
@@ -140,7 +140,7 @@ std::int64_t Store::open_campaign(const CampaignManifest& manifest) {
 
 namespace {
 
-// Each count, and all of them together, as a campaign makes them.
+// Do the counts fit together, as a campaign makes them?
 bool fits(const TargetTally& tally) {
   const auto sum = [](const auto& numbers) {
     return std::accumulate(numbers.begin(), numbers.end(), std::uint64_t{0});
@@ -278,7 +278,7 @@ struct StoreJournal::Impl {
   Store& store;
   std::int64_t campaign;
   std::map<std::string_view, TargetTally>
-      unwritten;  // rows are written once a commit, however often they change
+      unwritten;  // each row is written once per commit, however often it changes
   std::vector<Finding> findings;
   Clock::time_point last_commit = Clock::now();
 
@@ -298,7 +298,7 @@ StoreJournal::StoreJournal(Store& store, std::int64_t campaign)
 StoreJournal::~StoreJournal() {
   try {
     impl_->write();
-  } catch (const FileError&) {  // it goes down for another error already, or the last half second is lost
+  } catch (const FileError&) {  // another error ends the program already, or the last half second is lost
   }
 }
 

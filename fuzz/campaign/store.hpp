@@ -1,5 +1,5 @@
-// Where campaigns are kept: one SQLite file, written ahead while a campaign writes it, so that whoever is
-// killed loses at most what was not yet committed, and never the file.
+// The store of campaigns: one SQLite file, with write-ahead logging while a campaign writes it. A campaign
+// that is killed loses at most what was not yet committed, and never the file.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@
 
 namespace lorentz::fuzz {
 
-/// All that the findings of a campaign depend on, in words. Two campaigns with the same manifest are one.
+/// All that the findings of a campaign depend on, as text. Two campaigns with the same manifest are one.
 struct CampaignManifest {
   static constexpr const char* kMerged = "merged";
 
   std::string version, engine;
   std::string targets;  ///< names, with commas between them
   std::uint64_t seed = 0;
-  std::string options;        ///< what else was chosen
+  std::string options;        ///< the other options
   std::uint64_t keep = 3;     ///< as in Plan
   std::string shard = "0/1";  ///< i/N; kMerged for shards that did not all come equally far
 
@@ -39,16 +39,16 @@ struct Stored {
   std::string label() const;  ///< CAMPAIGN/TARGET/INDEX[.STEP]
 };
 
-/// Used by one thread. Every function throws FileError if the file does not do what it should.
+/// Used by one thread. Every function throws FileError if reading or writing the file fails.
 class Store {
  public:
   using Access = runs::Access;
 
-  /// Told, once each, of findings in the file that cannot be read.
+  /// Called once for each finding in the file that cannot be read.
   using OnLeftOut = std::function<void(const std::string& message)>;
 
-  /// The path ":memory:" is a store that goes with this object. A file must have the tables of a store, and
-  /// nothing else; what it has of views and triggers never runs.
+  /// The path ":memory:" is a store that ends with this object. A file must have exactly the tables of a
+  /// store; its views and triggers never run.
   Store(const std::string& path, Access access, OnLeftOut on_left_out = {});
   ~Store();
   Store(const Store&) = delete;
@@ -57,12 +57,12 @@ class Store {
   const std::string& path() const;
   std::vector<Campaign> campaigns() const;
 
-  /// The id of the campaign with this manifest, which is added if there is none.
+  /// The id of the campaign with this manifest, which is added if it is missing.
   std::int64_t open_campaign(const CampaignManifest& manifest);
 
-  /// A tally that was never put is empty.
+  /// The tally that was put last, or an empty one.
   TargetTally tally(std::int64_t campaign, std::string_view target) const;
-  /// Those that can be read, and have no flaw (flaw_of); the others are left out.
+  /// The findings that can be read and have no flaw (flaw_of); the others are left out.
   std::vector<Stored> findings() const;
   /// False if findings() left some out.
   bool is_whole() const;
@@ -91,12 +91,12 @@ class StoreJournal final : public Journal {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Puts the campaigns of some shards together in an empty store. If the shards are all there and equally far,
-/// the result is what one run would have stored, and can be gone on with. Throws InputError, naming the
-/// stores, if they are not shards of the same campaigns, or one is named twice.
+/// Merges the campaigns of shards into an empty store. If the shards are complete and equally far, the result
+/// is what one run would have stored, and can be continued. Throws InputError, naming the stores, if they are
+/// not shards of the same campaigns, or if one is named twice.
 void merge(const std::vector<std::string>& paths, Store& into);
 
-/// The library that stores are kept by, and its version.
+/// The library that keeps the stores, and its version.
 std::string store_libraries();
 
 }  // namespace lorentz::fuzz

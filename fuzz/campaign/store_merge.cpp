@@ -1,5 +1,5 @@
-// Shards put together: tallies add up, and of the findings of each sort the first are kept, as one run would
-// have kept them.
+// Merges shards: tallies add up, and the first findings of each sort are kept, as one run would have kept
+// them.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -33,7 +33,7 @@ std::string number_of_shards(const std::string& shard) {
   return slash == std::string::npos ? "" : shard.substr(slash + 1);
 }
 
-// What is different between two manifests that should be of shards of one campaign, or nothing.
+// The difference between the manifests of two stores that should be shards of one campaign, or nothing.
 std::string difference(const CampaignManifest& a, const CampaignManifest& b) {
   if (a.version != b.version) return "version " + a.version + " and " + b.version;
   if (a.engine != b.engine) return "engine " + a.engine + " and " + b.engine;
@@ -45,7 +45,7 @@ std::string difference(const CampaignManifest& a, const CampaignManifest& b) {
   return {};
 }
 
-// By whatever names: links count.
+// Finds a store that is named twice, by whatever names: links count.
 void check_names(const std::vector<std::string>& paths) {
   std::error_code error;
   for (std::size_t i = 0; i < paths.size(); ++i)

@@ -1,4 +1,4 @@
-// What the threads of a campaign take and give back, wherever the campaign's ledger is kept.
+// The work that the threads of a campaign take and give back, wherever the campaign's ledger is kept.
 #pragma once
 
 #include <atomic>
@@ -14,16 +14,16 @@
 
 namespace lorentz::fuzz {
 
-/// A stint for somebody, and how many findings of each sort its target has for certain from earlier indices.
-/// Or, with an empty stint, a finding of its target that is to be shrunk.
+/// A stint, and the number of findings of each sort that its target is certain to have from earlier indices.
+/// Or, with an empty stint, a finding of its target to be shrunk.
 struct Assignment {
   Stint stint;
   std::map<std::string, std::uint64_t> known = {};
   std::optional<Finding> due = {};
-  double most_seconds = std::numeric_limits<double>::infinity();  ///< for that
+  double most_seconds = std::numeric_limits<double>::infinity();  ///< for shrinking it
 };
 
-/// What was done; without a result, or the finding, if it was stopped in between.
+/// The finished work; without a result or a finding if it was stopped.
 struct Done {
   Stint stint;
   std::optional<StintResult> result = {};
@@ -36,20 +36,20 @@ class WorkSource {
  public:
   virtual ~WorkSource() = default;
 
-  /// The next work for somebody who likes to be asked at least `batch_size` cases at once; waits until there
-  /// is some. Nothing: all is done, or stopped.
+  /// The next work, for an answerer that prefers at least `batch_size` cases at a time; waits until there is
+  /// some. Nothing if all is done, or the campaign is stopped.
   virtual std::optional<Assignment> take(std::uint64_t batch_size) = 0;
   virtual void hand_in(Done done) = 0;
 
-  /// An engine broke, and was made anew.
+  /// An engine broke, and was started again.
   virtual void answerer_failed() = 0;
   virtual void fail(std::exception_ptr failure) = 0;
 
-  /// True from when all that is under way may be dropped.
+  /// True once all work under way may be dropped.
   virtual const std::atomic<bool>& stop() const = 0;
 };
 
-/// Works with so many threads, which end when there is no more work.
+/// Works with `jobs` threads, which end when there is no more work.
 class Workers {
  public:
   Workers(const Plan& plan, const MakeAnswerer& make_answerer, WorkSource& source, unsigned jobs);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-// Answers the queries of one scene, one at a time, and tells what else it knows.
+// Answers one query of a scene, and adds what else the engine reports.
 using Tell = std::function<Reply(const Query&, double max_time)>;
 
 class TellingAnswerer final : public Answerer {
@@ -40,7 +40,7 @@ class TellingAnswerer final : public Answerer {
   Tell tell_;
 };
 
-// An engine that does not do every scene: E::beyond says why not.
+// An engine that does not support every scene; E::beyond says why not.
 template <class E>
 Tell if_it_does(const Scene& scene, const std::function<Reply(const E&, const Query&, double)>& tell) {
   if (const auto why_not = E::beyond(scene))
@@ -49,8 +49,8 @@ Tell if_it_does(const Scene& scene, const std::function<Reply(const E&, const Qu
   return [engine, tell](const Query& query, double max_time) { return tell(*engine, query, max_time); };
 }
 
-// Cell to cell, up to a time in which the flight passes about this many cells: a longer flight takes seconds,
-// in which it could answer thousands of others.
+// Walks from cell to cell, up to a time in which the flight passes about this many cells: a longer flight
+// takes seconds, in which the engine could answer thousands of others.
 Tell tell_classical(const Scene& scene) {
   constexpr double kCells = 10'000;
   const std::shared_ptr<const Engine> engine = make_engine("classical", scene);
@@ -61,14 +61,14 @@ Tell tell_classical(const Scene& scene) {
   };
 }
 
-// Cell by cell, too, exactly: what takes more cells than this it leaves undecided.
+// Walks cell by cell, too, but exactly; flights through more cells than this are left undecided.
 Tell tell_walk(const Scene& scene) {
   constexpr std::int64_t kCells = 200;
   const auto walk = std::make_shared<const oracle::Walk>(scene, kCells);
   return [walk](const Query& query, double max_time) -> Reply { return {walk->first_hit(query, max_time)}; };
 }
 
-// Counts its passes: how much work an answer was.
+// Reports the number of passes as the work of an answer.
 Tell tell_published(const Scene& scene) {
   return if_it_does<Published>(
       scene, [](const Published& engine, const Query& query, double max_time) -> Reply {

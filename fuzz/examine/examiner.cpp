@@ -34,8 +34,8 @@ bool Counts::is_finding(Kind kind) const {
   }
 }
 
-// What the question's answer is in its own words. Nothing if that contradicts what was carried over: neither
-// the same, nor the same but for a choice that the words make.
+// The exact answer to the question in its own words. Nothing if it contradicts the answer that was carried
+// over, that is, if it is neither the same nor differs only by a choice that the words make.
 std::optional<Answer> Examiner::settled(const Question& question) const {
   Answer exact_here = place_->exact(question.query);
   if (same_answer(exact_here, question.exact) ||
@@ -101,8 +101,8 @@ Examined Examiner::judge_exact(const Question& question, Reply& reply) {
   return one;
 }
 
-// The median is of the scene alone, so that who else is examined does not matter. It is asked for only where
-// there is much work.
+// The median depends on the scene alone, so that it does not matter what else is examined. It is computed
+// only if there is much work.
 bool Examiner::is_slow(double work) {
   if (work < kLeastWork) return false;
   if (!slow_from_) {

@@ -1,4 +1,4 @@
-// What a campaign makes of the replies of an engine: what it counts, and what it calls a finding.
+// How a campaign judges the replies of an engine: what it counts, and what it calls a finding.
 #pragma once
 
 #include <memory>
@@ -11,23 +11,23 @@
 
 namespace lorentz::fuzz {
 
-/// What a reply turned out to be.
+/// The judgement of a reply.
 enum class Kind {
   fine,         ///< right, or ill-posed
-  unsupported,  ///< it says that it does not do this
-  wrong,        ///< another obstacle, or another outcome, than any error of k ulps in the inputs explains
+  unsupported,  ///< the engine says that it does not support this
+  wrong,        ///< another obstacle or outcome, which no error of k ulps in the inputs explains
   wrong_time,   ///< the right obstacle, at a wrong time
-  undecided,    ///< it gave up
+  undecided,    ///< the engine gave up
   slow,  ///< the right obstacle, but with more than kSlowFactor times the work of a drawn flight in the same
          ///< scene
-  error  ///< it says that the query is invalid, or it broke
+  error  ///< the engine says that the query is invalid, or it broke
 };
 inline constexpr int kKinds = 7;
 
 std::string_view name_of(Kind kind);
 
-/// More than so many times the median work of kDrawnFlights drawn flights in the scene, and at least
-/// kLeastWork.
+/// An answer is slow if it takes more than kSlowFactor times the median work of kDrawnFlights drawn flights
+/// in the scene, and at least kLeastWork.
 inline constexpr double kSlowFactor = 100, kLeastWork = 500;
 inline constexpr int kDrawnFlights = 33;
 
@@ -35,7 +35,7 @@ inline constexpr int kDrawnFlights = 33;
 struct Counts {
   bool times = false;                  ///< wrong_time
   bool undecided = true;               ///< undecided
-  double ulps = oracle::kDefaultUlps;  ///< the tolerance; at 0 an answer is the exact one or wrong
+  double ulps = oracle::kDefaultUlps;  ///< the tolerance; at 0 an answer is exact or wrong
   bool is_finding(Kind kind) const;
 };
 
@@ -51,10 +51,10 @@ struct Examined {
   double departs = 0;  ///< as in oracle::Judgement
   std::optional<double> work;
   std::optional<Stage> stage;
-  bool is_misreading = false;  ///< an error of the reader: nobody was asked
+  bool is_misreading = false;  ///< an error of the reader: the engine was not asked
 };
 
-/// A place, and an answerer that is asked there.
+/// A place, and the answerer that is asked there.
 class Examiner {
  public:
   Examiner(Answerer& answerer, std::shared_ptr<Place> place, double ulps)
@@ -63,8 +63,8 @@ class Examiner {
   const std::shared_ptr<Place>& place() const { return place_; }
   const Scene& scene() const { return place_->scene(); }
 
-  /// Judges the reply to a question in this place, while no replies are due. `is_carried`: the exact answer is
-  /// of the question in other words, and where the reply is not the same the truth is asked for anew.
+  /// Judges the reply to a question in this place, while no replies are due. `is_carried`: the exact answer
+  /// comes from the question in other words; if the reply differs from it, the truth is computed anew.
   Examined judge(const Question& question, Reply& reply, bool is_carried = false);
 
   /// Asks one query, which must have no flaw, while no replies are due.
@@ -81,7 +81,7 @@ class Examiner {
   std::optional<double> slow_from_ = {};
 };
 
-/// True if the scene has no flaw, also where only exact arithmetic can say so.
+/// True if the scene has no flaw, including flaws that only exact arithmetic finds.
 bool is_sound(const Scene& scene);
 
 }  // namespace lorentz::fuzz

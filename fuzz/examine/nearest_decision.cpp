@@ -1,9 +1,9 @@
-// A decision hangs on the sign of a number f(x): of the distance of the line, or of x, from the
-// centre, less the radius; or of the difference of two times of entry. Newton's steps along one component of
-// x lead to a zero of f, up to the last bit of that component. If another component is set to zero before, it
-// then takes up what is left: near zero binary64 is as fine as one likes, and so f comes to about 2^-100, the
-// precision (double-double) that all this is computed in. From there the exact answers themselves lead on, by
-// bisection, to two neighbouring binary64 values between which the answer changes.
+// A decision depends on the sign of a number f(x): the distance of the line, or of x, from the centre, less
+// the radius; or the difference of two times of entry. Newton's steps along one component of x lead to a zero
+// of f, up to the last bit of that component. If another component is set to zero before, it then takes up
+// the remainder: binary64 is arbitrarily fine near zero, so f comes to about 2^-100, the precision
+// (double-double) of this computation. From there bisection of the exact answers leads to two neighbouring
+// binary64 values between which the answer changes.
 //
 // Ellipsoids { A y : |y| < 1 } become balls of the radius |det A| by adj(A).
 #include "fuzz/examine/nearest_decision.hpp"
@@ -73,7 +73,7 @@ class ObstacleAndLine {
     return size_less_radius(nearest, [&](const Wide3& step) { return inner(nearest, step); });
   }
 
-  // The time of entry: where it is not entered, of the nearest approach.
+  // The time of entry; if the obstacle is not entered, that of the nearest approach.
   Slope entry(const Vec& x) const {
     const Wide3 arm = arm_of(x);
     const Wide s = -inner(arm, v_), room = s * s - v2_ * (inner(arm, arm) - radius_ * radius_);
@@ -114,12 +114,12 @@ class ObstacleAndLine {
     return slope;
   }
 
-  std::array<Wide3, 3> column_;  // of the map: what a step along each axis becomes
+  std::array<Wide3, 3> column_;  // of the map: the image of a step along each axis
   Wide3 centre_, v_;
   Wide radius_, v2_;
 };
 
-// Newton's steps along component k; false where they lead nowhere.
+// Newton's steps along component k; false if they lead nowhere.
 template <class F>
 bool approach(const F& f, Vec& x, int k) {
   constexpr int kSteps = 6;
@@ -132,8 +132,9 @@ bool approach(const F& f, Vec& x, int k) {
   return true;
 }
 
-// To a zero of f: along the component that f changes most with, or finely, to the end by another one. The
-// last component that was moved; nothing where there is no way.
+// Moves x to a zero of f along the component that f changes most with. If `finely` is drawn, another
+// component is set to 0 first, and the last approach is along that one. Returns the component that was moved
+// last, or nothing if that fails.
 template <class F>
 std::optional<int> approach(Random& random, int dimension, const F& f, Vec& x) {
   const bool finely = random.one_in(2);
@@ -148,7 +149,7 @@ std::optional<int> approach(Random& random, int dimension, const F& f, Vec& x) {
   return approach(f, x, last) ? std::optional(last) : std::nullopt;
 }
 
-// Where the exact answer changes, between neighbouring numbers of component k: by bisection, if an answer is
+// Moves component k to the number next to which the exact answer changes, by bisection, if the answer is
 // another one near there.
 void bisect(const Place& place, Query& query, int k) {
   const std::int64_t farthest = std::int64_t{1}
@@ -177,13 +178,14 @@ bool has_small_cell(const ObstacleId& id) {
   return true;
 }
 
-// What is decided about which obstacle, or about this one and the one that is hit.
+// A kind of decision and its obstacle; the order compares this obstacle with the one that is hit.
 struct NearDecision {
   DecisionKind kind;
   ObstacleId obstacle;
 };
 
-// The hardest decision, or one about the obstacle that is hit: for a tie with the one that would be hit next.
+// The hardest decision, or one about the obstacle that is hit; a tie is with the obstacle that would be hit
+// next.
 NearDecision drawn_decision(Random& random, const Query& query, const Answer& exact,
                             const std::optional<oracle::HardestDecision>& hardest, const Place& place) {
   const std::uint64_t kind = random.below(8);

@@ -1,6 +1,6 @@
-// A start moved so that a decision about an obstacle, or about two, is as close as it can be. Small
-// blind moves do not come there: of an ordinary query the margin is some 2^50 ulps, and the decisions whose
-// error bounds a fast engine lives by are those within a few.
+// Moves a start so that a decision about an obstacle, or about two, is as close as it can be. Small blind
+// moves do not get there: an ordinary query's margin is about 2^50 ulps, but the decisions that test a fast
+// engine's error bounds have margins of a few ulps.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,10 @@
 namespace lorentz::fuzz {
 
 /// The query with its start moved to where an obstacle is just met, where it just contains x, or where two
-/// are entered at the same time, to the last bit that one component of x has, and some bits further if that
-/// component can be near zero. Of the decisions it takes the hardest so far, or draws one about the obstacle
-/// that is hit. x then is rounded to the place's precision. Nothing if no obstacle is hit, or the place is out of reach; the result may have any answer.
+/// obstacles are entered at the same time. That is exact to the last bit of one component of x, and to some
+/// bits more if that component can be near zero. The decision is the hardest so far, or a drawn one about the
+/// obstacle that is hit. x is then rounded to the place's precision. Nothing if no obstacle is hit, or the
+/// place is out of reach. The result may have any answer.
 std::optional<Query> query_near_decision(cases::Random& random, const question::Place& place,
                                          const Query& query, const Answer& exact,
                                          const std::optional<oracle::HardestDecision>& hardest);

@@ -1,6 +1,6 @@
 // Coarse steps come first, because each may save hundreds of fine ones: all numbers rounded at once, the unit
-// lattice in place of the scene, the velocity as small integers. A step that fails costs one try; what was
-// tried once is not tried again.
+// lattice in place of the scene, the velocity as small integers. A step that fails costs one try; no case is
+// tried twice.
 #include "fuzz/examine/shrink.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 // ---- numbers
 
-/// Calls f for each number of the case that means something.
+/// Calls f for each number of the case that has a meaning.
 template <class TheScene, class TheQuery, class F>
 void for_each_number(TheScene& scene, TheQuery& query, const F& f) {
   const int dimension = scene.dimension;
@@ -46,7 +46,7 @@ int exponent_of_lowest_bit(double x) {
 
 enum class ShrinkWay { nearest, down, up };
 
-/// x to so many significant bits.
+/// Rounds x to this number of significant bits.
 double rounded_to(double x, int bits, ShrinkWay way) {
   if (x == 0 || !std::isfinite(x)) return x;
   const int lowest = std::ilogb(x) - bits + 1;
@@ -58,7 +58,7 @@ double rounded_to(double x, int bits, ShrinkWay way) {
   return std::isfinite(result) ? result : x;
 }
 
-/// x to a multiple of 2^-places.
+/// Rounds x to a multiple of 2^-places.
 double on_grid(double x, int places) {
   return std::fabs(x) < 0x1p40 ? std::ldexp(std::nearbyint(std::ldexp(x, places)), -places) : x;
 }
@@ -140,7 +140,7 @@ class Shrinker {
     }
   }
 
-  // As many unit vectors as the lattice has.
+  // Sets as many unit vectors as the lattice has vectors.
   static void set_unit_vectors(Scene& scene, std::size_t l) {
     Lattice& lattice = scene.lattices[l];
     for (int i = 0; i < lattice.rank(scene.dimension); ++i) {
@@ -149,7 +149,7 @@ class Shrinker {
     }
   }
 
-  // The unit lattice and one ball, the query as it is, or in the coordinates of the cell.
+  // Tries the unit lattice with one ball, the query as it is, or in the coordinates of the cell.
   void to_unit_lattice() {
     if (is_unit_scene(best_.scene)) return;
     const int dimension = best_.scene.dimension;
@@ -228,7 +228,7 @@ class Shrinker {
       offer([](Candidate& one) { one.query.from.reset(); });
     }
     go_home();
-    // Unit lattices do not mind a reflection; it is offered where it leaves fewer numbers below 0.
+    // Unit lattices are symmetric under a reflection; it is offered if it leaves fewer numbers below 0.
     for (int i = 0; i < best_.scene.dimension; ++i) reflect(i);
   }
 
@@ -241,8 +241,8 @@ class Shrinker {
     });
   }
 
-  // To a cell near the origin, `from` with it. (For several lattices the first counts, and the failure may
-  // not be kept.)
+  // Moves the query to a cell near the origin, and `from` with it. (With several lattices the first one
+  // counts, and the failure may be lost.)
   void go_home() {
     const Scene& scene = best_.scene;
     if (scene.lattices[0].missing > 0) return;
@@ -270,7 +270,7 @@ class Shrinker {
     }
   }
 
-  // As a multiple of small integers, the smallest first; or at least of a length of about 1.
+  // Tries a velocity of small integers, the smallest first; or at least one of a length of about 1.
   void simplify_velocity() {
     const Vec& v = best_.query.v;
     const double largest = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
@@ -319,7 +319,7 @@ class Shrinker {
 
   // ---- the flight
 
-  // Starts later on the flight, a quarter of it at least, on a grid that keeps the start simple.
+  // Starts later on the flight, by a quarter of it at least, on a grid that keeps the start simple.
   void shorten() {
     if (!length_ || flight_ < 0) return;
     const Query query = best_.query;
@@ -339,8 +339,8 @@ class Shrinker {
 
   // ---- trying
 
-  /// Keeps what `change` makes of the best case if that is simpler, and still fails. With a limit to the
-  /// flight no simpler is needed, but a shorter flight.
+  /// Keeps what `change` makes of the best case if that is simpler and still fails. With `shorter_than` it
+  /// need not be simpler, but the flight must be shorter.
   template <class Change>
   bool offer(const Change& change, double shorter_than = -1) {
     if (is_spent()) return false;
@@ -385,7 +385,7 @@ class Shrinker {
   double tries_left_;
   int tries_ = 0;
   long score_ = 0;
-  double flight_ = -1;  // of the best case; not known of the one given
+  double flight_ = -1;  // of the best case; not known for the given one
   std::unordered_set<std::uint64_t> seen_;
 };
 

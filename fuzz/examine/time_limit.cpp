@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Where nothing is hit.
+// The time used if nothing is hit.
 constexpr double kSomeTime = 100;
 
-// How near `before` and `after` come.
+// The range of the bits by which `before` and `after` differ from the time.
 constexpr int kFewestBits = 20, kMostBits = 51;
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 namespace lorentz::fuzz {
 
-/// Where a limit is, seen from the time t of the hit.
+/// The place of a limit, relative to the time t of the hit.
 struct LimitAt {
   enum Side { none, time, below, above, half, twice, before, after };
 
@@ -21,16 +21,17 @@ struct LimitAt {
   friend bool operator==(const LimitAt&, const LimitAt&) = default;
 };
 
-/// Like "limit at the time"; empty for none.
+/// Like "limit at the time"; empty without a limit.
 std::string words_of(LimitAt limit);
 
-/// The one that such words end with; none of other words.
+/// The limit that such words end with; none for other words.
 LimitAt limit_in(std::string_view words);
 
-/// One for a question with this exact answer; where its time is not finite, none.
+/// A drawn limit for a question with this exact answer; none if its time is not finite.
 LimitAt drawn_limit(cases::Random& random, const Answer& exact);
 
-/// The limit of a question with this exact answer. `never` and `inside` have no time: any limit will do.
+/// The limit of a question with this exact answer. `never` and `inside` have no time, so a fixed time is
+/// used.
 double limit_of(LimitAt limit, const Answer& exact);
 
 }  // namespace lorentz::fuzz

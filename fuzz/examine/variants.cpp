@@ -14,7 +14,7 @@ using namespace cases;
 
 namespace {
 
-// A bit of the fraction.
+// Flips a bit of the fraction.
 double with_bit_flipped(Random& random, double x, NumberFormat precision) {
   if (precision == NumberFormat::binary32)
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(static_cast<float>(x)) ^
@@ -22,7 +22,7 @@ double with_bit_flipped(Random& random, double x, NumberFormat precision) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) ^ (std::uint64_t{1} << random.below(52)));
 }
 
-// One move; the result may be an invalid query.
+// Makes one move; the result may be an invalid query.
 Query one_move(Random& random, const Scene& scene, Query query, NumberFormat precision) {
   const auto dimension = static_cast<std::uint64_t>(scene.dimension);
   Vec& a = random.one_in(2) ? query.x : query.v;
@@ -99,7 +99,7 @@ Query next_query(Random& random, const Place& place, const Variant& here, int mo
   Query query = here.query;
   const Answer& exact = here.exact;
   if (random.one_in(12) && (exact.outcome == Outcome::hit || exact.outcome == Outcome::inside)) {
-    query.from = exact.obstacle;  // what comes next?
+    query.from = exact.obstacle;  // asks what is hit next
     return query;
   }
   return moved_query(random, place.scene(), query, place.claim().precision);

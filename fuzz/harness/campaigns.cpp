@@ -1,5 +1,5 @@
-// Any bytes as the store of a campaign. Promised: errors are of the documented types; the findings that are
-// read have no flaw, and another store gives them back as they are.
+// Any bytes as the store of a campaign. The harness checks that errors are of the documented types, and that
+// the findings that are read have no flaw and come back unchanged from another store.
 #include <unistd.h>
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 namespace lorentz::harness {
 namespace {
 
-// SQLite takes no file in memory for one.
+// SQLite does not take a file in memory for a file.
 class FileOnDisk {
  public:
   FileOnDisk() {

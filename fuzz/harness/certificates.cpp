@@ -1,7 +1,7 @@
-// Any bytes as scene lines and golden records, the header being given. Promised: no crash, no wait; and a
-// claim that the checker accepts, whatever its proof, is the oracle's answer, to the last digit. Besides the
-// record's own claim one is made that is false, but in nothing that can be seen of it alone: the obstacle
-// that would be hit if the first were not there, at the time at which it would be.
+// Any bytes as scene lines and golden records, after a given header. The harness checks that nothing crashes
+// or hangs, and that a claim that the checker accepts, whatever its proof, is the oracle's answer, to the
+// last digit. Besides the record's own claim it tries a false one that looks right in itself: the obstacle
+// that would be hit if the first were not there, at the time at which it would be hit.
 #include <algorithm>
 
 #include <lorentz/certificate_check.hpp>
@@ -14,10 +14,10 @@
 namespace lorentz::harness {
 namespace {
 
-// A proof that needs more is refused, and no loss: those of the golden sets need some tens.
+// A proof that needs more is refused. That loses nothing, because those of the golden sets need a few tens.
 constexpr long kMostWork = 20'000;
 
-// A decimal number however it is written: its digits without zeros at either end, and its power of ten.
+// A decimal number in any notation: its digits without zeros at either end, and its power of ten.
 struct DecimalDigits {
   std::string digits;
   long exponent = 0;
@@ -34,7 +34,7 @@ struct DecimalDigits {
     while (digits.ends_with('0')) digits.pop_back(), ++exponent;
     if (digits.empty()) exponent = 0;
   }
-  int written = 0;  ///< significant digits as they stand in the text
+  int written = 0;  ///< significant digits in the text
   friend bool operator==(const DecimalDigits& a, const DecimalDigits& b) {
     return a.digits == b.digits && a.exponent == b.exponent;
   }
@@ -57,7 +57,7 @@ void hold_against_oracle(const Scene& scene, const Query& query, const Answer& c
   if (request.digits > 0) same(claimed == DecimalDigits(exact.time_decimal), "the decimal time");
 }
 
-/// The scene that holds, with its checker.
+/// The current scene, with its checker.
 class ProofCheck {
  public:
   explicit ProofCheck(const Scene& scene)

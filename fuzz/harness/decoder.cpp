@@ -10,13 +10,13 @@
 namespace lorentz::harness {
 namespace {
 
-// Of the first vectors, in plain binary64: what is told from it only bounds costs.
+// The volume of the first vectors, in plain binary64: it is only used to bound costs.
 double volume(const std::array<Vec, 3>& a, int dimension) {
   if (dimension == 2) return std::fabs(a[0][0] * a[1][1] - a[0][1] * a[1][0]);
   return std::fabs(dot(a[0], cross(a[1], a[2])));
 }
 
-// Into the range of sizes, whatever the number is: the digits stay.
+// Moves the size of a number into the range; the digits stay.
 double folded(double a, int low, int high) {
   if (!std::isfinite(a))
     a = std::bit_cast<double>(std::bit_cast<std::uint64_t>(a) ^ (std::uint64_t{1} << 62));
@@ -63,7 +63,7 @@ double Decoder::raw() {
 }
 
 double Decoder::number(int low, int high) {
-  constexpr int kUsual = 200;  // beyond 2^200 flights of a thousand bits are right, and slow
+  constexpr int kUsual = 200;  // beyond 2^200 flights of a thousand bits are right, but slow
   const unsigned kind = byte();
   const auto any_earlier = [&] { return earlier_.empty() ? 1.0 : earlier_[byte() % earlier_.size()]; };
   const auto small = [&] { return static_cast<std::int8_t>(byte()); };
@@ -112,7 +112,7 @@ Lattice Decoder::lattice(int dimension) {
   if (kind & 1)
     for (int i = 0; i < dimension; ++i) lattice.vectors[i] = vec(dimension, -20, 4);
   if (!is_ordinary({dimension, {lattice}})) lattice = unit_scene(dimension, 0.25).lattices[0];
-  // One ball at the origin, which the engines treat apart, or any.
+  // One ball at the origin, for which the engines have special code, or any atoms.
   const Lattice usual = lattice;
   if (kind & 2)
     lattice.atoms[0].radius = std::fabs(number(-40, 1));

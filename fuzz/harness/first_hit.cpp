@@ -1,7 +1,7 @@
-// Bytes as a scene and a few flights, one after the other (decoder.hpp says in what bounds): the engines
-// against the exact oracle, and its answer against the check of its proof. Promised: `reduction` decides as
-// the oracle does or says that it does not know, the same on every processor; `certified` answers as the
-// oracle does, to the bit; the oracle's answer has a proof that its check accepts.
+// Bytes as a scene and a few flights, one after the other (decoder.hpp gives the bounds). The harness
+// compares the engines with the exact oracle, and checks the proof of its answer. `reduction` decides as the
+// oracle does or answers `undecided`, the same on every processor. `certified` answers as the oracle does, to
+// the bit. The oracle's answer has a proof that its check accepts.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -27,7 +27,7 @@ bool same_bits(const Flight& a, const Flight& b) {
          std::memcmp(&a.time, &b.time, sizeof a.time) == 0;
 }
 
-/// A scene with everyone who answers in it.
+/// A scene with all that answer in it.
 class HarnessCheck {
  public:
   explicit HarnessCheck(const Scene& scene)
@@ -37,7 +37,7 @@ class HarnessCheck {
     split_.emplace(scene, Reduction::Processor::without_fma);
   }
 
-  /// The exact answer, when all others have been held against it.
+  /// The exact answer, after all others have been compared with it.
   Answer check(const Query& query) const {
     oracle::Request digits;
     digits.digits = 40;
@@ -85,7 +85,7 @@ class HarnessCheck {
       require(same_answer(answer_of(rounded), exact), "a time that reduction calls rounded is rounded", text);
   }
 
-  // What can be run again with `lorentz first-hit`.
+  // A stream that `lorentz first-hit` can run again.
   std::string stream(const Query& query, const Answer& exact, const Answer& given) const {
     std::string text;
     append_scene_line(text, scene_);
@@ -106,8 +106,8 @@ class HarnessCheck {
   std::optional<Reduction> fused_, split_;
 };
 
-/// From the obstacle that was hit, at the place rounded, which may be in it or beside it; nothing if that is
-/// too far away.
+/// A flight from the obstacle that was hit, at the rounded place, which may be in it or beside it; nothing if
+/// that is too far away.
 std::optional<Query> flight_after(const Query& query, const Answer& exact, const Vec& v) {
   if (exact.outcome != Outcome::hit) return std::nullopt;
   Query next{query.x, v, exact.obstacle};

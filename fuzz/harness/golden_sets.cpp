@@ -1,5 +1,6 @@
-// Any bytes as a golden set. Promised: no crash, no wait; an error is of the documented type; each record is
-// either a query or says why it is none; and the set that is written of what was read reads the same again.
+// Any bytes as a golden set. The harness checks that nothing crashes or hangs, that errors are of the
+// documented type, that each record is a query or says why it is invalid, and that the set, written and read
+// again, is the same.
 #include "fuzz/harness/harness.hpp"
 #include "fuzz/harness/input_file.hpp"
 #include "fuzz/harness/same.hpp"
@@ -8,13 +9,13 @@
 namespace lorentz::harness {
 namespace {
 
-// What a reader makes of a file, and as it is written again.
+// What a reader finds in a file, and that set written again.
 struct ReadSet {
   std::vector<golden::Record> records;
   std::string text;
 };
 
-// Nothing if it was refused, for this reason: as a whole, also if it is bad from some line on only.
+// Nothing if the set was refused, for this reason: as a whole, even if it is bad only from some line on.
 std::optional<ReadSet> set_in(const BytesAsFile& file, std::string& reason) {
   try {
     golden::Reader reader(file.path());
@@ -44,7 +45,7 @@ bool same_proof(const oracle::Certificate& a, const oracle::Certificate& b) {
     const oracle::Window &one = a.windows[i], &two = b.windows[i];
     if (one.lattice != two.lattice || one.atom != two.atom || one.basis != two.basis) return false;
     for (const auto end : {&oracle::Window::from, &oracle::Window::to}) {
-      // One end may be written in several ways: as what number it is, or else as a text.
+      // An end may be written in several ways: compared as a number if it is one, otherwise as text.
       const auto value = oracle::binary64_of(one.*end), other = oracle::binary64_of(two.*end);
       if (value != other || (!value && oracle::text_of(one.*end) != oracle::text_of(two.*end))) return false;
     }

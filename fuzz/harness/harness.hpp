@@ -1,5 +1,5 @@
-// What all harnesses have in common. A harness turns any bytes into work for a part of the project and holds
-// the outcome against a promise; a broken promise ends the program, so that whoever feeds it bytes notices.
+// The parts that all harnesses share. A harness turns any bytes into work for a part of the project and
+// checks a promise about the outcome. A broken promise ends the program, so that the fuzzer notices it.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-/// The entry point that libFuzzer calls (and replay_main.cpp): one input.
+/// The entry point that libFuzzer (or replay_main.cpp) calls with one input.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace lorentz::harness {

@@ -1,4 +1,4 @@
-// Bytes as a file, for readers that want a path; and lines of which every byte too many that is read is seen.
+// Bytes as a file, for readers that want a path; and lines that expose every read beyond their end.
 #pragma once
 
 #include <cstddef>
@@ -31,8 +31,8 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// A line of text in memory of its own that ends where the promised padding ends: in a LineReader's buffer
-/// nobody would notice who reads farther.
+/// A line of text in memory of its own that ends where the promised padding ends. In a LineReader's buffer a
+/// read beyond that would go unnoticed.
 class LoneLine {
  public:
   explicit LoneLine(std::string_view text, std::size_t number = 1);

@@ -12,7 +12,7 @@ struct Span {
   std::size_t begin, end;
 };
 
-/// Where numbers stand (also within strings), and what stands between commas: members, elements, lines.
+/// The places of numbers (also within strings), and of what is between commas: members, elements, lines.
 struct NumberParts {
   std::vector<Span> numbers, items;
 
@@ -87,7 +87,7 @@ class Editor {
     return replaced(span, other_digit(number));
   }
 
-  // By ulps, or a little more, or in size.
+  // Moves a number by ulps, or a little more, or changes its size.
   std::string near(double value) {
     const std::size_t kind = below(4);
     if (kind == 0) value = std::ldexp(value, static_cast<int>(below(7)) - 3);
@@ -99,7 +99,8 @@ class Editor {
     return {text, std::to_chars(text, text + sizeof text, std::isfinite(value) ? value : 1.0).ptr};
   }
 
-  // An integer, or hexadecimal: the last digit mostly, which is where a proof is tight.
+  // Changes a digit of an integer or a hexadecimal number: at least half of the time the last one, where a
+  // proof is tight.
   std::string other_digit(std::string_view number) {
     std::string other(number);
     std::size_t place = other.size() - 1 - (below(2) == 0 ? below(other.size()) : 0);
@@ -133,7 +134,7 @@ class Editor {
     }
   }
 
-  // One with the same key, if there is another in three tries.
+  // An item with the same key, if three tries find one.
   Span any_like(std::string_view item) {
     Span span = any(parts_.items);
     const std::string_view key = item.substr(0, item.find(':'));

@@ -1,5 +1,5 @@
-// Small changes of JSON text that leave it JSON, mostly: where every bit counts, bytes changed at random come
-// to nothing but syntax errors.
+// Small changes of JSON text that usually leave it JSON. Where every bit counts, random changes of bytes give
+// nothing but syntax errors.
 #pragma once
 
 #include <random>
@@ -8,8 +8,8 @@
 
 namespace lorentz::harness {
 
-/// The text with one change: a number moved a little, or its sign, its size, or by another of the text; a
-/// member, an element or a line left out, doubled, or in place of another.
+/// The text with one change. A number is moved a little, gets another sign or size, or is replaced by another
+/// number of the text; a member, an element or a line is left out, doubled, or put in place of another.
 std::string edited(std::string_view text, std::minstd_rand& random);
 
 }  // namespace lorentz::harness

@@ -1,6 +1,6 @@
-// Any bytes as a query stream and as an answer stream. Promised: no crash, no wait; an error is of the
-// documented type, and its message makes a line of an answer stream; what is read is free of flaws, and
-// written and read again it is the same.
+// Any bytes as a query stream and as an answer stream. The harness checks that nothing crashes or hangs, that
+// errors are of the documented type and their messages make a line of an answer stream, and that what is read
+// is free of flaws and the same after being written and read again.
 #include <lorentz/exchange.hpp>
 #include <lorentz/scene_check.hpp>
 #include "fuzz/harness/harness.hpp"
@@ -69,7 +69,7 @@ void check_answer(const Id& id, const Answer& answer, int dimension) {
   require(id_again == id && same(again, answer), "an answer that is read again is the same", line);
 }
 
-// As a query stream's user goes through it: a bad scene leaves none.
+// Reads a query stream as its user does: a bad scene leaves the reader without a scene.
 class QueryStreamCheck {
  public:
   void see(const LineReader::Line& line) {

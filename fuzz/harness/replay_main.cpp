@@ -1,5 +1,5 @@
-// Runs a harness on the files and folders that it is given, without libFuzzer: so every build has the
-// harnesses, and what they once found stays found. With --edits N on N small changes of each as well.
+// Runs a harness on the given files and folders, without libFuzzer. So every build has the harnesses, and
+// what they once found stays found. With --edits N it also runs N small changes of each file.
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
@@ -18,7 +18,7 @@ namespace {
 std::minstd_rand random_bits;
 }
 
-/// What libFuzzer would offer to a harness's own mutator: here a byte or two at random.
+/// In place of libFuzzer's function for a harness's own mutator: changes a byte or two at random.
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t) {
   for (auto count = 1 + random_bits() % 2; size > 0 && count > 0; --count)
     data[random_bits() % size] = static_cast<std::uint8_t>(random_bits() % 256);
@@ -47,13 +47,13 @@ Bytes content_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// In memory of its own size, so that a byte too many that is read is seen.
+// The input is in memory of its own size, so that a read beyond it is noticed.
 void run(const Bytes& input) {
   const Bytes lone(input.begin(), input.end());
   LLVMFuzzerTestOneInput(lone.data(), lone.size());
 }
 
-// The n-th change of an input, which follows from both alone.
+// The n-th change of an input, which depends on these two alone.
 Bytes edited(Bytes input, unsigned n) {
   const std::size_t size = input.size(), most = size + 256;
   input.resize(most);

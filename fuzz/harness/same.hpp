@@ -1,4 +1,5 @@
-// What was written and read again must be the same to the bit: zeros have signs.
+// Comparisons of data that was written and read again: it must be the same to the bit, because zeros have
+// signs.
 #pragma once
 
 #include <cstring>
@@ -50,7 +51,8 @@ inline bool same(const Scene& a, const Scene& b) {
   return true;
 }
 
-/// What an answer's line says of it: of `never` that is no obstacle and no time, whatever was read besides.
+/// Compares what an answer's line says: for `never` that is neither an obstacle nor a time, whatever else was
+/// read.
 inline bool same(const Answer& a, const Answer& b) {
   if (a.outcome != b.outcome) return false;
   switch (a.outcome) {

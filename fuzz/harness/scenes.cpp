@@ -1,6 +1,6 @@
-// Any bytes as a scene file, TOML or JSON. Promised: no crash, no wait; an error is of the documented type
-// and names the file; a scene that is read is free of flaws, and written and read again, as a file and as a
-// line of a stream, it is the same.
+// Any bytes as a scene file, TOML or JSON. The harness checks that nothing crashes or hangs, that errors are
+// of the documented type and name the file, and that a scene that is read is free of flaws and the same after
+// being written and read again, as a file and as a line of a stream.
 #include <lorentz/exchange.hpp>
 #include <lorentz/scene_check.hpp>
 #include "fuzz/harness/harness.hpp"
@@ -10,7 +10,7 @@
 namespace lorentz::harness {
 namespace {
 
-// Nothing: it was refused, as it should be.
+// Nothing if the scene was refused, as it should be.
 std::optional<Scene> scene_in(const BytesAsFile& file) {
   try {
     return read_scene_file(file.path());

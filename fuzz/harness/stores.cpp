@@ -1,5 +1,6 @@
-// Any bytes as pieces of every kind, a line each. Promised: errors are of the documented type; a piece that was
-// read is written as one that reads the same; and an account, or a cell, without a flaw can be added up and written.
+// Any bytes as pieces of every kind, one per line. The harness checks that errors are of the documented type,
+// that a piece that was read is written as one that reads the same, and that an account or a cell without a
+// flaw can be added up and written.
 #include "fuzz/harness/harness.hpp"
 #include "fuzz/harness/input_file.hpp"
 #include "report/cell.hpp"
@@ -12,7 +13,7 @@
 namespace lorentz::harness {
 namespace {
 
-// Nothing if read() throws an InputError; all else it throws ends the program.
+// Nothing if read() throws an InputError; any other exception ends the program.
 template <class Read>
 auto read_or_refused(const Read& read) -> std::optional<decltype(read())> {
   try {
@@ -22,7 +23,7 @@ auto read_or_refused(const Read& read) -> std::optional<decltype(read())> {
   }
 }
 
-// What the committed store of flights is of.
+// The plan of the committed store of flights.
 const flights::FlightsPlan& plan() {
   static const flights::FlightsPlan plan = [] {
     flights::FlightsPlan made;

@@ -1,12 +1,12 @@
 // Other cells of one lattice.
 //
 // With an integer matrix M the vectors u'_j = sum_i M_ij u_i span a lattice in which the old one has
-// q = |det M| classes: n and m are of one class if M^-1 (n - m) is an integer. For each atom p there are q
-// atoms p + c_k in the new scene, one for the representative c_k of each class, so that
+// q = |det M| classes: n and m are of one class if M^-1 (n - m) is an integer. Each atom p becomes q atoms
+// p + c_k in the new scene, one for the representative c_k of each class, so that
 //   n = M n' + c_k.
-// At q = 1 this is another basis, at q > 1 a superlattice. M is a product of elementary matrices, each of
-// which is tried as large as it was drawn and then made smaller until the vectors are binary64 values: a
-// power of two always is where the components do not meet, any number is where they have few bits.
+// At q = 1 this is another basis, at q > 1 a superlattice. M is a product of elementary matrices. Each of
+// them is tried as large as it was drawn and then made smaller until the vectors are binary64 values. A power
+// of two always works where the components do not meet; any number works where they have few bits.
 #include <algorithm>
 #include <cstdlib>
 
@@ -81,7 +81,7 @@ class Changing {
   Changing(const std::array<Vec, 3>& vectors, int rank)
       : rank_(static_cast<std::uint64_t>(rank)), vectors_(vectors) {}
 
-  // u_j += c u_i, as large a c as goes.
+  // u_j += c u_i, with c as large as possible.
   void shear(Random& random) {
     if (rank_ < 2) return;
     const std::uint64_t j = random.below(rank_), i = (j + 1 + random.below(rank_ - 1)) % rank_;
@@ -136,7 +136,7 @@ class Changing {
   IntegerMatrix m_ = identity();
 };
 
-// One of each class, the first in a box that has them all.
+// A representative of each class, the first in a box that contains all classes.
 std::vector<IntegerVec> classes_of(const IntegerMatrix& m, int rank) {
   const IntegerMatrix to_cells = adjugate(m);
   const Z index = abs(determinant(m));
@@ -155,7 +155,7 @@ std::vector<IntegerVec> classes_of(const IntegerMatrix& m, int rank) {
   return classes;
 }
 
-// A copy of each atom for each class, or nothing if a position is no binary64 value.
+// A copy of each atom for each class, or nothing if a position is not a binary64 value.
 std::optional<std::vector<Atom>> copies_of(const Lattice& lattice, const std::vector<IntegerVec>& classes) {
   std::vector<Atom> atoms;
   for (const Atom& atom : lattice.atoms)

@@ -1,4 +1,4 @@
-// Sums of integer multiples of binary64 values, where they are binary64 values again.
+// Sums of integer multiples of binary64 values, if the sums are binary64 values again.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ using IntegerMatrix = std::array<IntegerVec, 3>;  ///< columns
 
 inline constexpr int kDigits = 53, kLeastExponent = -1074, kLargestExponent = 1023;
 
-/// mantissa 2^exponent, if a binary64 is that.
+/// mantissa 2^exponent, if that is a binary64 value.
 inline std::optional<double> to_binary64(Z mantissa, long exponent) {
   if (mantissa == 0) return 0.0;
   const auto zeros = trailing_zeros(mantissa);
@@ -27,7 +27,7 @@ inline std::optional<double> to_binary64(Z mantissa, long exponent) {
   return std::ldexp((mantissa >> zeros).get_d(), static_cast<int>(exponent + zeros));
 }
 
-/// a + n_1 u_1 + n_2 u_2 + n_3 u_3, if binary64 values are that.
+/// a + n_1 u_1 + n_2 u_2 + n_3 u_3, if the components are binary64 values.
 inline std::optional<Vec> exact_sum(const Vec& a, const IntegerVec& n, const std::array<Vec, 3>& u) {
   Vec result{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -45,7 +45,7 @@ inline std::optional<Vec> exact_sum(const Vec& a, const IntegerVec& n, const std
   return result;
 }
 
-/// a times 2^exponent, if binary64 values are that.
+/// a times 2^exponent, if the components are binary64 values.
 inline std::optional<Vec> exact_scaled(const Vec& a, int exponent) {
   Vec result{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -85,7 +85,7 @@ inline Z determinant(const IntegerMatrix& m) {
   return oracle::dot(m[0], oracle::cross(m[1], m[2]));
 }
 
-/// Vectors as whole multiples of 2^exponent; in 2D the third is (0, 0, 1) of these.
+/// Vectors as integer multiples of 2^exponent; in 2D the third is (0, 0, 1) in this unit.
 inline IntegerMatrix to_integers(const std::array<Vec, 3>& vectors, int dimension, long exponent) {
   IntegerMatrix m = identity();
   for (int k = 0; k < dimension; ++k)

@@ -78,7 +78,7 @@ class MovedScene final : public RewordingStep {
   Vec by_;
 };
 
-// An atom to the origin, or by numbers of few bits: in the cell, or far away.
+// A translation that moves an atom to the origin, or one by numbers of few bits: in the cell, or far away.
 Vec drawn_translation(Random& random, const Scene& scene) {
   Vec by{};
   const Lattice& lattice = scene.lattices[random.below(scene.lattices.size())];
@@ -202,7 +202,7 @@ class NoChange final : public RewordingStep {
   std::string words_;
 };
 
-// At most as far as 2^40 of what is needed, or at the end of the range.
+// At most 2^40 times what is needed, or anything up to the end of the range.
 double drawn_height(Random& random, int least) {
   if (random.one_in(8)) return std::ldexp(1, static_cast<int>(random.integer(least, kLargestExponent)));
   const auto more = static_cast<int>(random.one_in(2) ? random.below(3) : random.below(41));
@@ -243,7 +243,7 @@ std::unique_ptr<RewordingStep> draw_moved_scene(Random& random, Scene& scene) {
 
 std::unique_ptr<RewordingStep> draw_scaled(Random& random, Scene& scene) {
   const BitRange range = range_of(scene);
-  // least <= 0 <= most: the numbers are binary64 values as they are.
+  // least <= 0 <= most, because the numbers are binary64 values as they are.
   const long least = kLeastExponent - range.lowest, most = kLargestExponent - range.highest;
   long exponent = random.integer(least, most);
   switch (random.below(4)) {
@@ -272,9 +272,10 @@ std::unique_ptr<RewordingStep> draw_order(Random& random, Scene& scene) {
   return step;
 }
 
-// A ball or an ellipsoid whose centre is in the plane z = 0 meets it in the disc or ellipse that it was. With
-// a third vector (w, h), h more than twice any number of the scene, no other layer's comes near the plane,
-// and the layer 0 is the old lattice, whatever w is. A row, or single obstacles, are what they were.
+// A ball or an ellipsoid whose centre is in the plane z = 0 meets that plane in the disc or ellipse that it
+// was. With a third vector (w, h), h more than twice any number of the scene, no obstacle of another layer
+// comes near the plane. The layer 0 is the old lattice, whatever w is. A row, or single obstacles, stay what
+// they were.
 std::unique_ptr<RewordingStep> draw_plane_in_space(Random& random, Scene& scene) {
   if (scene.dimension != 2) return nullptr;
   const int least = static_cast<int>(range_of(scene).highest) + 2;
@@ -298,7 +299,8 @@ std::unique_ptr<RewordingStep> draw_plane_in_space(Random& random, Scene& scene)
   return std::make_unique<NoChange>("plane in space");
 }
 
-// r times a signed permutation of the unit vectors; of ellipsoids the semiaxes exchanged and reflected.
+// A ball becomes an ellipsoid: r times a signed permutation of the unit vectors. The semiaxes of ellipsoids
+// are exchanged and reflected.
 std::unique_ptr<RewordingStep> draw_ellipsoids(Random& random, Scene& scene) {
   const Scene before = scene;
   for (Lattice& lattice : scene.lattices)

@@ -23,14 +23,14 @@ std::string printed(const char* format, double value) {
   return text;
 }
 
-// Correctly rounded, whatever the reader under examination does.
+// Reads with correct rounding, whatever the reader under examination does.
 bool means(const std::string& text, double value) {
   double read = 0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), read);
   return end.ec == std::errc() && read == value;
 }
 
-// JSON with the freedoms that it leaves.
+// Writes JSON with all the freedom that JSON allows.
 class FreeJsonWriter {
  public:
   explicit FreeJsonWriter(Random& random)

@@ -1,4 +1,4 @@
-// The same scene and query written otherwise: read, they must be the same numbers.
+// The same scene and query in another notation: after reading, they must have the same numbers.
 #pragma once
 
 #include <functional>
@@ -18,12 +18,12 @@ struct Misreading {
   std::string line;
 };
 
-/// Reads a line of a query stream, a scene's without a scene.
+/// Reads a line of a query stream; a scene's line is read without a scene.
 using ReadLine = std::function<StreamItem(const std::string& line, const Scene* scene)>;
 
-/// Writes the scene and the query as lines of a query stream, in a notation that is drawn: digits, order and
-/// escapes of keys, blanks, line ends. Nothing if both are read back as they are, by
-/// this program's reader or another one.
+/// Writes the scene and the query as lines of a query stream, in a drawn notation: digits, order and escapes
+/// of keys, blanks, line ends. Nothing if both are read back as they are, by this program's reader or another
+/// one.
 std::optional<Misreading> misreading(cases::Random& random, const Scene& scene, const Query& query,
                                      const ReadLine& read = {});
 

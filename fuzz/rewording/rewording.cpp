@@ -19,9 +19,10 @@ constexpr std::uint64_t kMostSteps = 4;
 constexpr int kFewestBits = 1, kMostBits = 50;
 constexpr long kMostBitsOfPeriod = 20;
 
-// The vectors that every lattice of a scene repeats after: of lattice 0 all multiples of `multiple`, if that
-// is no huge number. For each lattice l a matrix P with U_l P k = multiple U_0 k. A lattice of fewer vectors
-// than dimensions has its own, among others none.
+// The vectors after which every lattice of a scene repeats: all multiples of `multiple` of lattice 0's
+// vectors, if `multiple` is at most kMostBitsOfPeriod bits long. For each lattice l a matrix P with U_l P
+// k = multiple U_0 k. A lattice of fewer vectors than dimensions has its own if it is the only one; otherwise
+// the scene has none.
 struct Periods {
   explicit Periods(const Scene& scene) {
     if (!is_crystal(scene)) {
@@ -80,7 +81,8 @@ struct Rewording::Impl {
         steps.push_back(std::move(step));
   }
 
-  // By up to 2^50 periods, or by fewer where the sum is no binary64 value: along one vector or along all.
+  // Moves the start by up to 2^50 periods, or by fewer if the sum is not a binary64 value: along one vector
+  // or along all.
   void move_start(Random& random, Reworded& reworded) const {
     const auto drawn = static_cast<int>(random.integer(kFewestBits, kMostBits));
     const bool along_one = random.one_in(2), powers = random.one_in(2);
@@ -104,7 +106,7 @@ struct Rewording::Impl {
     }
   }
 
-  // Far from the origin most starts are no binary64 values. The one nearest to it is another question.
+  // Far from the origin most starts are not binary64 values. The nearest binary64 start is another question.
   void round_start(const std::array<std::int64_t, 3>& k, const IntegerVec& cells, Reworded& reworded) const {
     Vec x = reworded.query.x;
     for (std::size_t j = 0; j < 3; ++j)
@@ -123,7 +125,7 @@ struct Rewording::Impl {
       least = std::max(least, kLeastExponent - oracle::OddMantissa(component).exponent);
       most = std::min<long>(most, kLargestExponent - std::ilogb(component));
     }
-    // least <= 0 <= most: the components are binary64 values as they are.
+    // least <= 0 <= most, because the components are binary64 values as they are.
     const long drawn = random.one_in(4)   ? least + static_cast<long>(random.below(4))
                        : random.one_in(3) ? most - static_cast<long>(random.below(4))
                        : random.one_in(2) ? static_cast<long>(random.integer(-8, 8))
@@ -204,8 +206,8 @@ ObstacleId Rewording::back(ObstacleId id, const Reworded& reworded) const {
   return id;
 }
 
-// The rounded time is the rounded time in other units where both are normal numbers; a time that underflowed,
-// or lies beyond the largest, has lost what decides.
+// The rounded time in other units is the time rounded there if both are normal numbers. A time that
+// underflowed, or lies beyond the largest number, has lost the digits that decide.
 std::optional<Answer> Rewording::carried(const Answer& exact, const Reworded& reworded) const {
   if (reworded.rounded) return std::nullopt;
   if (exact.outcome == Outcome::never) return Answer::never();

@@ -1,5 +1,5 @@
 // The same question in other words: another basis, units, axes, names, a start elsewhere in the lattice. The
-// answer must be the same one. docs/campaigns.md, "In other words", has the relations.
+// answer must be the same. docs/campaigns.md, "In other words", lists the relations.
 #pragma once
 
 #include <array>
@@ -16,16 +16,16 @@
 
 namespace lorentz::fuzz {
 
-/// A query in the words of a rewording, and what of them is its own and not the scene's.
+/// A query in the words of a rewording, with the changes that belong to the query and not to the scene.
 struct Reworded {
   Query query;
-  std::array<std::int64_t, 3> periods{};  ///< its start was moved by so many periods of the scene
+  std::array<std::int64_t, 3> periods{};  ///< periods of the scene by which its start was moved
   int speed = 0;                          ///< its velocity was multiplied by 2^speed
   bool rounded = false;  ///< its start is the old one moved, rounded to binary64: another question
 };
 
-/// Other words for one scene: a chain of a few steps, each drawn as mild or as hard as the numbers let it go.
-/// Everything is exact: what cannot be said in binary64 is not said.
+/// Other words for one scene: a chain of a few steps, each drawn as mild or as hard as the numbers allow.
+/// Everything is exact: what binary64 cannot express is not said.
 class Rewording {
  public:
   /// The scene must be without flaws, its vectors independent.
@@ -41,16 +41,17 @@ class Rewording {
   std::string words(const Reworded& reworded) const;
 
   /// A query without flaws in the new words, its start often moved by periods of the scene and its velocity
-  /// in other units; nothing if its numbers are no binary64 values there.
+  /// in other units; nothing if its numbers are not binary64 values there.
   std::optional<Reworded> reword(cases::Random& random, const Query& query) const;
 
-  /// The obstacle of the old words in the new ones, and of the new ones in the old.
+  /// Maps an obstacle from the old words to the new ones, and back.
   ObstacleId there(ObstacleId id, const Reworded& reworded) const;
   ObstacleId back(ObstacleId id, const Reworded& reworded) const;
 
-  /// The exact answer to the old question as one to the new: `hit`, `inside` or `never`. Of obstacles entered
-  /// together the first by name is another one there, maybe; what is said is true but for that. Nothing where
-  /// the old answer does not tell the time's rounding in the new units, or the question is another one.
+  /// The exact answer to the old question as one to the new: `hit`, `inside` or `never`. Where obstacles are
+  /// entered together, another of them may be the first by name there; everything else is exact. Nothing if
+  /// the old answer does not determine the time's rounding in the new units, or if the question is another
+  /// one.
   std::optional<Answer> carried(const Answer& exact, const Reworded& reworded) const;
 
  private:

@@ -1,4 +1,4 @@
-// The steps that rewordings are chains of.
+// The steps of which rewordings are chains.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace lorentz::fuzz {
 
-/// Other words for one scene. What the two say of obstacles and of times is the same thing, exactly.
+/// Other words for one scene. What both say of obstacles and times is exactly the same.
 class RewordingStep {
  public:
   virtual ~RewordingStep() = default;
@@ -18,7 +18,7 @@ class RewordingStep {
   /// Like "basis 2^37".
   virtual std::string words() const = 0;
 
-  /// The same start and velocity; false where they are no binary64 values in the new words.
+  /// The same start and velocity in the new words; false if they are not binary64 values there.
   virtual bool reword(Vec& /*x*/, Vec& /*v*/) const { return true; }
 
   virtual void there(ObstacleId&) const {}
@@ -28,8 +28,9 @@ class RewordingStep {
   virtual int time_exponent() const { return 0; }
 };
 
-/// Draws a step and rewords the scene; null, with the scene as it was, where it does not go or would change
-/// nothing. How hard it goes is drawn, too: small and extreme steps are as frequent as all between.
+/// Draws a step and rewords the scene. Null, with the scene unchanged, if the step is impossible or would
+/// change nothing. The size of the step is drawn, too: small and extreme steps are as frequent as all
+/// between.
 using DrawStep = std::unique_ptr<RewordingStep> (*)(cases::Random&, Scene&);
 
 // cell_rewording.cpp

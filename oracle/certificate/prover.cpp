@@ -13,7 +13,7 @@
 namespace lorentz::oracle {
 namespace {
 
-// The first `rank` vectors: those that complete the lattice are left out.
+// The first `rank` vectors, without those that complete the lattice.
 template <std::size_t D>
 CertificateBasis certificate_basis(const Basis<D>& basis, std::size_t rank = D) {
   CertificateBasis result;
@@ -21,8 +21,8 @@ CertificateBasis certificate_basis(const Basis<D>& basis, std::size_t rank = D) 
   return result;
 }
 
-// The ends of a stretch as times T = s / v^2 2^exponent, rounded outwards by no more than a 64th of rho:
-// however long the window, what lies just beyond its end may be crowded.
+// The ends of a stretch as times T = s / v^2 2^exponent, rounded outwards by at most a 64th of rho, however
+// long the window is: there may be many obstacles just beyond its end.
 class Ends {
  public:
   Ends(const Z& low, const std::optional<Z>& high, const Z& rho, const Z& v2, long exponent)
@@ -58,8 +58,8 @@ ZVec<D> primitive_vector(ZVec<D> n) {
   return n;
 }
 
-// Bases of Z^d that begin with n, a vector without a common divisor; of its first `rank` coordinates, if the
-// others are 0.
+// Bases of Z^d that begin with n, a vector without a common divisor. If the coordinates of n after the first
+// `rank` are 0, the first `rank` vectors are a basis of Z^rank.
 std::array<ZVec<2>, 2> completed(const ZVec<2>& n) {
   const Bezout one = bezout(n[0], n[1]);
   return {n, ZVec<2>{-one.y, one.x}};
@@ -76,7 +76,7 @@ std::array<ZVec<3>, 3> completed(const ZVec<3>& n) {
   return {n, ZVec<3>{-pair.y, pair.x, 0}, ZVec<3>{-all.y * a, -all.y * b, all.x}};
 }
 
-// The product of two vectors' parts across v, times v^2.
+// The inner product of the parts of two vectors across v, times v^2.
 template <std::size_t D>
 struct AcrossForm {
   const ExactVelocity<D>& velocity;
@@ -85,11 +85,11 @@ struct AcrossForm {
   }
 };
 
-// That, and the product of the parts along v, in a window as long as it is wide.
+// The same, plus the product of the parts along v, scaled so that the window is as long as it is wide.
 template <std::size_t D>
 struct WindowForm {
   AcrossForm<D> across;
-  Z wide2, long2;  // squares, of h and of s; long2 = 0: a window without an end
+  Z wide2, long2;  // squares for h and for s; long2 = 0: a window without an end
 
   Z operator()(const LatticePoint<D>& a, const LatticePoint<D>& b) const {
     if (long2 == 0) return across(a, b);
@@ -98,7 +98,7 @@ struct WindowForm {
   }
 };
 
-// Vectors `first` and the next, made a short pair.
+// Makes the vectors `first` and `first` + 1 a short pair.
 template <std::size_t D, class Form>
 void shorten_pair(Basis<D>& basis, std::size_t first, const Form& form) {
   std::array<LatticePoint<D>, 2> pair{basis[first], basis[first + 1]};
@@ -107,8 +107,9 @@ void shorten_pair(Basis<D>& basis, std::size_t first, const Form& form) {
   basis[first + 1] = std::move(pair[1]);
 }
 
-// A row is the same wherever along v the next one begins. Where the numbers would become too long to be
-// checked, beside a step of hundreds of digits, it begins as near as it can.
+// A row is the same wherever along v it begins, so the vector b that leads to it may be changed by multiples
+// of the step. If the numbers of b would be too long to be checked, beside a step of hundreds of digits, the
+// row is made to begin as near as possible.
 template <std::size_t D>
 void shorten_along(const LatticePoint<D>& step, const ZVec<D>& v, LatticePoint<D>& b) {
   constexpr long kLongBits = 3000;
@@ -139,7 +140,7 @@ class Writer {
   }
 
  private:
-  // t v^2 rounded up, for the time t of the hit and the v of this view.
+  // t v^2 rounded up, where t is the time of the hit and v belongs to this view.
   Z s_of_hit(const View<D>& view, const ObstacleId& hit) const {
     const View<D> own = query_.view(scene_, hit.lattice, hit.atom);
     ZVec<D> c =
@@ -162,7 +163,8 @@ class Writer {
     });
   }
 
-  // One window, for a lattice of fewer than D vectors. A pair is made short in it, so that it has few rows.
+  // Adds one window, for a lattice of fewer than D vectors. A pair of vectors is made short in it, so that it
+  // has few rows.
   void add_window(const View<D>& view, int lattice, int atom, const Z& rho_above, const Z& low,
                   const std::optional<Z>& high) {
     Basis<D> basis = view.basis;
@@ -176,7 +178,7 @@ class Writer {
         {lattice, atom, ends.from, ends.to, certificate_basis<D>(basis, view.rank)});
   }
 
-  // Rows along v where there are such, else a window without an end.
+  // Adds rows along v if there are any, else a window without an end.
   void add_endless(const View<D>& view, int lattice, int atom, const Z& rho_above) {
     const ZVec<D> along = cramer(view.basis, view.velocity.v);
     if (is_copy<D>(along, view.rank))

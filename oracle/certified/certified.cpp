@@ -22,7 +22,8 @@ void Certified::first_hit(const Query& query, const Request& request, Answer& an
   answer = oracle_.first_hit(query, request);
 }
 
-// The fast engine's answer; false if it does not know it, or does not know the time to the last bit.
+// Gives the fast engine's answer. Returns false if the engine does not know it, or does not know the time to
+// the last bit.
 bool Certified::answer_fast(const Query& query, const Request& request, Answer& answer,
                             StageTally* tally) const {
   if (auto flaw = flaw_of(query, scene_)) {

@@ -1,17 +1,18 @@
-// The ellipsoids have no point in common iff a plane with some normal n parts them: n.c > sqrt(n.S1 n) +
-// sqrt(n.S2 n), c the vector between the centres. The square of the right side is the minimum over 0 < t < 1
-// of n.(S1/(1-t) + S2/t) n, so they are apart iff for some t
+// Two ellipsoids have no point in common iff a plane with some normal n separates them:
+// n.c > sqrt(n.S1 n) + sqrt(n.S2 n), where c is the vector between the centres. The square of the right side
+// is the minimum over 0 < t < 1 of n.(S1/(1-t) + S2/t) n, so they are apart iff for some t
 //
 //   F(t) = c.(S1/(1-t) + S2/t)^-1 c = t (1-t) c.((t S1 + (1-t) S2)^-1) c > 1,
 //
 // and they touch iff the largest F is 1 (Perram and Wertheim 1985; Wang, Wang and Kim 2001 have the same
-// polynomial as det(lambda A + B)). F is concave, F(0) = F(1) = 0. With lambda = (1-t)/t and denominators
-// cleared, F - 1 has the sign of
+// polynomial as det(lambda A + B)). F is concave, with F(0) = F(1) = 0. With lambda = (1-t)/t and
+// denominators cleared, F - 1 has the sign of
 //
 //   g(lambda) = lambda c.adj(S1 + lambda S2) c - (1 + lambda) det(S1 + lambda S2),    lambda > 0,
 //
-// of degree D + 1 with integer coefficients: two positive roots say apart, one (double) says touch, none
-// overlap. Sturm's theorem counts them.
+// a polynomial of degree D + 1 with integer coefficients. If it has two positive roots the ellipsoids are
+// apart, with one (double) root they touch, and with no positive root they overlap. Sturm's theorem counts
+// the roots.
 #include "oracle/contacts/ellipsoid_pair.hpp"
 
 #include "oracle/exact/polynomial.hpp"
@@ -57,7 +58,7 @@ Polynomial separation(const Form<D>& s1, const Form<D>& s2, const ZVec<D>& c) {
   return Polynomial({0, 1}) * form - Polynomial({1, 1}) * determinant_of(pencil, adj);
 }
 
-// How many different positive roots p has; p(0) is not zero.
+// The number of different positive roots of p; p(0) must not be zero.
 int positive_roots(const Polynomial& p) {
   const std::vector<Polynomial> chain = remainders(p, derivative(p));
   return sign_changes(chain, [](const Polynomial& each) { return sgn(each[0]); }) -

@@ -1,4 +1,4 @@
-// Two ellipsoids: apart, touching or overlapping, exactly. Private to oracle/.
+// Decides exactly whether two ellipsoids are apart, touch or overlap. Private to oracle/.
 #pragma once
 
 #include "oracle/integers/integer.hpp"
@@ -18,8 +18,8 @@ Form<D> adjugate(const Form<D>& s);
 template <std::size_t D>
 Z determinant(const Form<D>& s);
 
-/// The open ellipsoids { x : x.S1^-1 x < 1 } and { x : (x - c).S2^-1 (x - c) < 1 }, S1 and S2 positive
-/// definite. (Of semiaxes A, S = A A^T.)
+/// The relation of the open ellipsoids { x : x.S1^-1 x < 1 } and { x : (x - c).S2^-1 (x - c) < 1 }, with S1
+/// and S2 positive definite. (Semiaxes A give S = A A^T.)
 template <std::size_t D>
 Relation relation_of(const Form<D>& s1, const Form<D>& s2, const ZVec<D>& c);
 

@@ -8,7 +8,7 @@
 namespace lorentz::oracle {
 namespace {
 
-// Exactly: are the first `count` vectors linearly dependent?
+// Decides exactly whether the first `count` vectors are linearly dependent.
 bool are_dependent(const std::array<Vec, 3>& vectors, int dimension, int count) {
   CommonExponent common;
   for (int i = 0; i < count; ++i)

@@ -1,4 +1,4 @@
-// Are the vectors of a scene independent? Decided exactly.
+// Decides exactly whether the vectors of a scene are independent.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,12 @@
 
 namespace lorentz::oracle {
 
-/// Of a scene without flaws: which primitive vectors or semiaxes are linearly dependent, in words; or nothing.
+/// For a scene that is otherwise valid: names the primitive vectors or semiaxes that are linearly dependent,
+/// or nothing.
 std::optional<std::string> dependence_of(const Scene& scene);
 
-/// The scene, if it has no flaw and its vectors are independent; else throws InputError, which names the place.
+/// Returns the scene if it is valid and its vectors are independent; else throws InputError, which names the
+/// place.
 const Scene& checked_exactly(const Scene& scene);
 
 }  // namespace lorentz::oracle

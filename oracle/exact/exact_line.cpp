@@ -3,18 +3,17 @@
 namespace lorentz::oracle {
 namespace {
 
-// An integer k such that every earliest entry at t >= 0 has its index in k - 1 .. k + 2 (or there is none).
+// An integer k such that every earliest entry at t >= 0 has its index in k - 1 .. k + 2; nothing if the row
+// is missed.
 //
-// In the plane of (k, t) the balls at real k fill a convex region E: {|x + t v - c(k)| < r}. At each k its
-// lower end is the entry t(k), convex in k.
-// - If E meets the axis t = 0 it does so in an open interval that holds no integer but `from`, so it is
-// shorter
-//   than 2, and E lies on one side of the axis to the left of it and on one side to the right: the earliest
-//   entries are those next to the interval, within 2 of its middle.
+// In the plane of (k, t) the balls at real k fill a convex region E: {|x + t v - c(k)| < r}. The lower end of
+// E at k is the entry t(k), which is convex in k.
+// - If E meets the axis t = 0, it does so in an open interval that holds no integer but `from`, so the
+//   interval is shorter than 2. E then lies on one side of the axis to the left of the interval, and on one
+//   side to the right of it. The earliest entries are those next to the interval, within 2 of its middle.
 // - Otherwise E lies on one side of the axis, and t(k) is least next to its real minimum.
 // - A row along v is a strip of constant width: the entries increase along the flight, and the first is the
-// one
-//   next to t = 0.
+//   one next to t = 0.
 std::optional<Z> index_near_first(const ExactRow<3>& row, const Z& rho2) {
   if (row.A == 0) {
     const Z d = rho2 - row.C;
@@ -30,7 +29,7 @@ std::optional<Z> index_near_first(const ExactRow<3>& row, const Z& rho2) {
   return floor_surd(-row.B * row.gg, -sgn(row.sg), row.sg * row.sg * strip * row.gg, row.A * row.gg);
 }
 
-// The same in the plane, where A = h_g^2, B = h0 h_g and C = h0^2 make shorter numbers of it.
+// The same in the plane, where A = h_g^2, B = h0 h_g and C = h0^2 allow shorter numbers.
 std::optional<Z> index_near_first(const FlightPoint& start, const FlightPoint& step, const Z& rho2) {
   if (step.h == 0) {
     const Z d = rho2 - start.h * start.h;
@@ -57,7 +56,7 @@ void offer_entry(const Search<D>& search, Z s, Z d, const ZVec<D>& n, const Z& k
       {std::move(s), std::move(d), search.velocity.v2, std::move(cell), search.lattice, search.atom}, order);
 }
 
-// However many obstacles of the row are met.
+// For any number of obstacles that the line meets in the row.
 void offer_first_of_many(const Search<2>& search, const FlightPoint& start, const FlightPoint& step) {
   const std::optional<Z> near = index_near_first(start, step, search.rho2);
   if (!near) return;
@@ -77,7 +76,8 @@ void offer_first_of_many(const Search<3>& search, const LatticePoint<3>& start, 
   }
 }
 
-// So many obstacles of a row are tried one by one, which takes no root.
+// Rows in which about this many obstacles at most are candidates are tried obstacle by obstacle, which takes
+// no root.
 constexpr long kFew = 5;
 
 }  // namespace

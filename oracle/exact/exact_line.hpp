@@ -1,9 +1,9 @@
 // The exact geometry of one flight and the obstacles of one atom. Private to oracle/.
 //
-// Everything here is in coordinates in which the atom's obstacles are balls (BallFrame). Symbols: c a centre
-// relative to x; s = v.c (along), h = v x c (across), so s^2 + |h|^2 = v^2 |c|^2; rho = r
-// |v|. The line meets the open ball iff |h| < rho, and then enters it at t = (s - sqrt(D)) / v^2, D = rho^2 -
-// |h|^2. It enters at t >= 0 iff besides s > 0 and |c| >= r (x outside or on the surface).
+// Everything here is in coordinates in which the atom's obstacles are balls (BallFrame). Symbols: c is a
+// centre relative to x; s = v.c (along) and h = v x c (across), so s^2 + |h|^2 = v^2 |c|^2; rho = r |v|. The
+// line meets the open ball iff |h| < rho, and then enters it at t = (s - sqrt(D)) / v^2, D = rho^2 - |h|^2.
+// The entry is at t >= 0 iff also s > 0 and |c| >= r (x is outside or on the surface).
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@
 
 namespace lorentz::oracle {
 
-/// An entry at t = (s - sqrt(d)) / v2 into the obstacle with coordinates n. v2 differs from atom to atom if
-/// their obstacles are balls in different coordinates; t does not.
+/// An entry at t = (s - sqrt(d)) / v2 into the obstacle with coordinates n. v2 differs between atoms whose
+/// obstacles are balls in different coordinates; t does not.
 template <std::size_t D>
 struct ExactEntry {
   Z s, d, v2;
@@ -23,26 +23,26 @@ struct ExactEntry {
   int lattice = 0, atom = 0;
 };
 
-/// The earliest entry so far; of several at the same time, the smallest (lattice, atom, n).
+/// The earliest entry so far; among several at the same time, the one with the smallest (lattice, atom, n).
 template <std::size_t D>
 class Earliest {
  public:
   bool found() const { return entry_.has_value(); }
   const ExactEntry<D>& entry() const { return *entry_; }
 
-  /// Negative, 0 or positive as an entry at (s - sqrt(d)) / v2 would come before the earliest one, with it or
+  /// Negative, 0 or positive if an entry at (s - sqrt(d)) / v2 comes before the earliest one, with it or
   /// after it.
   int order_of(const Z& s, const Z& d, const Z& v2) const {
     return entry_ ? compare_entries(s, d, v2, entry_->s, entry_->d, entry_->v2) : -1;
   }
 
-  /// No obstacle whose centre has an s above this, in a view with this v2, can be entered before or with the
-  /// earliest one: such an entry needs (s - rho) / v2 < s_best / v2_best.
+  /// In a view with this v2, an obstacle whose centre has an s above this cannot be entered before or
+  /// together with the earliest one: such an entry needs (s - rho) / v2 < s_best / v2_best.
   Z reach(const Z& rho_above, const Z& v2) const {
     return (v2 == entry_->v2 ? entry_->s : ceil_div(entry_->s * v2, entry_->v2)) + rho_above;
   }
 
-  /// `order` is that of its time, and not positive.
+  /// `order` is the order of its time (order_of), and must not be positive.
   void offer(ExactEntry<D> other, int order) {
     if (order == 0 && key(*entry_) <= key(other)) return;
     entry_ = std::move(other);
@@ -53,7 +53,7 @@ class Earliest {
   std::optional<ExactEntry<D>> entry_;
 };
 
-/// What the search for one atom's first obstacle needs throughout.
+/// The data that the search for one atom's first obstacle needs throughout.
 template <std::size_t D>
 struct Search {
   const View<D>& view;
@@ -61,11 +61,11 @@ struct Search {
   int lattice, atom;
   const ZVec<D>* from;  ///< coordinates of the obstacle to ignore, or null
   Z rho2;               ///< r^2 v^2
-  Z rho;  ///< largest integer below rho: |h| <= rho for the integer h of an obstacle that is met
+  Z rho;  ///< largest integer below rho; |h| <= rho for the integer h of an obstacle that is met
   Earliest<D>& earliest;
 };
 
-/// A vector of the plane as the flight sees it: v^2 |c|^2 = s^2 + h^2.
+/// A vector of the plane in coordinates along and across the flight: v^2 |c|^2 = s^2 + h^2.
 struct FlightPoint {
   Z s, h;
   ZVec<2> n;
@@ -97,9 +97,9 @@ struct ExactRow {
         C(cc - s0 * s0) {}
 };
 
-/// The rows with one step, in the plane. Of a row, start + k step for any integer k, offers the earliest
-/// entry at t >= 0. x must lie in none of its obstacles but `from`. Costs the same for two obstacles and for
-/// 2^1000.
+/// All rows with the same step, in the plane. For a row start + k step, k any integer, `offer_first` offers
+/// the earliest entry at t >= 0. x must not lie in any of its obstacles except `from`. The cost is the same
+/// for two obstacles and for 2^1000.
 class RowsInPlane {
  public:
   RowsInPlane(const Search<2>& search, const FlightPoint& step);
@@ -109,7 +109,7 @@ class RowsInPlane {
   const Search<2>& search_;
   const FlightPoint& step_;
   const Z gap_;       // |h| of the step
-  const bool short_;  // a row has a few places within rho of the line at most
+  const bool short_;  // at most a few points of a row are within rho of the line
 };
 
 /// The same in space.
@@ -121,11 +121,11 @@ class RowsInSpace {
  private:
   const Search<3>& search_;
   const LatticePoint<3>& step_;
-  const Z sg_, A_;     // as in Row
+  const Z sg_, A_;     // as in ExactRow
   const ZVec<3> h_g_;  // v x step
-  Z most_along_;       // |A k + B| <= this, and ..
-  Z most_beside_;      // .. |h_g . start| <= this, if any obstacle of the row is met
-  bool short_;         // so few k come into question
+  Z most_along_;       // |A k + B| is at most this, and ..
+  Z most_beside_;      // .. |h_g . start| is at most this, if any obstacle of the row is met
+  bool short_;         // at most about kFew values of k are candidates
 };
 
 }  // namespace lorentz::oracle

@@ -187,7 +187,7 @@ Basis<D> scaled_basis(Basis<D> basis, long shift) {
 }
 
 // Doubles a vector w that completes a lattice until its copies are far: |w| > 8 (height of x + 4 r), where
-// the height of x over the lattice is |offset . w| / |w|. Returns how often.
+// the height of x over the lattice is |offset . w| / |w|. Returns the number of doublings.
 template <std::size_t D>
 long lengthen(ZVec<D>& w, const ZVec<D>& offset, const Z& radius) {
   const Z w2 = dot(w, w), needed = 8 * (abs(dot(offset, w)) + 4 * radius * ceil_sqrt(w2));
@@ -219,7 +219,8 @@ View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>
     view.velocity = velocity;
   }
   view.rank = exact.rank;
-  // Bring the offset home: subtract the lattice vector nearest to it (by rounding; any near one will do).
+  // Bring the offset home: subtract the lattice vector nearest to it. (It is found by rounding; any near one
+  // will do.)
   const DualBasis<D>& home = obstacle.home;
   const Z det = shifted_left(home.det, shift);
   view.volume_bits = bit_length(home.det) + static_cast<long>(D) * shift;
@@ -236,7 +237,8 @@ View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>
       view.offset.add_multiple(-k, view.basis[i]);
       coordinate.subtract_product(k, det);
     }
-    // The centres stand at this coordinate plus multiples of det: at the least of these in size, or beyond.
+    // The centres are at this coordinate plus multiples of det, so at |coordinate|, at det - |coordinate|, or
+    // farther.
     const Z reach = shifted_left(home.reach[i], shift);
     if (compare_sizes(coordinate, reach) >= 0 && det - abs(coordinate) >= reach) view.near = false;
   }

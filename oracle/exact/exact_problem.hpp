@@ -1,5 +1,5 @@
-// A scene and a query as integers: all lengths times one power of two, the velocity times another. Private to
-// oracle/.
+// A scene and a query as integers: all lengths are multiplied by one power of two, the velocity by another.
+// Private to oracle/.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,8 @@
 
 namespace lorentz::oracle {
 
-/// A lattice vector or point: Cartesian p, and n, its coordinates in the scene's primitive vectors.
+/// A lattice vector or point: p in Cartesian coordinates, and n, its coordinates in the scene's primitive
+/// vectors.
 template <std::size_t D>
 struct LatticePoint {
   ZVec<D> p;
@@ -36,14 +37,15 @@ struct LatticePoint {
 template <std::size_t D>
 using Basis = std::array<LatticePoint<D>, D>;
 
-/// A lattice of fewer than D vectors is completed by vectors that are perpendicular to them and to each
-/// other, with coordinates n of their own after the lattice's. What stands in other places than 0 by these is
-/// no obstacle but a copy of one. A view makes them so long that no flight meets a copy before it has met, or
-/// missed, all obstacles. So if the first hit is a copy, the flight hits no obstacle.
+/// A lattice of fewer than D vectors is completed by vectors that are perpendicular to its own and to each
+/// other. Their coordinates n come after the lattice's own. A point at which one of these coordinates is not
+/// 0 is not an obstacle but a copy of one. A view makes the completing vectors so long that a flight meets no
+/// copy before it has met or missed every obstacle. So if the first hit is a copy, the flight hits no
+/// obstacle.
 template <std::size_t D>
 void complete(Basis<D>& basis, std::size_t rank);
 
-/// True of a copy's coordinates.
+/// True for the coordinates of a copy.
 template <std::size_t D>
 bool is_copy(const ZVec<D>& n, std::size_t rank) {
   for (std::size_t i = rank; i < D; ++i)
@@ -51,7 +53,7 @@ bool is_copy(const ZVec<D>& n, std::size_t rank) {
   return false;
 }
 
-/// Rows of a linear map.
+/// A linear map, as its rows.
 template <std::size_t D>
 using ZMatrix = std::array<ZVec<D>, D>;
 
@@ -70,9 +72,9 @@ ZMatrix<D> transposed(const ZMatrix<D>& map) {
   return result;
 }
 
-/// Coordinates in which an atom's ellipsoids { p + A y : |y| < 1 } are balls of radius |det A|: those of
-/// adj(A) = det(A) A^-1, which is an integer matrix like A. A linear map leaves lines, lattices and times
-/// what they are, so in these coordinates an ellipsoid is one more scene of balls, and nothing was rounded.
+/// Coordinates in which an atom's ellipsoids { p + A y : |y| < 1 } are balls of radius |det A|: space is
+/// mapped by adj(A) = det(A) A^-1, an integer matrix like A. A linear map preserves lines, lattices and
+/// times, so in these coordinates an ellipsoid is just another scene of balls, and nothing is rounded.
 template <std::size_t D>
 struct BallFrame {
   ZMatrix<D> to_ball;  ///< adj(A)
@@ -84,7 +86,8 @@ template <std::size_t D>
 struct DualBasis {
   ZMatrix<D> dual;
   Z det;  ///< > 0
-  /// Smallest integers >= r |dual_i|: a point within r of p has dual coordinates that differ by less.
+  /// Smallest integers >= r |dual_i|. The dual coordinates of a point within r of p differ from those of p by
+  /// less than that.
   ZVec<D> reach;
 
   DualBasis() = default;
@@ -95,19 +98,19 @@ template <std::size_t D>
 struct ExactAtom {
   ZVec<D> position;
   Z radius;                           ///< in the frame's coordinates, if there is a frame
-  std::optional<BallFrame<D>> frame;  ///< of an ellipsoid
-  DualBasis<D> home;                  ///< to the short basis of the lattice, in the same coordinates
+  std::optional<BallFrame<D>> frame;  ///< present for an ellipsoid
+  DualBasis<D> home;                  ///< of the short basis of the lattice, in the same coordinates
 };
 
 template <std::size_t D>
 struct ExactLattice {
-  std::size_t rank = D;  ///< how many vectors the scene has; the others complete them
+  std::size_t rank = D;  ///< the number of vectors that the scene gives; the others complete them
   Basis<D> primitive;    ///< the scene's own vectors
   Basis<D> reduced;      ///< a short basis of the same lattice, shortest vector first
   std::vector<ExactAtom<D>> atoms;
 };
 
-/// That of all lengths in a scene, and of one other.
+/// The common exponent of all lengths in a scene, and of one other length.
 CommonExponent common_exponent(const Scene& scene, double other = 0);
 
 template <std::size_t D>
@@ -117,13 +120,14 @@ ZVec<D> scaled_vector(const Vec& a, long exponent) {
   return result;
 }
 
-/// A scene whose numbers are integers times 2^exponent, as it is written.
+/// A scene whose numbers are integers times 2^exponent. The lattices are as the scene gives them, not
+/// reduced.
 template <std::size_t D>
 struct IntegerScene {
   struct Atom {
     ZVec<D> position;
     Z radius;
-    std::optional<std::array<ZVec<D>, D>> semiaxes;  ///< of an ellipsoid
+    std::optional<std::array<ZVec<D>, D>> semiaxes;  ///< present for an ellipsoid
   };
   struct Lattice {
     std::size_t rank = D;
@@ -154,26 +158,27 @@ struct ExactVelocity {
   Z v2;
 };
 
-/// One atom's obstacles seen from the particle, in coordinates in which they are balls: centres are offset +
-/// the lattice, relative to x.
+/// One atom's obstacles seen from the particle, in coordinates in which they are balls. Their centres
+/// relative to x are offset + the lattice.
 template <std::size_t D>
 struct View {
   ExactVelocity<D> velocity;
-  Basis<D> basis;  ///< reduced, and completed by vectors far longer than x is from the lattice
+  Basis<D> basis;  ///< reduced, and completed by vectors far longer than the distance of x from the lattice
   std::size_t rank = D;
-  LatticePoint<D> offset;  ///< the centre in the cell near x, and its coordinates n
-  bool near = true;        ///< false: no centre is within `radius` of x (as the view was made)
+  LatticePoint<D> offset;  ///< the centre in the cell near x, with its coordinates n
+  bool near = true;        ///< false: no centre was within `radius` of x when the view was made
   long volume_bits = 0;    ///< bit length of |det basis|
   Z radius;
   Z radius2;  ///< radius^2
 };
 
-/// The view of an atom from x, all lengths times 2^-exponent (exponent <= the scene's and x's).
+/// The view of an atom from x, all lengths multiplied by 2^-exponent (exponent at most the scene's and x's).
 template <std::size_t D>
 View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x,
                 const ExactVelocity<D>& velocity, long exponent);
 
-/// The view's lattice in its own primitive vectors, last one first: for answers in lexicographic order.
+/// The view's lattice in its own primitive vectors in reverse order: the order for lexicographically smallest
+/// answers.
 template <std::size_t D>
 Basis<D> lexicographic_basis(const ExactScene<D>& scene, int lattice, int atom, const View<D>& view,
                              long exponent);
@@ -186,7 +191,7 @@ ZVec<D> centre_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<
 template <std::size_t D>
 Z determinant(const Basis<D>& basis);
 
-/// Coordinates of p in the basis, times its determinant.
+/// The coordinates of p in the basis, times the determinant of the basis.
 ZVec<2> cramer(const Basis<2>& basis, const ZVec<2>& p);
 ZVec<3> cramer(const Basis<3>& basis, const ZVec<3>& p);
 

@@ -32,7 +32,7 @@ struct ExactQuery {
   std::optional<ObstacleId> from;
   ZVec<D> from_cell;
 
-  /// Numbers that are integers already; length_exponent at most the scene's.
+  /// From numbers that are integers already; length_exponent is at most the scene's.
   ExactQuery(const ZVec<D>& place, long of_lengths, const ZVec<D>& v, long of_velocities,
              const std::optional<ObstacleId>& leaves)
       : length_exponent(of_lengths),
@@ -43,7 +43,7 @@ struct ExactQuery {
     if (from) from_cell = to_zvec<D>(from->cell);
   }
 
-  /// Lengths in units 2^-finer of what the numbers need.
+  /// The unit of length is 2^-finer times the one that the numbers need.
   ExactQuery(const ExactScene<D>& scene, const Query& query, long finer = 0) : from(query.from) {
     CommonExponent of_x, of_v;
     for (std::size_t i = 0; i < D; ++i) {

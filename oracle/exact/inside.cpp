@@ -6,14 +6,14 @@
 namespace lorentz::oracle {
 namespace {
 
-// k in c + k g with |c + k g|^2 < radius2: an open interval, as its first and last integer.
+// Visits the k with |c + k g|^2 < radius2, an open interval, as its first and last integer.
 template <std::size_t D>
 bool visit_row_in_ball(const LatticePoint<D>& c, const LatticePoint<D>& g, const Z& radius2,
                        const RowVisitor<D>& visit) {
   const Z gg = dot(g.p, g.p), cg = dot(c.p, g.p);
   const Z disc = cg * cg - gg * (dot(c.p, c.p) - radius2);
   if (disc <= 0) return false;
-  // The ends (-cg -+ sqrt(disc)) / gg do not count.
+  // The ends (-cg -+ sqrt(disc)) / gg themselves are excluded.
   const Z first = floor_surd(-cg, -1, disc, gg) + 1;
   const Z last = -floor_surd(cg, -1, disc, gg) - 1;
   if (first > last) return false;
@@ -22,8 +22,9 @@ bool visit_row_in_ball(const LatticePoint<D>& c, const LatticePoint<D>& g, const
   return visit(start, g, last - first);
 }
 
-// A section of the ball by the points whose component along `normal` is the offset's plus k `gap`: visits
-// each k that can hold a point. `room2` is the section's squared radius, as a fraction room2 / scale.
+// Cuts the ball by the planes (or lines) at `level` + k `gap` along `normal`, and visits each k whose section
+// can hold a point. `room2` / `scale` is the squared radius of the ball, or of the section of it, that is
+// cut.
 template <class Visit>
 bool visit_levels(const Z& level, const Z& gap, const Z& normal2, const Z& room2, const Z& scale,
                   Visit visit) {
@@ -77,7 +78,7 @@ bool visit_ball<3>(const Basis<3>& basis, const LatticePoint<3>& offset, const Z
 
 namespace {
 
-// Near enough, whatever the size: a long double reaches 2^16384.
+// Accurate enough for numbers of any size: a long double reaches 2^16384.
 using Estimate = long double;
 
 Estimate estimate(const Z& a) {
@@ -89,8 +90,8 @@ Estimate length(const auto& vector) {
   return std::sqrt(estimate(dot(vector.p, vector.p)));
 }
 
-// About how many rows visit_ball looks at in a basis b, outermost vector last, if it looks at all. Lines or
-// planes of the lattice stand at most |b_i| apart; in a reduced basis not much less.
+// About how many rows visit_ball looks at in a basis b, outermost vector last, if it looks at all of them.
+// Lines or planes of the lattice are at most |b_i| apart, and in a reduced basis not much less.
 template <std::size_t D>
 Estimate rows_in_all(const Basis<D>& basis, Estimate radius) {
   Estimate rows = 1;
@@ -98,9 +99,9 @@ Estimate rows_in_all(const Basis<D>& basis, Estimate radius) {
   return rows;
 }
 
-// About how many, if it stops at the first point: a level holds one for certain once the section's radius
-// exceeds the covering radius of the lattice within the level, mu: that is mu^2 / (2 r) from the edge of the
-// ball.
+// About how many rows it looks at if it stops at the first point. A level certainly holds a point once the
+// radius of its section exceeds mu, the covering radius of the lattice within the level. This is the case at
+// a depth of mu^2 / (2 r) below the surface of the ball.
 template <std::size_t D>
 Estimate rows_to_first(const Basis<D>& basis, Estimate radius) {
   const Estimate volume = std::fabs(estimate(determinant<D>(basis)));
@@ -116,7 +117,7 @@ Estimate rows_to_first(const Basis<D>& basis, Estimate radius) {
   }
 }
 
-// Along a row n moves by step.n, so the smallest n stands at one of its ends.
+// Along a row n moves by step.n, so the smallest n is at one of its ends.
 template <std::size_t D>
 std::optional<ZVec<D>> smallest_on_row(LatticePoint<D> first, const LatticePoint<D>& step, const Z& last,
                                        const ZVec<D>* from) {
@@ -136,7 +137,7 @@ std::optional<ZVec<D>> smallest_inside(const ExactScene<D>& scene, int lattice, 
                                        const ZVec<D>* from, long exponent) {
   if (!view.near) return std::nullopt;
   // Few rows: look at all of them, in the short basis. A radius of many cells: take the rows in lexicographic
-  // order, and the first point is the smallest. (Floating point here chooses the cheaper way, nothing more.)
+  // order, so that the first point is the smallest. (Floating point only chooses the cheaper way here.)
   constexpr Estimate kFewRows = 64;
   const Estimate radius = estimate(view.radius), rows = rows_in_all<D>(view.basis, radius);
   const Basis<D> ordered =

@@ -44,8 +44,8 @@ PlaneSection Planes::section(const LatticePoint<3>& offset, const Z& k3, const Z
   const Z level = velocity.v2 * dot(normal, section.origin.p);
   section.low = low;
   section.high = high;
-  // Where along the flight |a s - level| <= reach, and the section's half-width there: `room` is
-  // rho^2 |e|^2 - (a s - level)^2 at its largest.
+  // The part of the flight where |a s - level| <= reach, and the half-width of the section there: `room` is
+  // the largest rho^2 |e|^2 - (a s - level)^2.
   Z room = across2;
   section.z_low = -across;
   section.z_high = across;
@@ -70,7 +70,7 @@ PlaneSection Planes::section(const LatticePoint<3>& offset, const Z& k3, const Z
   return section;
 }
 
-// A point at (y, z) stands in row k2 = (y1 (z - z0) - z1 (y - y0)) / (y1 z2 - z1 y2).
+// A point at (y, z) is in row k2 = (y1 (z - z0) - z1 (y - y0)) / (y1 z2 - z1 y2).
 Range Planes::rows(const PlaneSection& section, const PlanePoint& g1, const PlanePoint& g2) const {
   const PlanePoint start = in_plane(section.origin);
   const auto [least, most] = ordered(g1.y * section.z_low, g1.y * section.z_high);

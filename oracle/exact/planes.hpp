@@ -1,5 +1,5 @@
-// The lattice planes and rows that meet a stretch of a cylinder around the line of flight, 3D: exact bounds,
-// rounded outwards, whatever the basis. Private to oracle/.
+// The lattice planes and rows that meet a stretch of a cylinder around the line of flight, in 3D. The bounds
+// are exact, rounded outwards, and hold in any basis. Private to oracle/.
 #pragma once
 
 #include <utility>
@@ -8,7 +8,7 @@
 
 namespace lorentz::oracle {
 
-/// A lattice vector with its s.
+/// A lattice vector, with its s.
 struct WindowVector {
   LatticePoint<3> point;
   Z s;
@@ -19,7 +19,8 @@ struct WindowVector {
   }
 };
 
-/// 4^j |h|^2 + s^2 = 4^j v^2 p.p - (4^j - 1) s^2: makes a stretch of about 2^(j+1) rho of the cylinder round.
+/// 4^j |h|^2 + s^2 = 4^j v^2 p.p - (4^j - 1) s^2: this form makes a stretch of about 2^(j+1) rho of the
+/// cylinder round.
 class WindowForm {
  public:
   WindowForm(const ExactVelocity<3>& velocity, long j)
@@ -69,45 +70,44 @@ struct PlaneForm {
   }
 };
 
-/// What the section of the cylinder |h| < rho by one plane looks like within a window of s.
+/// The section of the cylinder |h| < rho by one plane, within a window of s.
 struct PlaneSection {
   bool empty = true;
   LatticePoint<3> origin;  ///< a centre of the plane
-  Z low, high;             ///< where the section lies, within the window
-  Z half_width;            ///< |y| v of its points is no more
-  Z z_low, z_high;         ///< the same for z
+  Z low, high;             ///< the range of the section within the window
+  Z half_width;            ///< |y| v of its points is at most this
+  Z z_low, z_high;         ///< bounds of their z
 
-  /// The form in which the section is about round.
   PlaneForm form() const;
 };
 
-/// The planes spanned by b1 and b2. N = b1 x b2 is normal to them, e = v x N across the flight within them.
-/// In the plane N.c = level, a centre at s that is met has |a s - v^2 level| < rho |e|, a = N.v, and more
-/// exactly
+/// The planes spanned by b1 and b2. N = b1 x b2 is normal to them, and e = v x N lies in them, across the
+/// flight. In the plane N.c = level, a centre at s that is met has |a s - v^2 level| < rho |e|, a = N.v, and
+/// more exactly
 ///   v^2 (e.c)^2 + (a s - v^2 level)^2 < rho^2 |e|^2.
-/// If v is normal to the planes, e = 0 and s is constant in them; then y and z are two directions at right
-/// angles, e = b1 and v x b1, and the same inequality holds with z for a s - v^2 level.
+/// If v is normal to the planes, then e = 0, and s is constant in each of them. In this case y and z are two
+/// directions at right angles, e = b1 and v x b1, and the same inequality holds with z for a s - v^2 level.
 struct Planes {
   const ExactVelocity<3>& velocity;
-  LatticePoint<3> next;  ///< b3: from plane to plane
+  LatticePoint<3> next;  ///< b3, from one plane to the next
   ZVec<3> normal, e, f;
   Z a, gap;
   Z reach2;           ///< rho^2 |v x N|^2
-  Z reach;            ///< its root, rounded down: enough for integers that are less
+  Z reach;            ///< its root, rounded down: sufficient for integers that are less than the root
   bool head_on;       ///< v is normal to the planes
-  Z across2, across;  ///< rho^2 |e|^2 with the e in use, and its root
+  Z across2, across;  ///< rho^2 |e|^2 for the e in use, and its root
 
   Planes(const ExactVelocity<3>& velocity, const Z& rho2, const LatticePoint<3>& b1,
          const LatticePoint<3>& b2, const LatticePoint<3>& b3);
 
-  /// The k3 whose planes offset + k3 b3 come within reach somewhere in low <= s <= high.
+  /// The k3 whose planes offset + k3 b3 come within reach at some s with low <= s <= high.
   Range levels(const LatticePoint<3>& offset, const Z& low, const Z& high) const;
 
   PlaneSection section(const LatticePoint<3>& offset, const Z& k3, const Z& low, const Z& high) const;
 
   PlanePoint in_plane(const LatticePoint<3>& b) const;
 
-  /// The k2 whose rows origin + k2 g2 + Z g1 may have a point in the section.
+  /// The k2 for which the row origin + k2 g2 + Z g1 may have a point in the section.
   Range rows(const PlaneSection& section, const PlanePoint& g1, const PlanePoint& g2) const;
 };
 

@@ -15,11 +15,11 @@ class Polynomial {
   explicit Polynomial(std::vector<Z> coefficients);
 
   bool is_zero() const { return terms_.empty(); }
-  /// One more than the degree; 0 for the polynomial 0.
+  /// The degree plus 1; 0 for the polynomial 0.
   std::size_t size() const { return terms_.size(); }
   /// 0 beyond the degree.
   const Z& operator[](std::size_t k) const;
-  /// The coefficient of the highest power. Not of the polynomial 0.
+  /// The coefficient of the highest power. The polynomial must not be 0.
   const Z& back() const { return terms_.back(); }
 
   friend Polynomial operator+(const Polynomial& a, const Polynomial& b) { return sum(a, b, 1); }
@@ -40,12 +40,13 @@ Polynomial primitive(const Polynomial& p);
 /// a / b, where b divides a.
 Polynomial exact_quotient(const Polynomial& a, const Polynomial& b);
 
-/// a, b, and Euclid's remainders with alternating signs, each times a positive number; the last is the greatest
-/// common divisor. For p and its derivative it is Sturm's chain: p has as many different roots between two points
-/// as the chain has changes of sign at the first more than at the second.
+/// a, b, and the remainders of Euclid's algorithm with alternating signs, each times a positive number. The
+/// last one is the greatest common divisor. For p and its derivative this is Sturm's chain: the number of
+/// different roots of p between two points is the number of sign changes of the chain at the first point
+/// minus that at the second.
 std::vector<Polynomial> remainders(const Polynomial& a, const Polynomial& b);
 
-/// How often the sign changes along the chain; zeros are passed over.
+/// The number of sign changes along the chain; zeros are skipped.
 template <class SignOf>
 int sign_changes(const std::vector<Polynomial>& chain, const SignOf& sign_of) {
   int changes = 0, before = 0;

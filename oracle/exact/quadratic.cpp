@@ -19,7 +19,7 @@ int compare_entries(const Z& s1, const Z& d1, const Z& s2, const Z& d2) {
   const Z lead = s1 - s2;
   if (lead < 0) return -compare_entries(s2, d2, s1, d1);
   // Sign of lead + sqrt(d2) - sqrt(d1) with lead >= 0. Both sides of lead + sqrt(d2) ? sqrt(d1) are >= 0, so
-  // compare squares: 2 lead sqrt(d2) ? d1 - d2 - lead^2 =: excess; and once more if excess >= 0.
+  // compare their squares: 2 lead sqrt(d2) ? d1 - d2 - lead^2 =: excess. If excess >= 0, square once more.
   const Z excess = d1 - d2 - lead * lead;
   if (excess < 0) return 1;
   return cmp(Z(4 * lead * lead * d2), Z(excess * excess));
@@ -32,7 +32,7 @@ int compare_entries(const Z& s1, const Z& d1, const Z& q1, const Z& s2, const Z&
 
 int compare(const Quadratic& number, double value) {
   if (std::isinf(value)) return value > 0 ? -1 : 1;
-  // number - m 2^e has the sign of (a - m q 2^(e - exponent)) + sign sqrt(d), scaled to integers.
+  // number - m 2^e has the sign of (a - m q 2^(e - exponent)) + sign sqrt(d), which is scaled to integers.
   const Dyadic dyadic = to_dyadic(value);
   const long shift = dyadic.exponent - number.exponent;
   if (shift >= 0)
@@ -43,7 +43,7 @@ int compare(const Quadratic& number, double value) {
 
 namespace {
 
-// floor(number * factor) for a number > 0, and whether anything was cut off.
+// floor(number * factor) for a number > 0, and whether it is exact.
 struct Floor {
   Z value;
   bool exact = false;
@@ -67,8 +67,8 @@ Floor floor_of(const Quadratic& n, const Z& factor, long binary_shift) {
   return {std::move(value), square && whole};
 }
 
-// e with 2^(e-3) < number < 2^(e+3), for a number > 0. Where a and the root cancel, their difference is
-// (a^2 - d) / (|a| + sqrt(d)).
+// An e with 2^(e-3) < number < 2^(e+3), for a number > 0. If a and the root have opposite signs, their sum is
+// computed as (a^2 - d) / (|a| + sqrt(d)), which does not cancel.
 long binary_magnitude(const Quadratic& n) {
   const long bits_a = bit_length(n.a), bits_root = (bit_length(n.d) + 1) / 2;
   const long bits_sum = std::max(bits_a, bits_root);
@@ -83,7 +83,7 @@ Quadratic negated(Quadratic n) {
   return n;
 }
 
-// The integer nearest to floor + (half, rest): `twice` is floor(2 y), ties to even.
+// The integer nearest to y, ties to even, given `twice` = floor(2 y).
 Z round_half_even(const Floor& twice) {
   Z value = twice.value / 2;
   const bool half = is_odd(twice.value);
@@ -101,11 +101,11 @@ Floor cut(const Floor& whole, long bits) {
           whole.exact && (whole.value == 0 || trailing_zeros(whole.value) >= bits)};
 }
 
-// The nearest binary64 to a number > 0, given `floor_at`: p -> floor(number / 2^p) and whether that is all,
-// and a guess of its exponent that is off by a few bits at most.
+// The nearest binary64 to a number > 0. `floor_at` maps p to floor(number / 2^p) and whether that is exact;
+// `magnitude` is a guess of the exponent that is off by at most a few bits.
 template <class FloorAt>
 double rounded(long magnitude, FloorAt floor_at) {
-  // The unit of the last place is 2^p; the floor tells what the guess does not know.
+  // The unit in the last place is 2^p; the floor corrects the guess.
   constexpr long kSmallest = -1074;
   long p = std::max(magnitude - 60, kSmallest - 1);
   const Floor fine = floor_at(p);
@@ -144,7 +144,7 @@ Z power_of_ten(long exponent) {
   return power(10, static_cast<unsigned long>(exponent));
 }
 
-// The number times 10^exponent.
+// number * 10^exponent.
 Quadratic times_power_of_ten(Quadratic n, long exponent) {
   const Z power = power_of_ten(std::labs(exponent));
   if (exponent < 0) {
@@ -173,7 +173,7 @@ std::string round_to_decimal(const Quadratic& n, int digits) {
   const int sign = sign_of(n.a, n.sign, n.d);
   if (sign == 0) return "0";
   if (sign < 0) return "-" + round_to_decimal(negated(n), digits);
-  // 10^exponent10 <= number < 10^(exponent10 + 1): guess from the bits, then let the floor correct it.
+  // 10^exponent10 <= number < 10^(exponent10 + 1): guessed from the bits, then corrected by the floor.
   long exponent10 =
       static_cast<long>(std::floor(static_cast<double>(binary_magnitude(n)) * 0.30102999566398120));
   const Z least = power_of_ten(digits - 1), limit = power_of_ten(digits);

@@ -1,4 +1,4 @@
-// Real quadratic numbers (a +- sqrt(d)) / q: what collision times, points and normals are. Comparison and
+// Real quadratic numbers (a +- sqrt(d)) / q, the form of collision times, points and normals. Comparison and
 // rounding are exact, by integer arithmetic alone; no precision is ever guessed. Private to oracle/.
 #pragma once
 
@@ -23,21 +23,23 @@ int sign_of(const Z& a, int sign, const Z& d);
 /// Sign of (s1 - sqrt(d1)) - (s2 - sqrt(d2)).
 int compare_entries(const Z& s1, const Z& d1, const Z& s2, const Z& d2);
 
-/// Sign of (s1 - sqrt(d1)) / q1 - (s2 - sqrt(d2)) / q2, q1 and q2 > 0: which of two entries on one line comes
-/// first.
+/// Sign of (s1 - sqrt(d1)) / q1 - (s2 - sqrt(d2)) / q2, with q1, q2 > 0: the order of two entries on one
+/// line.
 int compare_entries(const Z& s1, const Z& d1, const Z& q1, const Z& s2, const Z& d2, const Z& q2);
 
 /// Sign of the number minus a binary64 value.
 int compare(const Quadratic& number, double value);
 
-/// The nearest binary64, ties to even, gradual underflow, +0 for zero; beyond the largest one an infinity.
+/// The nearest binary64, ties to even, with gradual underflow; +0 for zero, an infinity beyond the largest
+/// binary64.
 double round_to_binary64(const Quadratic& number);
 
-/// The same of sign * sqrt(square), for a square >= 0: what the components of an ellipsoid's normal are.
+/// The same for sign * sqrt(square), with square >= 0. The components of an ellipsoid's normal have this
+/// form.
 double round_root_to_binary64(const Quadratic& square, int sign);
 
-/// `digits` >= 1 significant decimal digits, rounded half to even: positional for exponents -7 to `digits` -
-/// 1, else d.ddde+x. Zero is "0".
+/// `digits` >= 1 significant decimal digits, rounded half to even. The text is positional for exponents from
+/// -7 to `digits` - 1, else d.ddde+x. Zero is "0".
 std::string round_to_decimal(const Quadratic& number, int digits);
 
 }  // namespace lorentz::oracle

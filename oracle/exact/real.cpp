@@ -75,7 +75,7 @@ double to_double(const Real& a, double most) {
 }
 
 std::string to_string(const Real& a) {
-  std::array<char, 64> text;  // 10 digits, signs, an exponent of 20 digits at the most
+  std::array<char, 64> text;  // 10 digits, signs, and an exponent of at most 20 digits
   gmp_snprintf(text.data(), text.size(), "%.10Fg", a.value_);
   return text.data();
 }

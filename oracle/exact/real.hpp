@@ -1,5 +1,5 @@
-// Real numbers of 150 digits and any exponent, for quantities that are reported and not decided upon:
-// margins, conditions. Differences that could cancel are taken in integers before. Private to oracle/.
+// Real numbers of 150 digits and any exponent, for quantities that are reported but decide nothing: margins,
+// conditions. Differences that could cancel are taken in integers first. Private to oracle/.
 #pragma once
 
 #include <compare>
@@ -10,12 +10,12 @@
 
 namespace lorentz::oracle {
 
-/// GMP's mpf_t as a value. Results are truncated, and no operation overflows. A division by 0 throws
+/// GMP's mpf_t as a value type. Results are truncated. No operation overflows. Division by 0 throws
 /// std::overflow_error.
 class Real {
  public:
   Real() { mpf_init2(value_, kBits); }
-  Real(double value);  ///< a finite one
+  Real(double value);  ///< must be finite
   explicit Real(const Z& value);
   Real(const Real& other);
   Real(Real&& other) noexcept : value_{*other.value_} { other.value_->_mp_d = nullptr; }
@@ -42,13 +42,13 @@ class Real {
   }
 
   friend Real abs(Real a);
-  friend Real sqrt(const Real& a);  ///< of a >= 0
+  friend Real sqrt(const Real& a);  ///< a >= 0
   friend Real times_power_of_two(Real a, long exponent);
   /// The smallest integer >= a.
   friend Z ceiling(const Real& a);
-  /// To binary64, downwards; no more than `most`.
+  /// Truncated to binary64, and at most `most`.
   friend double to_double(const Real& a, double most);
-  /// As "%.10g" prints it.
+  /// The text that "%.10g" prints.
   friend std::string to_string(const Real& a);
 
  private:

@@ -7,7 +7,7 @@ namespace lorentz::oracle {
 int sign_of_rest(const Z& c, const Z& a, const Z& b) {
   if (c < 0) return -1;
   if (c == 0) return a == 0 && b == 0 ? 0 : -1;
-  // c ? sqrt(a) + sqrt(b), both sides >= 0: c^2 ? a + b + 2 sqrt(a b).
+  // c ? sqrt(a) + sqrt(b) with both sides >= 0: compare c^2 ? a + b + 2 sqrt(a b).
   return sign_of(c * c - a - b, -1, 4 * a * b);
 }
 
@@ -15,22 +15,23 @@ int sign_of_rest(const Z& c, const Z& a, const Z& b, const Z& d) {
   const int lead = sign_of(c, -1, d);
   if (lead < 0) return -1;
   if (lead == 0) return a == 0 && b == 0 ? 0 : -1;
-  // c - sqrt(d) ? sqrt(a) + sqrt(b), both sides >= 0: c^2 + d - 2 c sqrt(d) ? a + b + 2 sqrt(a b).
+  // c - sqrt(d) ? sqrt(a) + sqrt(b) with both sides >= 0: compare
+  //   c^2 + d - 2 c sqrt(d) ? a + b + 2 sqrt(a b).
   return sign_of_rest(c * c + d - a - b, 4 * c * c * d, 4 * a * b);
 }
 
 Z last_step(const Z& c, const Z& a, const Z& b, const Z& d, const Z& step, bool or_equal) {
-  // With the roots rounded down the floor is too large by a few at most.
+  // The roots are rounded down, so the floor is too large by at most a few.
   Z k = floor_div(c - floor_sqrt(a) - floor_sqrt(b) - floor_sqrt(d), step);
   while (sign_of_rest(c - k * step, a, b, d) < (or_equal ? 0 : 1)) --k;
   return k;
 }
 
-// The enclosure is narrowed until both its ends round alike. That comes to an end: the number is a binary64,
-// or midway between two, only if it is rational; with sqrt(n) irrational it is not (its component along
-// sqrt(n) could vanish only if the roots made up for all of c, and then it were not above 0); with sqrt(n) an
-// integer it is so only if sqrt(a) and sqrt(b) are integers too, both being subtracted; and integer roots are
-// enclosed by themselves.
+// Narrows the enclosure until both its ends round to the same binary64. This ends. It could fail to end only
+// if the number is a binary64 or midway between two, and so rational. With sqrt(n) irrational the number is
+// not rational: its component along sqrt(n) could vanish only if the roots made up for all of c, and then the
+// number would not be above 0. With sqrt(n) an integer it is rational only if sqrt(a) and sqrt(b) are
+// integers too, because both are subtracted; and integer roots are enclosed by themselves.
 double round_rest(const Z& c, const Z& a, const Z& b, const Z& n, long exponent) {
   for (unsigned long bits = 64;; bits *= 2) {
     const auto fine = [bits](const Z& square) { return shifted_left(square, 2 * bits); };

@@ -1,6 +1,6 @@
-// The shape of an ellipsoid { p + A y : |y| < 1 } apart from where it stands and how it is written: A A^T.
-// Semiaxes in another order, with other signs, or otherwise turned among themselves are another A (A Q, Q
-// orthogonal) of the same shape. Private to oracle/.
+// A A^T: the shape of an ellipsoid { p + A y : |y| < 1 }, whatever its centre and however its axes are
+// written. Semiaxes in another order, with other signs, or otherwise turned among themselves give another A
+// (A Q, Q orthogonal) of the same shape. Private to oracle/.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace lorentz::oracle {
 
-/// A A^T, `axes` the columns of A: equal for two ellipsoids iff one is a translate of the other.
+/// A A^T, with `axes` the columns of A. Two ellipsoids have equal shapes iff one is a translate of the other.
 template <std::size_t D>
 ZMatrix<D> shape_of(const std::array<ZVec<D>, D>& axes) {
   ZMatrix<D> shape;
@@ -19,8 +19,8 @@ ZMatrix<D> shape_of(const std::array<ZVec<D>, D>& axes) {
   return shape;
 }
 
-/// The radius, if this is the shape of a ball whose radius is an integer. (In 3D that of all balls is: its
-/// square and its cube, |det A|, are.)
+/// The radius, if this is the shape of a ball whose radius is an integer. (In 3D every ball's radius is one,
+/// because its square and its cube, |det A|, are integers.)
 template <std::size_t D>
 std::optional<Z> ball_radius(const ZMatrix<D>& shape) {
   const Z& square = shape[0][0];

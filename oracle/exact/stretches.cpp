@@ -10,7 +10,7 @@ namespace lorentz::oracle {
 namespace {
 
 constexpr long kFewRowsOfStretch = 24;
-constexpr long kManyRows = 1000;  // more than a stretch ought to have that is no longer than it is wide
+constexpr long kManyRows = 1000;  // more than expected in a stretch that is no longer than it is wide
 
 // 4^across |h|^2 + 4^along s^2 in the plane.
 struct StripForm {
@@ -22,8 +22,8 @@ struct StripForm {
   }
 };
 
-// The rows k2 of the window's rectangle, |h| <= reach and low <= s <= high. With v' = v turned by a right
-// angle v^2 w = s v + h v', so v^2 cross(b1, w) = h s_1 - s h_1 for every point w.
+// The rows k2 of the window's rectangle, |h| <= reach and low <= s <= high. Let v' be v turned by a right
+// angle. Then v^2 w = s v + h v', so v^2 cross(b1, w) = h s_1 - s h_1 for every point w.
 Range rows_of_strip(const View<2>& view, const Z& reach, const Basis<2>& basis, const Z& low, const Z& high) {
   const Z& v2 = view.velocity.v2;
   const Z h1 = cross(view.velocity.v, basis[0].p), s1 = dot(view.velocity.v, basis[0].p);
@@ -32,7 +32,8 @@ Range rows_of_strip(const View<2>& view, const Z& reach, const Basis<2>& basis, 
   return multiples_between(least - spread - home, most + spread - home, v2 * cross(basis[0].p, basis[1].p));
 }
 
-// Visits the rows of each plane that comes near, as (plane, its section, rows) until `take` returns true.
+// Visits the rows of each plane that comes near, as (the plane's section, its rows), until `take` returns
+// true.
 template <class Take>
 bool for_each_section(const View<3>& view, const Planes& planes, const Basis<3>& basis, const Z& low,
                       const Z& high, const Take& take) {
@@ -41,7 +42,8 @@ bool for_each_section(const View<3>& view, const Planes& planes, const Basis<3>&
   for (Z k3 = levels.first; k3 <= levels.last; ++k3) {
     PlaneSection section = planes.section(view.offset, k3, low, high);
     if (section.empty) continue;
-    // A checker of certificates may bound the rows by the whole window; so the cuts must be made for that.
+    // A checker of certificates may bound the rows by the whole window, so stretches must be cut with that
+    // bound.
     if (!planes.head_on) {
       section.z_low = low;
       section.z_high = high;
@@ -86,7 +88,7 @@ Z Stretches<3>::shorten_in_planes(Basis<3>& basis, const Z& low, const Z& high) 
   const Planes planes(view_.velocity, reach2_, basis[0], basis[1], basis[2]);
   const Count count = count_rows(view_, planes, basis, low, high);
   if (count.rows <= kFewRowsOfStretch || !count.widest) return count.rows;
-  // A slender section: a basis of the plane that is short for this.
+  // The section is slender: find a basis of the plane that is short for it.
   std::array<PlanePoint, 2> pair{planes.in_plane(basis[0]), planes.in_plane(basis[1])};
   reduce(pair, count.widest->form());
   basis[0] = std::move(pair[0].point);
@@ -101,15 +103,16 @@ Z Stretches<3>::shorten(Basis<3>& basis, const Z& low, const Z& high) const {
   for (int i = 0; i < 3; ++i) vectors[i] = {basis[i], dot(view_.velocity.v, basis[i].p)};
   reduce(vectors, WindowForm(view_.velocity, j));
   for (int i = 0; i < 3; ++i) basis[i] = std::move(vectors[i].point);
-  // If v is normal to the planes of b1 and b2, it is not to those of b1 and b3: one can look along these.
+  // If v is normal to the planes of b1 and b2, it is not normal to those of b1 and b3, so these can be used
+  // instead.
   const auto is_head_on = [this](const Basis<3>& b) {
     return cross(view_.velocity.v, cross(b[0].p, b[1].p)) == ZVec<3>{};
   };
   if (is_head_on(basis)) std::swap(basis[1], basis[2]);
   const Basis<3> reduced = basis;
   Z fewest = shorten_in_planes(basis, low, high);
-  // If v is nearly normal to the planes, s hardly changes within them, and the ends of the stretch bound
-  // nothing there. Of three families of planes there is one to which v is not.
+  // If v is nearly normal to the planes, s hardly changes within them, so the ends of the stretch bound
+  // nothing there. But v is not nearly normal to all of three families of planes.
   for (int i = 1; i >= 0 && fewest > kManyRows && !is_long(low, high); --i) {
     Basis<3> other = reduced;
     std::swap(other[i], other[2]);
@@ -122,7 +125,7 @@ Z Stretches<3>::shorten(Basis<3>& basis, const Z& low, const Z& high) const {
   return fewest;
 }
 
-// Along a vector w that completes the lattice all centres are at offset.w, and the particle's place is t v.w.
+// Along a vector w that completes the lattice, all centres are at offset.w, and the particle is at t v.w.
 template <std::size_t D>
 std::optional<Z> last_s(const View<D>& view) {
   std::optional<Z> last;
@@ -143,8 +146,8 @@ bool Stretches<D>::cut(const Z& low, const Z& whole_high,
   const std::optional<Z> end = last_s(view_);
   const Z high = end ? std::min(whole_high, *end) : whole_high;
   if (low > high) return false;
-  // What is left to do, the first of it at the back; not on the stack, for halves may be of thousands of
-  // bits.
+  // The stretches still to do, the first one at the back. The bounds may have thousands of bits, so a
+  // recursion that halves the stretches would be deep.
   std::vector<RowStretch<D>> left{{low, high, view_.basis}};
   while (!left.empty()) {
     RowStretch<D> stretch = std::move(left.back());
@@ -176,7 +179,7 @@ bool Stretches<D>::visit_row(const LatticePoint<D>& start, const RowStretch<D>& 
   } else {
     const Z disc = row.B * row.B - row.A * (row.C - reach2_);
     if (disc <= 0) return false;
-    // The ends (-B -+ sqrt(disc)) / A do not count.
+    // The ends (-B -+ sqrt(disc)) / A themselves are excluded.
     const Range met{floor_surd(-row.B, -1, disc, row.A) + 1, -floor_surd(row.B, -1, disc, row.A) - 1};
     k = row.sg == 0 ? met : Range{std::max(k.first, met.first), std::min(k.last, met.last)};
   }

@@ -1,6 +1,6 @@
-// The obstacles of one atom that a stretch of a cylinder around the line of flight holds: all of them, by
-// exact bounds in a basis short enough that these are tight. Certificates, margins and judgements are made of
-// this. Private to oracle/.
+// All obstacles of one atom that a stretch of a cylinder around the line of flight holds, by exact bounds in
+// a basis short enough to make the bounds tight. Certificates, margins and judgements are built on this.
+// Private to oracle/.
 #pragma once
 
 #include <functional>
@@ -12,53 +12,56 @@
 
 namespace lorentz::oracle {
 
-/// The centres with low <= s <= high, and the basis in which they are looked for.
+/// The centres with low <= s <= high, and the basis in which they are searched.
 template <std::size_t D>
 struct RowStretch {
   Z low, high;
   Basis<D> basis;
 };
 
-/// The s up to which obstacles of a view's lattice come within 4 radii of the line; nothing if it has no end.
+/// The s up to which obstacles of a view's lattice come within 4 radii of the line; nothing if there is no
+/// such bound.
 template <std::size_t D>
 std::optional<Z> last_s(const View<D>& view);
 
-/// The centres with |h|^2 < reach2 around the line of a view (reach2 = R^2 v^2 for a cylinder of radius R; up
-/// to 4 radii of the obstacles where the lattice is completed, so that no copy is among them).
+/// The centres with |h|^2 < reach2 around the line of a view. For a cylinder of radius R, reach2 = R^2 v^2.
+/// If the lattice is completed, R must be at most 4 radii of the obstacles, so that no copy is in the
+/// cylinder.
 template <std::size_t D>
 class Stretches {
  public:
   Stretches(const View<D>& view, const Z& reach2)
       : view_(view), reach2_(reach2), reach_(reach2 > 0 ? root_below(reach2) : Z(0)) {}
 
-  /// Cuts low <= s <= high into stretches of few rows each (in so far as that is possible: none is made
-  /// shorter than about the cylinder is wide) and hands them out in order, not beyond last_s, until `take`
-  /// returns true. Returns whether it did. Two neighbours share their ends.
+  /// Cuts low <= s <= high into stretches of few rows each, as far as possible: no stretch is made shorter
+  /// than about the width of the cylinder. Passes them to `take` in order, up to last_s, until `take` returns
+  /// true. Returns whether it did. Two neighbouring stretches share an end.
   bool cut(const Z& low, const Z& high, const std::function<bool(const RowStretch<D>&)>& take) const;
 
-  /// The rows of a stretch that hold centres of the cylinder, each as its first such centre, the step, and
-  /// the last index, until `visit` returns true. Returns whether it did.
+  /// Visits the rows of a stretch that hold centres of the cylinder, until `visit` returns true. Returns
+  /// whether it did. A row is given as its first such centre, the step, and the last index.
   bool visit(const RowStretch<D>& stretch, const RowVisitor<D>& visit) const;
 
  private:
-  /// Makes the basis short for the stretch; returns the number of rows, or a lower bound that is many.
+  /// Makes the basis short for the stretch. Returns the number of rows, or a lower bound of it that is
+  /// already too many.
   Z shorten(Basis<D>& basis, const Z& low, const Z& high) const;
-  /// In space: the same, for the planes of b1 and b2.
+  /// The same in space, for the planes of b1 and b2.
   Z shorten_in_planes(Basis<D>& basis, const Z& low, const Z& high) const;
-  /// Longer than the cylinder is wide: it may be cut.
+  /// Longer than the cylinder is wide, so it may be cut.
   bool is_long(const Z& low, const Z& high) const { return high - low > reach_ + 1; }
   bool visit_row(const LatticePoint<D>& start, const RowStretch<D>& stretch,
                  const RowVisitor<D>& visit) const;
 
   const View<D>& view_;
   const Z reach2_;
-  const Z reach_;  // |h| <= reach for integers in the plane
+  const Z reach_;  // the largest |h| of integers in the plane
 };
 
-/// Visits the points of a row that come first into question for the smallest or largest margin: all, or of a
-/// row with more than kManyPoints those at its ends and nearest to the line. (In the plane a margin is
-/// monotone along a row on either side of the line, being a quotient of linear functions, so these are the
-/// ones.)
+/// Visits the points of a row that are candidates for the smallest or largest margin. These are all points;
+/// in a row of more than kManyPoints, they are those at its ends and those nearest to the line. (In the plane
+/// these suffice: a margin is a quotient of linear functions, so it is monotone along a row on either side of
+/// the line.)
 template <std::size_t D, class Visit>
 void visit_extremes(const ExactVelocity<D>& velocity, const LatticePoint<D>& first,
                     const LatticePoint<D>& step, const Z& last, const Visit& visit) {

@@ -8,7 +8,8 @@
 namespace lorentz::oracle {
 namespace {
 
-// The smallest obstacle that contains x, or nothing and the views of all atoms, in order.
+// Returns the smallest obstacle that contains x. If no obstacle does, returns nothing, and `views` holds the
+// views of all atoms in order.
 template <std::size_t D>
 std::optional<ObstacleId> smallest_around(const ExactScene<D>& scene, const ExactQuery<D>& query,
                                           std::vector<View<D>>& views) {

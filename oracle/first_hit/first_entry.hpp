@@ -1,4 +1,4 @@
-// The first obstacle of a whole scene, as integers have it. Private to oracle/.
+// The first obstacle of a whole scene, in integers. Private to oracle/.
 #pragma once
 
 #include <optional>
@@ -7,18 +7,18 @@
 
 namespace lorentz::oracle {
 
-/// What a flight meets: an obstacle around its start, or the earliest entry, or neither: it enters none,
-/// ever.
+/// The first event of a flight: an obstacle that contains its start, or the earliest entry. If it has
+/// neither, the flight never enters an obstacle.
 template <std::size_t D>
 struct Sighting {
-  std::optional<ObstacleId> around;  ///< the smallest that contains x
+  std::optional<ObstacleId> around;  ///< the smallest obstacle that contains x
   Earliest<D> earliest;
 };
 
 template <std::size_t D>
 Sighting<D> first_entry(const ExactScene<D>& scene, const ExactQuery<D>& query);
 
-/// The smallest obstacle that contains x, `from` excepted.
+/// The smallest obstacle other than `from` that contains x.
 template <std::size_t D>
 std::optional<ObstacleId> smallest_around(const ExactScene<D>& scene, const ExactQuery<D>& query);
 

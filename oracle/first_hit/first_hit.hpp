@@ -1,8 +1,9 @@
 // The search for the first obstacle of one atom on one flight. Private to oracle/.
 //
-// x must lie in no obstacle of the atom but `from`. The search offers to `search.earliest` entries at t >= 0,
-// the earliest of the atom among them unless an earlier one (of another atom) was there before. If it offers
-// nothing and nothing was there, the flight enters no obstacle of this atom, ever.
+// x must lie in no obstacle of the atom except `from`. The search offers entries at t >= 0 to
+// `search.earliest`. The atom's earliest entry is among them, unless an earlier one (of another atom) was
+// there before. If the search offers nothing, and nothing was there before, the flight never enters an
+// obstacle of this atom.
 #pragma once
 
 #include "oracle/exact/exact_line.hpp"
@@ -15,7 +16,7 @@ void search_first_hit(const Search<2>& search);
 /// 3D, any lattice: by exact lattice reduction in windows along the flight.
 void search_first_hit(const Search<3>& search);
 
-/// The only row of a lattice of one vector. (RowsInPlane and RowsInSpace solve it as a whole.)
+/// The only row of a lattice of one vector. (RowsInPlane and RowsInSpace solve a whole row.)
 inline void search_only_row(const Search<2>& search) {
   const FlightPoint step(search.velocity, search.view.basis[0]);
   RowsInPlane(search, step).offer_first(FlightPoint(search.velocity, search.view.offset));
@@ -24,8 +25,8 @@ inline void search_only_row(const Search<3>& search) {
   RowsInSpace(search, search.view.basis[0]).offer_first(search.view.offset);
 }
 
-/// The same for a view, whose lattice may have fewer than D vectors. If the search finds a copy, no obstacle
-/// is entered: all that there are would have been entered before it.
+/// The same for a view, whose lattice may have fewer than D vectors. If the search finds a copy, the flight
+/// enters no obstacle: it would have entered any obstacle of the lattice before the copy.
 template <std::size_t D>
 void search_first_hit(const View<D>& view, int lattice, int atom, const ZVec<D>* from,
                       Earliest<D>& earliest) {

@@ -1,14 +1,14 @@
 // First hit in 2D. Choose a basis (u, w) of the lattice such that rows along w are sparse across the strip
 // |h| < rho, and yet each row that crosses the whole strip has an obstacle in it:
 //
-//   |h_w| < 2 rho <= |h_u|   by Euclid's algorithm on |h_u|, |h_w| (which is the continued fraction of the
-//   slope), or w the shortest vector, if already |h_w| < 2 rho for it.
+//   |h_w| < 2 rho <= |h_u|   by Euclid's algorithm on |h_u|, |h_w| (the continued fraction of the slope);
+//   or w is the shortest vector, if it already has |h_w| < 2 rho.
 //
 // Then walk the rows a u + b w in the order in which they leave the strip. At most 2 rho / |h_u| + 1 of them
-// (in the second case: a number bounded by the ratio of the radius to the distance of the rows) overlap at
-// any s, and the first that lies in s > 0 as a whole ends the walk: an open interval of length 2 rho / |h_w|
-// > 1 holds an integer. Each row is solved exactly (RowsInPlane), so nothing depends on obstacles
-// being disjoint.
+// overlap at any s (in the second case, a number bounded by the ratio of the radius to the distance between
+// rows). The first row that lies entirely in s > 0 ends the walk, because it holds an obstacle: an open
+// interval of length 2 rho / |h_w| > 1 holds an integer. Each row is solved exactly (RowsInPlane), so nothing
+// depends on obstacles being disjoint.
 #include "oracle/first_hit/first_hit.hpp"
 
 namespace lorentz::oracle {
@@ -39,8 +39,8 @@ void search_first_hit(const Search<2>& search) {
   auto [u, w] = choose_steps(search);
   const Z rho_above = search.rho + 1;
 
-  // A point of the strip at (h, s) has the row number a = (h s_w - s h_w) / det - a_0, where a_0 is that of
-  // the offset. Orient the basis so that det > 0 and h_w <= 0: then a grows with s.
+  // A point of the strip at (h, s) has the row number a = (h s_w - s h_w) / det - a_0, where a_0 is the row
+  // number of the offset. Orient the basis so that det > 0 and h_w <= 0; then a grows with s.
   if (w.h > 0) w.negate();
   Z det = minor_of(u.h, u.s, w.h, w.s);
   if (det < 0) {
@@ -56,7 +56,7 @@ void search_first_hit(const Search<2>& search) {
   const Z first = ceil_div(D_w - spread - home, det);  // s >= 1
   row.add_multiple(first, u);
   if (D_w == 0) {
-    // The direction is rational: rows run along v, and only those in the strip count.
+    // The direction is rational: rows run along v, and only those in the strip matter.
     const Z last = floor_div(spread - home, det);
     for (Z a = first; a <= last; ++a) {
       rows.offer_first(row);

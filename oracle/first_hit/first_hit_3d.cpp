@@ -3,15 +3,17 @@
 // The flight is cut into windows of s = v.c. A window's piece of the cylinder |h| < rho is made round by
 // scaling (4^j |h|^2 + s^2 for a window of about 2^(j+1) rho), and the basis (b1, b2, b3) is reduced under
 // that form. Then
-//   1. the planes k3 = const that meet the piece are found from the cylinder's own support: few, or the
-//      window is cut; none, and the flight jumps to the s at which the next plane comes within reach;
-//   2. in each plane the section of the cylinder (a strip or an ellipse, however slender) is a 2D problem
-//      with windows and a scaling of its own: rows k2 = const, few of them, or the window is cut;
-//   3. each row is solved exactly and as a whole (RowsInSpace).
-// Windows grow while nothing is met, so the work is logarithmic in the flight. The bounds in 1 and 2 are
-// integers rounded outwards, so no obstacle is left out whatever basis the reduction came up with.
+//   1. The planes k3 = const that meet the piece are found from the cylinder's support function. If they are
+//      many, the window is cut. If there are none, the flight jumps to the s at which the next plane comes
+//      within reach.
+//   2. In each plane the section of the cylinder (a strip or an ellipse, however slender) is a 2D problem
+//      with windows and a scaling of its own, in rows k2 = const. If they are many, the window is cut.
+//   3. Each row is solved exactly and as a whole (RowsInSpace).
+// Windows grow while nothing is met, so the work is logarithmic in the length of the flight. The bounds in 1
+// and 2 are integers rounded outwards, so no obstacle is left out, whatever basis the reduction finds.
 //
-// Never: v is parallel to the planes, and no plane within reach, or only rows along v that miss.
+// The flight never hits if v is parallel to the planes, and no plane is within reach or all rows in them run
+// along v and miss.
 #include <lorentz/answer.hpp>
 
 #include "oracle/exact/planes.hpp"
@@ -22,10 +24,10 @@
 namespace lorentz::oracle {
 namespace {
 
-constexpr long kMany = 8;  // so many planes or rows in a window mean that it surely holds an obstacle
+constexpr long kMany = 8;  // a window with more planes or rows than this surely holds an obstacle
 
-// By how many halvings to cut a window with too many rows (dimension 2) or planes (3): n of them mean some
-// n^dimension obstacles. If that is too much, the windows grow again.
+// The number of halvings by which to cut a window with too many rows (dimension 2) or planes (dimension 3):
+// `count` of them mean about count^dimension obstacles. If this cuts too much, the windows grow again.
 long cut_for(const Z& count, long dimension) {
   return std::max(1L, dimension * (bit_length(count / kMany) - 1));
 }
@@ -39,14 +41,14 @@ class Solver {
   // Rows of one plane in the window low <= s <= high.
   struct Section {
     bool empty = true;
-    Z low, high;  // where the plane's section of the cylinder lies, within the window
+    Z low, high;  // the range of the plane's section of the cylinder, within the window
     LatticePoint<3> start;
     PlanePoint step, next;
     Range rows;
-    bool along_rows = false;  // the rows run along v: they are all there is, in this window and beyond
+    bool along_rows = false;  // the rows run along v, and are all rows of the plane in this window and beyond
   };
 
-  // The planes of b1 and b2, and these two in coordinates of the plane.
+  // The planes of b1 and b2, and these two vectors in coordinates of the plane.
   struct PlaneFamily {
     Planes planes;
     std::array<PlanePoint, 2> pair;
@@ -99,8 +101,9 @@ void Solver::solve_rows(const Section& section) {
   }
 }
 
-// The entry that a ball at the best real place of the row would have, t v^2 = (s - sqrt(d)) / q; nothing if
-// the row misses the cylinder. With A, B, M as in exact_line.cpp it is (A s0 - B sg - sqrt(strip M)) / A.
+// The entry t v^2 = (s - sqrt(d)) / q that a ball at the best real position in the row would have; nothing if
+// the row misses the cylinder. With A, B, strip and gg as in exact_line.cpp it is
+//   (A s0 - B sg - sqrt(strip gg)) / A.
 struct RealEntry {
   Z s, d, q;
 };
@@ -113,7 +116,7 @@ std::optional<RealEntry> real_entry(const Search<3>& search, const LatticePoint<
   return RealEntry{row.A * row.s0 - row.B * row.sg, strip * row.gg, row.A};
 }
 
-// An entry as this view times it: another atom's may be in other coordinates, with another v^2.
+// An entry in this view's units of time. Another atom's entry may be in other coordinates, with another v^2.
 RealEntry as_timed_in(const ExactVelocity<3>& velocity, const ExactEntry<3>& entry) {
   if (entry.v2 == velocity.v2) return {entry.s, entry.d, 1};
   return {entry.s * velocity.v2, entry.d * velocity.v2 * velocity.v2, entry.v2};
@@ -123,14 +126,14 @@ int compare(const RealEntry& a, const RealEntry& b) {
   return compare_entries(a.s, a.d, a.q, b.s, b.d, b.q);
 }
 
-// A plane so dense with obstacles (r many times their spacing) that even the shortest window has many rows.
-// The real entry is convex in the row number, so start where the ball touches the plane and go both ways,
-// until it comes after the earliest entry found and grows.
+// For a plane so dense with obstacles (r many times their spacing) that even the shortest window has many
+// rows. The real entry is convex in the row number. So start where the ball touches the plane, and go both
+// ways until the real entry comes after the earliest entry found and grows.
 void Solver::solve_many_rows(const Planes& planes, const Section& section) {
   const ExactVelocity<3>& velocity = search_.velocity;
-  // The touching point has y = 0, and (for a > 0) s = (level - r |N| v^2) / a + r a / |N|. Rounding here
-  // costs time only; but the right row is one of many, and |N| can be a small integer, so its root gets bits
-  // behind the point.
+  // The touching point has y = 0, and (for a > 0) s = (level - r |N| v^2) / a + r a / |N|. Rounding costs
+  // only time here. But the right row is one of many, and |N| can be a small integer, so its root gets
+  // fractional bits.
   Z z = 0;
   if (!planes.head_on) {
     const long bits = 64 + bit_length(section.rows.count());
@@ -164,7 +167,7 @@ void Solver::solve_many_rows(const Planes& planes, const Section& section) {
   }
 }
 
-// Returns true if the plane holds no more than what was found, at any s.
+// Returns true if the plane holds nothing more, at any s.
 bool Solver::solve_plane(const PlaneFamily& family, const Z& k3, Z low, Z high) {
   const Planes& planes = family.planes;
   const Z shortest = 2 * rho_above_;
@@ -206,11 +209,12 @@ void Solver::run() {
   const View<3>& view = search_.view;
   WindowBasis basis(velocity, view.basis);
   std::optional<PlaneFamily> family;
-  // A window of about one free path, volume / (pi r^2).
+  // Start with a window of about one mean free path, volume / (pi r^2).
   long j = std::max(0L, view.volume_bits - 3 * bit_length(view.radius) - 1);
   Z low = 1;
-  // After each empty window the next is longer, and by a growing factor: from the edge of a slender section
-  // (a plane grazed at a slope of 2^-60) to its first obstacle it can be 2^30 first windows.
+  // After each empty window the next one is longer, by a growing factor. From the edge of a slender section
+  // (a plane grazed at a slope of 2^-60) to its first obstacle the distance can be 2^30 times the first
+  // window.
   long growth = 1;
   for (;;) {
     const Z high = limited(low + shifted_left(rho_above_, j + 1) + rho_above_);

@@ -47,7 +47,7 @@ WindowBasis::Rounded WindowBasis::rounded(long j) const {
   return result;
 }
 
-// Takes k a + m b from a vector, if that makes it shorter.
+// Subtracts k a + m b from a vector, if that makes it shorter.
 WindowBasis::Step WindowBasis::take(Rounded& vectors, std::size_t from, std::size_t a, double k,
                                     std::size_t b, double m) {
   if (k == 0 && m == 0) return Step::none;
@@ -81,8 +81,8 @@ WindowBasis::Step WindowBasis::shorten(Rounded& vectors) {
 bool WindowBasis::shorten(long j) {
   bool changed = false;
   const auto before = order_;
-  // Where much cancels, what is left has to be rounded anew; a few times are enough unless the window has
-  // another shape by far.
+  // After much cancellation the vectors must be rounded again. A few times are enough, unless the window's
+  // shape differs greatly from that of the last one.
   constexpr int kTimes = 8, kSteps = 64;
   for (int time = 0; time < kTimes; ++time) {
     Rounded vectors = rounded(j);

@@ -1,9 +1,9 @@
 // A lattice basis that is short for a window of the flight, 3D. Private to oracle/.
 //
-// A window of about 2^(j+1) rho of the cylinder is made round by the form 4^j |h|^2 + s^2 (WindowForm). Under
-// this the basis is reduced, and from one window to the next by a few steps only. What these steps are is
-// found in binary64, from the vectors' h and s, rounded; they are done on the integers. So whatever the
-// rounding, it is a basis of the same lattice, and a worse basis costs time, never an obstacle.
+// The form 4^j |h|^2 + s^2 (WindowForm) makes a window of about 2^(j+1) rho of the cylinder round. The basis
+// is reduced under this form, and from one window to the next only a few steps are needed. The steps are
+// found in binary64, from the rounded h and s of the vectors, but done on the integers. So whatever the
+// rounding, the result is a basis of the same lattice, and a worse basis costs time, never an obstacle.
 #pragma once
 
 #include "oracle/exact/planes.hpp"

@@ -1,4 +1,5 @@
-// A scene of balls with the same shadows: a cylinder is open in both or in neither. Private to oracle/.
+// A scene of balls with equivalent shadows: a cylinder is open in both scenes or in neither. Private to
+// oracle/.
 #pragma once
 
 #include <string>
@@ -8,20 +9,20 @@
 
 namespace lorentz::oracle {
 
-/// The obstacles as balls: as they are, or, if they are ellipsoids of one shape A, with all points mapped by
-/// |det A| A^-1.
+/// The obstacles as balls. Balls stay as they are. If the obstacles are ellipsoids of one shape A, all points
+/// are mapped by |det A| A^-1.
 struct BallScene {
   ObstacleLattice<3> lattice;
-  std::array<ZVec<3>, 3> rows;     ///< of the map; the identity for balls
-  std::array<ZVec<3>, 3> axes;     ///< of the largest ball, or of the ellipsoids, before
-  std::vector<ZVec<3>> positions;  ///< of the obstacles before
+  std::array<ZVec<3>, 3> rows;     ///< rows of the map; the identity for balls
+  std::array<ZVec<3>, 3> axes;     ///< those of the largest ball, or of the ellipsoids, before the map
+  std::vector<ZVec<3>> positions;  ///< those of the obstacles, before the map
   bool mapped = false;
   std::string unsupported;
 
   ZVec<3> map(const ZVec<3>& a) const { return {dot(rows[0], a), dot(rows[1], a), dot(rows[2], a)}; }
 };
 
-/// Of all lattices, if they have the same vectors.
+/// The obstacles of all lattices, if these have the same vectors; otherwise sets `unsupported`.
 BallScene balls_of(const ChannelScene<3>& scene);
 
 }  // namespace lorentz::oracle

@@ -107,7 +107,7 @@ ChannelScene<D>::ChannelScene(const Scene& scene, double unit_length)
 template <std::size_t D>
 std::vector<Gap> gaps_of(const ObstacleLattice<D>& lattice, const ZVec<D>& normal, const Z& period,
                          std::size_t& work) {
-  // Of many obstacles the first few mostly cover the circle already.
+  // If there are many obstacles, the first few nearly always cover the circle already.
   std::vector<Blocked> blocks;
   for (std::size_t count = 8;; count *= 4) {
     count = std::min(count, lattice.obstacles.size());
@@ -120,7 +120,8 @@ std::vector<Gap> gaps_of(const ObstacleLattice<D>& lattice, const ZVec<D>& norma
 
 namespace {
 
-// The row through the origin, first = j step, has two primitive points, +-step, however long it is.
+// True for the row through the origin, first = j step. It has two primitive points, +-step, however long it
+// is.
 template <std::size_t D>
 bool is_through_origin(const LatticePoint<D>& first, const LatticePoint<D>& step) {
   for (std::size_t i = 0; i < D; ++i) {
@@ -132,7 +133,7 @@ bool is_through_origin(const LatticePoint<D>& first, const LatticePoint<D>& step
   return false;
 }
 
-// Of a reduced basis.
+// The basis must be reduced.
 template <std::size_t D>
 std::size_t count_points(const Basis<D>& basis, const Z& bound2, std::size_t most) {
   std::size_t count = 0;

@@ -18,7 +18,7 @@ int compare_ends(const Z& a, const Z& a2, const Z& b, const Z& b2) {
   return -compare_entries(-a, a2, -b, b2);
 }
 
-// Each block with its start in [0, period), in ascending order of the starts.
+// Moves the start of each block into [0, period), and sorts the blocks by start.
 void put_in_order(std::vector<Blocked>& blocks, const Z& period) {
   for (Blocked& block : blocks) {
     const Z turns = period * floor_surd(block.start, -1, block.start2, period);
@@ -30,7 +30,8 @@ void put_in_order(std::vector<Blocked>& blocks, const Z& period) {
   });
 }
 
-// Calls visit(reach, reach2, block) for each block in order: reach + sqrt(reach2) is the furthest end before.
+// Calls visit(reach, reach2, block) for each block in order; reach + sqrt(reach2) is the furthest end of the
+// blocks before.
 template <class Visit>
 void sweep(std::vector<Blocked>& blocks, const Z& period, Visit visit) {
   put_in_order(blocks, period);
@@ -41,8 +42,8 @@ void sweep(std::vector<Blocked>& blocks, const Z& period, Visit visit) {
       reach = block.end, reach2 = block.end2;
     any = true;
   }
-  // The blocks of the period before come first. One that reaches further than a period leaves nothing anyhow,
-  // so one turn is all it takes.
+  // The blocks of the period before come first. If one of them reaches further than a period, nothing is free
+  // anyway, so one turn is enough.
   reach -= period;
   for (const Blocked& block : blocks) {
     visit(reach, reach2, block);

@@ -1,5 +1,5 @@
-// Unions of open intervals on a circle, exactly: which parts of a period do the obstacles of a scene, seen
-// along its planes, leave free? Private to oracle/.
+// Unions of open intervals on a circle, exactly: the parts of a period that the obstacles of a scene, seen
+// along its planes, leave free. Private to oracle/.
 #pragma once
 
 #include <vector>
@@ -22,15 +22,15 @@ struct Gap {
   void shift(const Z& by) { low += by, high += by; }
 };
 
-/// The gaps of the union of the blocks modulo `period`, one period of them in ascending order. A gap has a
-/// width above 0: touching blocks leave none. No blocks, no gaps.
+/// The gaps of the union of the blocks modulo `period`, those of one period in ascending order. A gap has a
+/// width above 0, so touching blocks leave no gap between them. Without blocks there are no gaps.
 std::vector<Gap> gaps_between(std::vector<Blocked> blocks, const Z& period);
 
-/// The blocks between gaps, `copies` periods of them.
+/// The blocks between the gaps, over `copies` periods.
 std::vector<Blocked> blocks_between(const std::vector<Gap>& gaps, const Z& period, unsigned long copies);
 
-/// How blocks, at least one, cover a circle: leaving gaps, touching somewhere so that points stay free, or
-/// all of it.
+/// How blocks (at least one) cover a circle: with gaps, touching somewhere so that points stay free, or
+/// fully.
 enum class Cover { gaps, touching, full };
 Cover cover_of(std::vector<Blocked> blocks, const Z& period);
 

@@ -1,11 +1,13 @@
-// Let u be the row's period, u' the same turned by a right angle, v = t u + u' a direction, N = u - t u' its
-// normal. The shadow along v is a union of intervals about N.p of half-width |A^T N|, with the period N.u =
-// u^2. A gap between obstacles a and b has the width f(t) = N.(b - a) - |A^T N| - |B^T N|, which is concave. So
-// a gap that has the same obstacles below and the same above at s and at t is open at all t between.
+// Let u be the period of the row, u' the same vector turned by a right angle, v = t u + u' a direction, and
+// N = u - t u' its normal. The shadow along v is a union of intervals about N.p of half-width |A^T N|, with
+// the period N.u = u^2. A gap between obstacles a and b has the width f(t) = N.(b - a) - |A^T N| - |B^T N|,
+// which is concave. So a gap that has the same obstacles below and the same above at s and at t is open at
+// all values between s and t.
 //
-// A gap opens and shuts where some f is 0, which is at a root of the polynomial (l^2 - q_a - q_b)^2 - 4 q_a q_b,
-// with l = N.(b - a), q_a = |A^T N|^2, q_b = |B^T N|^2. Between two neighbouring roots no gap opens or shuts. At
-// a root those gaps are open that are open on both sides of it.
+// A gap opens or shuts where some f is 0, which is at a root of the polynomial
+// (l^2 - q_a - q_b)^2 - 4 q_a q_b, with l = N.(b - a), q_a = |A^T N|^2, q_b = |B^T N|^2. Between two
+// neighbouring roots no gap opens or shuts. At a root, the open gaps are those that are open on both sides of
+// it.
 #include "oracle/horizon/closed_directions.hpp"
 
 #include <algorithm>
@@ -32,8 +34,8 @@ InputError too_many() {
 
 struct RowMember {
   ObstacleId id;
-  Z turn;                // the cells of its own row that make a period
-  Polynomial centre, q;  // of t: N.p, |A^T N|^2
+  Z turn;                // the number of cells of its own row in a period
+  Polynomial centre, q;  // as polynomials of t: N.p, |A^T N|^2
 };
 
 // One period of all rows.
@@ -55,7 +57,7 @@ void RowPeriod::add(const ObstacleId& id, const Z& turn, const IntegerScene<2>::
   members.push_back({id, turn, seen(position), q});
 }
 
-// Single obstacles are left out: they cannot fill the gaps of a row, of which there are infinitely many.
+// Single obstacles are left out: they cannot fill the infinitely many gaps of a row.
 RowPeriod row_of(const IntegerScene<2>& scene) {
   Z common = 1, count = 0;
   const ZVec<2>* first = nullptr;
@@ -90,7 +92,8 @@ RowPeriod row_of(const IntegerScene<2>& scene) {
   return row;
 }
 
-// Names a gap: for each member the number of its last translate below the gap, less that of the first member.
+// Identifies a gap: for each member the number of its last translate below the gap, minus the number for the
+// first member.
 using GapKey = std::vector<Z>;
 
 // The gaps at t = a / 2^bits.
@@ -114,8 +117,8 @@ std::set<GapKey> gaps_at(const RowPeriod& row, const Z& a, long bits) {
   return keys;
 }
 
-// At all t outside [low, high] / 2^kFractionBits some obstacle and its own translates leave no gap: 4 q >=
-// period^2.
+// At all t outside [low, high] / 2^kFractionBits some obstacle and its own translates leave no gap:
+//   4 q >= period^2.
 struct OpenRange {
   static constexpr unsigned long kFractionBits = 16;
   Z low, high;
@@ -141,14 +144,15 @@ struct OpenRange {
   }
 };
 
-// A t at which the lines along v that touch member i touch member j, n periods further, too.
+// A t at which the lines along v that touch member i also touch member j, n periods further.
 struct Touch {
   RealRoot at;
   std::size_t i, j;
   Z n;
 };
 
-// Calls visit(i, j, n, l) for all pairs whose centres come within a period of each other within the range.
+// Calls visit(i, j, n, l) for all pairs whose centres come within a period of each other at some t in the
+// range.
 template <class Visit>
 void visit_pairs(const RowPeriod& row, const OpenRange& range, const Visit& visit) {
   for (std::size_t i = 0; i < row.members.size(); ++i) {
@@ -165,7 +169,7 @@ void visit_pairs(const RowPeriod& row, const OpenRange& range, const Visit& visi
   }
 }
 
-// In ascending order; touches at the same t are one group.
+// All touches in ascending order; touches at the same t form one group.
 std::vector<std::vector<Touch>> touches_of(const RowPeriod& row) {
   const OpenRange range(row);
   std::vector<Touch> touches;
@@ -197,7 +201,7 @@ std::vector<std::vector<Touch>> touches_of(const RowPeriod& row) {
 std::vector<std::set<GapKey>> gaps_beside(const RowPeriod& row, std::vector<std::vector<Touch>>& groups) {
   std::vector<std::set<GapKey>> gaps;
   for (std::vector<Touch>& group : groups) {
-    // The interval's lower end may be the root before, until it moves.
+    // The lower end of the interval may be the previous root, until refining moves it.
     RealRoot& root = group[0].at;
     do root.refine();
     while (!is_odd(root.low));
@@ -220,8 +224,8 @@ ArcEnd end_at(const Vec& u, double cotangent) {
   return {std::atan2(1, cotangent), cotangent, {along * u[0] - u[1] / size, along * u[1] + u[0] / size}, {}};
 }
 
-// The end of an arc, beside which this gap is open. Two that touch there, one from either side of the gap, shut
-// it.
+// The end of an arc beside which this gap is open. Two obstacles that touch there, one from either side of
+// the gap, shut it.
 ArcEnd end_at(const RowPeriod& row, const Vec& u, const std::vector<Touch>& group, const GapKey& gap) {
   ArcEnd end = end_at(u, round_to_binary64(group[0].at));
   const auto touch = std::find_if(group.begin(), group.end(),
@@ -236,7 +240,7 @@ std::vector<ClosedArc> closed_arcs(const RowPeriod& row, const Vec& u) {
   std::vector<std::vector<Touch>> groups = touches_of(row);
   const std::vector<std::set<GapKey>> gaps = gaps_beside(row, groups);
   std::vector<ClosedArc> arcs;
-  constexpr double kRow = std::numeric_limits<double>::infinity();  // the cotangent there
+  constexpr double kRow = std::numeric_limits<double>::infinity();  // its cotangent
   ArcEnd from = end_at(u, kRow);
   for (std::size_t g = groups.size(); g-- > 0;) {
     const std::set<GapKey>&above = gaps[g + 1], &below = gaps[g];
@@ -262,7 +266,8 @@ std::vector<ClosedArc> closed_directions(const Scene& scene) {
         "horizon: unsupported for layers: the directions that they close are regions with very many edges; "
         "name "
         "one direction");
-  // In space a row's shadow is a row of discs, or one disc, and finitely many leave a plane open.
+  // In space a row's shadow is a row of discs, or one disc. Finitely many of these leave part of a plane
+  // open.
   if (scene.dimension == 3) return {};
   const auto row = std::find_if(scene.lattices.begin(), scene.lattices.end(),
                                 [](const Lattice& lattice) { return lattice.rank(2) == 1; });

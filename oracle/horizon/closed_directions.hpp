@@ -7,8 +7,9 @@
 
 namespace lorentz::oracle {
 
-/// In the order of their angles. The scene is no crystal. Throws InputError if it is unsupported: if it has
-/// layers, crystals or no rows, rows in different directions in the plane, or too many pairs of obstacles.
+/// The arcs in the order of their angles. The scene must not be a crystal. Throws InputError if the scene is
+/// unsupported: if it has layers, crystals or no rows, rows in different directions in the plane, or too many
+/// pairs of obstacles.
 std::vector<ClosedArc> closed_directions(const Scene& scene);
 
 }  // namespace lorentz::oracle

@@ -1,8 +1,8 @@
-// A normal of the first lattice's rows is n_1 a_1 + n_2 a_2, of the second's m_1 b_1 + m_2 b_2. They are
-// parallel if X = n m^T, of rank one, satisfies sum C_ij X_ij = 0, where C_ij = a_i x b_j. All integer X that
-// do so are a lattice of three dimensions; n and m, and so X, are in a box. What is in the box is in the span
-// of one or two vectors of a short basis, if the others are long enough, and there det X = 0 has at most two
-// solutions, but for a factor.
+// A normal of the first lattice's rows is n_1 a_1 + n_2 a_2, and one of the second's is m_1 b_1 + m_2 b_2.
+// They are parallel if X = n m^T, a matrix of rank one, satisfies sum C_ij X_ij = 0, where C_ij = a_i x b_j.
+// All integer X that do so form a lattice of three dimensions; n and m, and so X, are bounded by a box. If
+// the other vectors of a short basis are long enough, the points in the box are in the span of one or two
+// basis vectors, and there det X = 0 has at most two solutions, up to a factor.
 #include "oracle/horizon/common_rows.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct LatticeForm {
   }
 };
 
-// Normals of a lattice's rows, and how large the coefficients of those are between which the largest obstacle
+// Normals of a lattice's rows, and bounds of the coefficients of those normals for which the largest obstacle
 // leaves a gap: 2 |A^T N| < volume.
 struct CommonRows {
   std::array<ZVec<2>, 2> normals;
@@ -56,7 +56,7 @@ struct CommonRows {
   }
 };
 
-// All integer solutions of c.x = 0; c_0 and c_1 are not both 0.
+// All integer solutions of c.x = 0; c_0 and c_1 must not both be 0.
 std::array<Product, 3> solutions_of(const ZVec<4>& c) {
   const auto [g, x, y] = bezout(c[0], c[1]);
   const auto [h, u, w] = bezout(g, c[2]);
@@ -65,7 +65,7 @@ std::array<Product, 3> solutions_of(const ZVec<4>& c) {
           Product{{-u * x * (c[3] / all), -u * y * (c[3] / all), -w * (c[3] / all), h / all}}};
 }
 
-// Those of rank one among s a + t b: p s^2 + q s t + r t^2 = 0. Nothing if all are.
+// The matrices of rank one among s a + t b: p s^2 + q s t + r t^2 = 0. Nothing if all are of rank one.
 std::optional<std::vector<Product>> of_rank_one(const Product& a, const Product& b) {
   Product both = a;
   both.add_multiple(1, b);
@@ -103,7 +103,7 @@ std::optional<std::vector<ZVec<2>>> common_normals(const ObstacleLattice<2>& a, 
     most[i] = std::max(Z(1), Z(first.most[i / 2] * second.most[i % 2]));
     largest = std::max(largest, most[i]);
   }
-  // Lengths in which the box is nearly a cube, and the square of its half diagonal.
+  // Weights that make the box nearly a cube, and the square of half its diagonal.
   LatticeForm form;
   Z bound2 = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -117,7 +117,7 @@ std::optional<std::vector<ZVec<2>>> common_normals(const ObstacleLattice<2>& a, 
   const Z g11 = form(u, u), g12 = form(u, v), g22 = form(v, v), g13 = form(u, w), g23 = form(v, w),
           g33 = form(w, w), area2 = g11 * g22 - g12 * g12,
           volume2 = g33 * area2 - g13 * (g13 * g22 - g23 * g12) + g23 * (g13 * g12 - g23 * g11);
-  // How far a basis vector is from the span of those before, squared, against the bound.
+  // Compare the squared distance of each basis vector from the span of those before it with the bound.
   if (volume2 <= bound2 * area2) return std::nullopt;
   std::optional<std::vector<Product>> products = std::vector<Product>{};
   if (area2 <= bound2 * g11)

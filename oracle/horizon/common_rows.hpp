@@ -1,5 +1,5 @@
-// In which directions have two lattices of the plane rows so far apart that either may leave a way between?
-// Private to oracle/.
+// The directions in which each of two lattices of the plane has rows so far apart that it may leave a way
+// between them. Private to oracle/.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace lorentz::oracle {
 
-/// The normals, but for a factor, along which both lattices have gaps, and perhaps some more: at most two.
-/// Nothing where there may be many, the lattices being commensurable or the obstacles large.
+/// The normals, up to a factor, along which both lattices have gaps, and perhaps further normals: at most
+/// two. Nothing if there may be many, because the lattices are commensurable or the obstacles large.
 std::optional<std::vector<ZVec<2>>> common_normals(const ObstacleLattice<2>& a, const ObstacleLattice<2>& b);
 
 }  // namespace lorentz::oracle

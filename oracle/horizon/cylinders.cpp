@@ -15,9 +15,10 @@ namespace {
 constexpr std::size_t kMostPlanes = 20'000;
 constexpr double kMostInPlane = 5'000;  // directions
 constexpr std::size_t kMostCylinderWork =
-    10'000'000;  // blocks placed, points and discs compared: some microseconds each
+    10'000'000;  // blocks placed, points and discs compared: a few microseconds each
 
-// How the blocks of the first few balls cover, or if they leave anything, of all.
+// How the blocks of all balls cover. Starts with the first few balls, and stops early if they cover
+// everything.
 template <class BlockOf>
 Cover cover_by_balls(const ObstacleLattice<3>& lattice, const Z& period, std::size_t& work,
                      BlockOf block_of) {
@@ -33,14 +34,15 @@ Cover cover_by_balls(const ObstacleLattice<3>& lattice, const Z& period, std::si
   }
 }
 
-// Between the planes with this normal.
+// How the balls cover the space between the planes with this normal.
 Cover cover_of_planes(const ObstacleLattice<3>& lattice, const ZVec<3>& normal, std::size_t& work) {
   return cover_by_balls(lattice, lattice.period(normal), work, [&](const Obstacle<3>& ball) {
     return std::optional<Blocked>(lattice.block(ball, normal));
   });
 }
 
-// The same with each ball shrunk from r to sqrt(r^2 - r_largest^2 / 2^m). (All lengths are times 2^bits.)
+// The same with each ball shrunk from r to sqrt(r^2 - r_largest^2 / 2^m). (All lengths are multiplied by
+// 2^bits.)
 Cover shrunk_cover(const ObstacleLattice<3>& lattice, const ZVec<3>& normal, unsigned long m,
                    std::size_t& work) {
   const unsigned long bits = (m + 1) / 2;
@@ -63,7 +65,7 @@ struct Plane {
   ZVec<3> indices, normal;
 };
 
-// A basis of the lattice vectors in a plane, shortest first, and one that leads to the next plane.
+// A basis of the lattice vectors in a plane, shortest first, and a vector that leads to the next plane.
 struct PlaneBasis {
   std::array<LatticePoint<3>, 2> in_plane;
   LatticePoint<3> out;
@@ -109,9 +111,10 @@ class CylinderSearch {
   }
 
  private:
-  // A hole in the shadow along g has a shortest lattice vector b1 and rows of that 1/|k| apart, k
-  // perpendicular to g. The largest ball alone leaves it, so r^2 < (circumradius)^2 <= (b1^2 + 1/k^2) / 4,
-  // and b1 <= (2 / sqrt 3) / |k|: 1/k^2 > (12/7) r^2. That leaves finitely many k.
+  // Consider a hole in the shadow along g. The shadow's lattice has a shortest vector b1, and rows along it
+  // that are 1/|k| apart, with k perpendicular to g. The largest ball alone leaves the hole, so
+  // r^2 < (circumradius)^2 <= (b1^2 + 1/k^2) / 4. With b1 <= (2 / sqrt 3) / |k| this gives
+  // 1/k^2 > (12/7) r^2, which leaves finitely many k.
   bool find_planes() {
     const Z r = lattice_.obstacles[0].axes[0][0], r2 = r * r, volume2 = lattice_.volume * lattice_.volume;
     const bool done = visit_primitive<3>(lattice_.cofactors, ceil_div(7 * volume2, 12 * r2), 2 * kMostPlanes,
@@ -132,21 +135,21 @@ class CylinderSearch {
       return;
     }
     taken_.push_back(plane.indices);
-    // Between touching slabs of obstacles the plane in the middle is free but for points, whatever g in it
-    // is.
+    // Between touching slabs of obstacles, the plane in the middle is free except for points, for every g in
+    // it.
     if (cover == Cover::touching) horizon_.families.push_back({name_of_plane(plane.indices), true, 0});
   }
 
-  // Along g the balls are lined up in rows of discs b1 = |normal| / |g| apart, and these cover slabs of half
-  // width sqrt(r^2 - b1^2 / 4). If the slabs cover everything for b1^2 = 4 r_largest^2 / 2^m they do so for
-  // all smaller b1: g^2 < 2^m normal^2 / (4 r_largest^2) remains.
+  // Along g the balls are lined up in rows of discs b1 = |normal| / |g| apart, and these cover slabs of
+  // half-width sqrt(r^2 - b1^2 / 4). If the slabs cover everything for b1^2 = 4 r_largest^2 / 2^m, they do so
+  // for all smaller b1, so only g^2 < 2^m normal^2 / (4 r_largest^2) remains.
   void look_in(const Plane& plane) {
     constexpr unsigned long kFinest = 256;
     unsigned long m = 1;
     while (m < kFinest && shrunk_cover(lattice_, plane.normal, m, work_) == Cover::gaps) ++m;
     const Z r = lattice_.obstacles[0].axes[0][0], normal2 = dot(plane.normal, plane.normal);
     Z bound = ceil_div(shifted_left(normal2, m), 4 * r * r);
-    // Points in a disc of that area, one of each pair, 6 / pi^2 of them primitive.
+    // The number of points in a disc of that area, one of each pair; 6 / pi^2 of them are primitive.
     const double count = std::exp2(log2_of(bound) - log2_of(normal2) / 2) * 0.955;
     if (count > kMostInPlane) {
       horizon_.families.push_back({name_of_plane(plane.indices), false, count});
@@ -155,7 +158,7 @@ class CylinderSearch {
     visit_directions(plane_basis(lattice_, plane.indices), bound);
   }
 
-  // g = i b1 + j b2, coprime, one of each pair +-g, with g^2 < bound.
+  // All g = i b1 + j b2 with coprime i and j, one of each pair +-g, with g^2 < bound.
   void visit_directions(const PlaneBasis& basis, const Z& bound) {
     const auto& [b1, b2] = basis.in_plane;
     const Z g11 = dot(b1.p, b1.p), g12 = dot(b1.p, b2.p), g22 = dot(b2.p, b2.p), det = g11 * g22 - g12 * g12;
@@ -201,7 +204,7 @@ class CylinderSearch {
     return {to_integer(n[0]), to_integer(n[1]), to_integer(n[2])};
   }
 
-  // Of the lattice vector n_1 u_1 + .. in the scene's own vectors.
+  // The name of the lattice vector n_1 u_1 + .. in the scene's own vectors.
   ZVec<3> name_of(const ZVec<3>& n) const {
     ZVec<3> name;
     const auto& names = scene_.lattices[0].names;
@@ -210,7 +213,8 @@ class CylinderSearch {
     return name;
   }
 
-  // Of the planes u_i.k = n_i: what the scene's own vectors have with k, the first that is not 0 above 0.
+  // The name of the planes u_i.k = n_i: the products of the scene's own vectors with k, with the sign that
+  // makes the first nonzero product positive.
   std::array<Integer, 3> name_of_plane(const ZVec<3>& n) const {
     const auto& names = scene_.lattices[0].names;
     ZVec<3> name;  // names maps it to n, and its determinant is 1 or -1
@@ -231,7 +235,7 @@ class CylinderSearch {
   const SearchProgress& progress_;
   std::vector<Plane> closed_;
   std::size_t planes_done_ = 0;
-  std::vector<ZVec<3>> taken_;  ///< planes that are open, or touch: cylinders in these are not listed
+  std::vector<ZVec<3>> taken_;  ///< planes that are open, or touch; cylinders in them are not listed
   std::set<ZVec<3>> seen_;
   std::size_t work_ = 0;
 };

@@ -6,7 +6,7 @@
 
 namespace lorentz::oracle {
 
-/// Fills in horizon.cylinders, families, and no_cylinders.
+/// Sets horizon.cylinders, families and no_cylinders.
 void find_cylinders(const ChannelScene<3>& scene, Horizon& horizon, const SearchProgress& progress);
 
 }  // namespace lorentz::oracle

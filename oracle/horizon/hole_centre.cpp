@@ -14,7 +14,7 @@ double quotient(const Z& a, const Z& b) {
   return std::ldexp(x.mantissa / y.mantissa, static_cast<int>(x.exponent - y.exponent));
 }
 
-// Orthogonal axes of the plane. Lengths in units of the largest disc's radius; vectors of the plane as
+// Orthogonal axes of the plane. Lengths are in units of the largest disc's radius; vectors of the plane are
 // integers, times 2^bits.
 struct HoleFrame {
   unsigned long bits;
@@ -54,15 +54,15 @@ struct HoleFrame {
   }
 };
 
-// The discs around the start of a climb, times 2^bits; centres relative to the disc that the start is
-// relative to.
+// The discs around the start of a climb, times 2^bits. Their centres are relative to the disc to which the
+// start is relative.
 struct HoleSurroundings {
   const Shadow& shadow;
   HoleFrame frame;
   std::vector<Disc> discs;
   std::vector<std::array<double, 3>> flat;  ///< x, y, radius of each
 
-  /// From here, nearest first; leaves out those further than `most`.
+  /// Sorts by distance from here, nearest first, and removes the discs further than `most`.
   void sort_by_distance(double x, double y, double most = std::numeric_limits<double>::infinity());
 };
 
@@ -88,7 +88,7 @@ void HoleSurroundings::sort_by_distance(double x, double y, double most) {
   }
 }
 
-// A place in the plane in binary64: quick, and near the discs' edges too coarse.
+// A place in the plane in binary64: fast, but too coarse near the edges of discs.
 class RoughPlace {
  public:
   RoughPlace(const HoleSurroundings& around, double x, double y) : around_(&around), x_(x), y_(y) {
@@ -108,7 +108,7 @@ class RoughPlace {
   std::vector<Wall> walls_;
 };
 
-// A place as integers: its distances from the discs' edges are right however small they are.
+// A place in integers: its distances from the edges of discs are accurate, however small they are.
 class ExactPlace {
  public:
   ExactPlace(const HoleSurroundings& around, ZVec<3> place) : around_(&around), place_(std::move(place)) {
@@ -141,8 +141,8 @@ class ExactPlace {
   static ZVec<3> minus(const ZVec<3>& a, const ZVec<3>& b) {
     return {Z(a[0] - b[0]), Z(a[1] - b[1]), Z(a[2] - b[2])};
   }
-  // Of the line through the place from a ball: (|X cross g| - r g^2) / g^2, X the vector between them, which
-  // need not be perpendicular to g.
+  // The distance of the line through the place from a ball: (|X cross g| - r g^2) / g^2, where X is the
+  // vector between them, which need not be perpendicular to g.
   Quadratic distance_from(const Disc& disc) const {
     const Shadow& shadow = around_->shadow;
     const ZVec<3> across = cross(minus(place_, disc.centre), shadow.along);
@@ -165,7 +165,7 @@ double clearance_at(const Place& place) {
       ->far;
 }
 
-// The clearance at a place if it is above `floor`, else something not above it.
+// The clearance at a place if it is above `floor`; otherwise some value not above `floor`.
 double rough_clearance(const HoleSurroundings& around, double x, double y, double floor) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [disc_x, disc_y, radius] : around.flat) {
@@ -176,8 +176,8 @@ double rough_clearance(const HoleSurroundings& around, double x, double y, doubl
   return least;
 }
 
-// Hops to where there is more room, in ever smaller steps and over discs too: a hole may be wide far from the
-// start, or another one be wider.
+// Hops to places with more room, in ever smaller steps, also over discs: the hole may be wide far from the
+// start, or another hole may be wider.
 WideStep hop(const HoleSurroundings& around, const WideStep& start, double limit) {
   constexpr int kWays = 24;
   WideStep place = start;
@@ -198,8 +198,9 @@ WideStep hop(const HoleSurroundings& around, const WideStep& start, double limit
   return place;
 }
 
-// No disc is nearer than its tangent there, so a step away from the tangents is one away from the discs; near
-// the farthest place the steps converge as Newton's do. No further than `limit` from the start.
+// Climbs away from the discs. No disc is nearer than its tangent at the nearest point, so a step away from
+// the tangents is a step away from the discs. Near the farthest place the steps converge like Newton's
+// method. Goes no further than `limit` from the start.
 template <class Place>
 Place climb(Place place, double limit) {
   constexpr int kMostSteps = 400;
@@ -224,7 +225,7 @@ Place climb(Place place, double limit) {
   return place;
 }
 
-// Nearest first.
+// The discs, nearest first.
 HoleSurroundings surroundings_of(const Shadow& shadow, const HolePoint& hole, const Z& reach) {
   HoleSurroundings result{shadow, HoleFrame(shadow, hole.bits), {}, {}};
   ZVec<3> whole, point;
@@ -241,7 +242,7 @@ HoleSurroundings surroundings_of(const Shadow& shadow, const HolePoint& hole, co
   return result;
 }
 
-// Back from X = x cross g: the projection is (g cross X) / g^2.
+// Inverts X = x cross g: the projection is (g cross X) / g^2.
 Vec offset_of(const HoleFrame& frame, double x, double y) {
   const auto first = frame.direction(0), second = frame.direction(1);
   Vec offset;
@@ -249,8 +250,8 @@ Vec offset_of(const HoleFrame& frame, double x, double y) {
   return offset;
 }
 
-// Of one disc and its translates the point is the one furthest from all centres already, and its distance
-// from them the circumradius of 0, b1, b2: |b1| |b2| |b1 - b2| / (4 area |g|).
+// For one disc and its translates, the point is already the one furthest from all centres. Its distance from
+// them is the circumradius of 0, b1, b2: |b1| |b2| |b1 - b2| / (4 area |g|).
 HoleCentre centre_of_largest(const Shadow& shadow, const HolePoint& hole) {
   const HoleFrame frame(shadow, hole.bits);
   const auto [x, y] = frame.coordinates(hole.offset);
@@ -264,7 +265,8 @@ HoleCentre centre_of_largest(const Shadow& shadow, const HolePoint& hole) {
 
 HoleCentre centre_of(const Shadow& shadow, const HolePoint& hole) {
   if (shadow.discs.size() == 1) return centre_of_largest(shadow, hole);
-  // No point is further from all centres than half |b1| + |b2|: within twice that is all that matters.
+  // No point is further from all centres than half of |b1| + |b2|, so only discs within twice that distance
+  // matter.
   const Z r = shadow.discs[0].radius, b11 = dot(shadow.basis[0].p, shadow.basis[0].p),
           b22 = dot(shadow.basis[1].p, shadow.basis[1].p);
   const Z reach = 2 * ceil_sqrt(ceil_div(2 * (b11 + b22), shadow.along2)) + 2 * r;
@@ -273,7 +275,7 @@ HoleCentre centre_of(const Shadow& shadow, const HolePoint& hole) {
   const auto [x, y] = around.frame.coordinates(hole.offset);
   const WideStep hopped = hop(around, {x, y}, limit);
   const RoughPlace rough = climb(RoughPlace(around, hopped.x, hopped.y), limit);
-  constexpr double kWide = 1e-5;  // what binary64 finds well
+  constexpr double kWide = 1e-5;  // binary64 finds such holes well
   const bool wide = clearance_at(rough) > kWide;
   if (wide) around.sort_by_distance(rough.x(), rough.y(), 2 * clearance_at(rough));
   const ExactPlace start(around, hole.offset);

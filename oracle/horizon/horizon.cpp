@@ -35,7 +35,8 @@ Vec rounded(const ZVec<D>& a, const Z& q, long exponent) {
 // The point of the middle plane that is nearest to the origin.
 template <std::size_t D>
 Vec middle_of(const Slab<D>& slab, long exponent) {
-  // Roots to so many bits that the middle is known to a small part of the gap, if not as a binary64.
+  // Roots with enough bits to place the middle within a small part of the gap, even if binary64 cannot
+  // represent it.
   const Gap& gap = slab.gap;
   const unsigned long bits = 128 + 2 * static_cast<unsigned long>(bit_length(gap.low2 + gap.high2 + 1));
   const auto fine = [bits](const Z& a2) { return floor_sqrt(shifted_left(a2, 2 * bits)); };
@@ -60,7 +61,7 @@ bool is_inside_slab(const Slab<D>& slab, const Vec& point, long exponent) {
          sign_of(shifted_left(gap.high, shift) - level, -1, shifted_left(gap.high2, 2 * shift)) > 0;
 }
 
-// Indices of the planes of a lattice, and the sign that makes the first of them that is not 0 positive.
+// The indices of a lattice's planes, and the sign that makes the first index that is not 0 positive.
 template <std::size_t D>
 ZVec<D> miller_indices(const ObstacleLattice<D>& lattice, const ZVec<D>& normal, int& sign) {
   const Z period = lattice.period(normal);
@@ -125,7 +126,8 @@ double volume_of(const Atom& atom, int dimension) {
          (atom.is_ball() ? std::pow(atom.radius, dimension) : volume_of(atom.semiaxes, dimension));
 }
 
-// Why the volume that a scene leaves free is not simply the cell's less the obstacles', or nothing.
+// The reason why the volume that a scene leaves free is not simply that of the cell minus that of the
+// obstacles; empty if it is.
 std::string no_simple_volume(const Scene& scene) {
   if (scene.lattices.size() > 1) return "for one lattice only";
   const Contacts contacts = contacts_in(scene, 1000);
@@ -135,13 +137,14 @@ std::string no_simple_volume(const Scene& scene) {
   return {};
 }
 
-// A start in a channel of width w, uniform, goes on for longer than t if its direction is within d / t of the
-// channel's on one side and (w - d) / t on the other, d the distance from a wall: a part w / (pi t) of all
-// directions in 2D (there are two ways along a corridor), w / (2 t) in 3D. Of a cell's volume V the part w
-// |k| is in the channel, 1 / |k| being the distance of the planes.
+// A uniform start in a channel of width w goes on for longer than t if its direction is within d / t of the
+// channel's direction on one side and (w - d) / t on the other, with d the distance from a wall. This is a
+// part w / (pi t) of all directions in 2D (a corridor has two ways along it), and w / (2 t) in 3D. The part
+// w |k| of a cell's volume V is in the channel, where 1 / |k| is the distance between planes.
 template <std::size_t D>
 double tail_constant(const Scene& scene, const ChannelScene<D>& exact, const std::vector<Channel>& channels) {
-  // In units of a power of two near the cell's size, for its volume may be beyond binary64. C is a length.
+  // In units of a power of two near the cell's size, because its volume may be beyond binary64. C is a
+  // length.
   const Z& cell = exact.lattices[0].volume;
   constexpr int d = static_cast<int>(D);
   const int unit = static_cast<int>(std::floor(log2_of(cell)) / d + static_cast<double>(exact.exponent));
@@ -178,7 +181,7 @@ Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders,
   horizon.normals = normals.size();
   for (const ZVec<D>& normal : slabs.undecided)
     horizon.undecided.push_back(named(exact.lattices[0], Slab<D>{normal, {}, 1}, exact.exponent).indices);
-  // Of equal width: short vectors first, and then in the order of their components.
+  // For equal widths, short vectors come first, and then the order is that of the components.
   std::stable_sort(horizon.channels.begin(), horizon.channels.end(), [](const Channel& a, const Channel& b) {
     const double length_a = std::hypot(a.vector[0], a.vector[1], a.vector[2]),
                  length_b = std::hypot(b.vector[0], b.vector[1], b.vector[2]);

@@ -1,4 +1,4 @@
-// A layer's shadow along a direction is that of the crystal whose third vector has this direction.
+// The shadow of a layer along a direction is that of the crystal whose third vector has this direction.
 #include <lorentz/horizon.hpp>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Scene crystal_along(const Scene& scene, const Vec& direction) {
   return crystal;
 }
 
-// How many discs meet one disc of the shadow, or would if they were all as large as the largest.
+// The number of discs that meet one disc of the shadow, if all were as large as the largest one.
 double neighbours_of(const ObstacleLattice<3>& lattice, const Shadow& shadow) {
   const Z& r = lattice.obstacles[0].axes[0][0];
   const double discs = static_cast<double>(lattice.obstacles.size());

@@ -1,4 +1,4 @@
-// A point a / 2^bits is given by a and bits; below 0 they make it an even integer.
+// A point a / 2^bits is given by a and bits. If bits is below 0, the point is an even integer.
 #include "oracle/horizon/real_roots.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ int sign_of_value(const Polynomial& p, const Z& a, long bits) {
   return sgn(value);
 }
 
-// Sturm's theorem: how many roots in (low, high] / 2^bits, for a polynomial without multiple roots.
+// Sturm's theorem: the number of roots in (low, high] / 2^bits, for a polynomial without multiple roots.
 class RootCount {
  public:
   explicit RootCount(const Polynomial& p) : chain_(remainders(p, derivative(p))) {}
@@ -34,7 +34,7 @@ class RootCount {
   std::vector<Polynomial> chain_;
 };
 
-// No root is 2^result or larger in size: |c_i / c_n| + 1 is more than any.
+// Every root is smaller than 2^result in size, because the largest |c_i / c_n| + 1 is more than any root.
 long bits_of_roots(const Polynomial& p) {
   long most = 0;
   for (std::size_t i = 0; i < p.size(); ++i)
@@ -74,10 +74,10 @@ std::vector<RealRoot> real_roots(Polynomial polynomial) {
   return roots;
 }
 
-// The intervals are disjoint, or one is within the other. A common root of the polynomials there is the only
-// root of either.
+// The intervals are disjoint, or one is within the other. A common root of the polynomials in the smaller
+// interval is the only root of both.
 int compare(RealRoot& a, RealRoot& b) {
-  constexpr int kCheap = 16;  // refinements before equality is thought of
+  constexpr int kCheap = 16;  // refinements before equality is tested
   for (int round = 0;; ++round) {
     RealRoot &wide = a.bits <= b.bits ? a : b, &fine = a.bits <= b.bits ? b : a;
     const int side = sgn((fine.low >> static_cast<unsigned long>(fine.bits - wide.bits)) - wide.low);
@@ -90,7 +90,7 @@ int compare(RealRoot& a, RealRoot& b) {
   }
 }
 
-// That ends: the root is midway between two binary64 only if it is an end of the interval from some
+// The loop ends: the root is midway between two binary64 only if it is an end of the interval from some
 // refinement on.
 double round_to_binary64(RealRoot root) {
   for (;; root.refine()) {

@@ -1,4 +1,4 @@
-// Real roots of integer polynomials, exactly: isolated by Sturm's theorem, compared by common divisors.
+// Real roots of integer polynomials, exactly: isolated by Sturm's theorem, and compared by common divisors.
 // Private to oracle/.
 #pragma once
 
@@ -12,7 +12,7 @@ namespace lorentz::oracle {
 struct RealRoot {
   Polynomial polynomial;  ///< without multiple roots
   int sign_above =
-      0;  ///< the polynomial's sign between the root and the interval's end; 0 if that is the root
+      0;  ///< the polynomial's sign between the root and the interval's upper end; 0 if that end is the root
   Z low;
   long bits = 0;
 
@@ -20,10 +20,10 @@ struct RealRoot {
   void refine();
 };
 
-/// All real roots of the polynomial, each once; none of the polynomial 0.
+/// All real roots of the polynomial, each once. The polynomial 0 gives none.
 std::vector<RealRoot> real_roots(Polynomial polynomial);
 
-/// Sign of a - b. Refines both; unless they are equal their intervals are disjoint afterwards.
+/// Sign of a - b. Refines both roots; afterwards their intervals are disjoint, unless the roots are equal.
 int compare(RealRoot& a, RealRoot& b);
 
 /// Correctly rounded.

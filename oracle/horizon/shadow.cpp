@@ -16,7 +16,7 @@ ZVec<3> times(const Z& k, const ZVec<3>& a) {
   return {Z(k * a[0]), Z(k * a[1]), Z(k * a[2])};
 }
 
-// offset + i b1 + j b2 with |.|^2 <= radius2.
+// The points offset + i b1 + j b2 with |.|^2 <= radius2.
 template <class Visit>
 void visit_disc(const std::array<LatticePoint<3>, 2>& basis, const ZVec<3>& along, const ZVec<3>& offset,
                 const Z& radius2, Visit visit) {
@@ -39,7 +39,7 @@ void visit_disc(const std::array<LatticePoint<3>, 2>& basis, const ZVec<3>& alon
   }
 }
 
-// A point P on the circle of one disc: P - centre = (a + sign sqrt(delta) b) / q.
+// A point P on the circle of a disc: P - centre = (a + sign sqrt(delta) b) / q.
 struct CirclePoint {
   ZVec<3> a, b;
   int sign = 1;
@@ -59,7 +59,7 @@ HolePoint fixed_point(std::size_t disc, const CirclePoint& p, unsigned long bits
   return result;
 }
 
-// The circle of one disc among those of its neighbours. Centres are relative to its own.
+// The circle of one disc, and the discs of its neighbours. Centres are relative to the centre of the circle.
 class Circle {
  public:
   Circle(const Shadow& shadow, std::size_t index, std::size_t& work)
@@ -69,17 +69,17 @@ class Circle {
         neighbours_(shadow.discs_around(shadow.discs[index].centre, shadow.discs[index].radius, true)),
         work_(work) {}
 
-  // A point of the circle that borders on a hole.
+  // A point of the circle that borders on a hole, if there is one.
   std::optional<HolePoint> border(unsigned long bits) {
     const Z& own = shadow_.discs[index_].radius;
     std::vector<std::size_t> meeting;
     for (std::size_t j = 0; j < neighbours_.size(); ++j) {
       const Disc& disc = neighbours_[j];
       const Z distance2 = dot(disc.centre, disc.centre), difference = disc.radius - own;
-      if (distance2 == 0 && difference == 0) continue;  // itself, or another ball in the same line
+      if (distance2 == 0 && difference == 0) continue;  // the disc itself, or another ball in the same line
       if (distance2 < difference * difference * shadow_.along2) {
-        if (difference > 0) return std::nullopt;  // the whole circle is in that disc
-        continue;                                 // that disc is in this one
+        if (difference > 0) return std::nullopt;  // the whole circle is inside that disc
+        continue;                                 // that disc is inside this one
       }
       meeting.push_back(j);
     }
@@ -100,8 +100,8 @@ class Circle {
     return {{}, b1, 1, own2_ * b11, b11};
   }
 
-  // With E the other's centre and t = E^2 + R^2 - R_other^2: P = t E / (2 E^2) +- sqrt(4 E^2 R^2 - t^2) (g
-  // cross E) / (2 E^2 |g|).
+  // With E the centre of the other disc and t = E^2 + R^2 - R_other^2, the points are
+  //   P = t E / (2 E^2) +- sqrt(4 E^2 R^2 - t^2) (g cross E) / (2 E^2 |g|).
   CirclePoint intersection(const Disc& other, int sign) const {
     const ZVec<3>& e = other.centre;
     const Z& g2 = shadow_.along2;
@@ -116,10 +116,10 @@ class Circle {
     return sign_at(p, rest * p.q - 2 * dot(p.a, e), -2 * dot(p.b, e));
   }
 
-  // P is in no open disc, and the discs with P on their boundaries leave a direction v in which one can start
-  // from P: v.(P - C) >= 0 for all their centres. (= 0 will do. The discs curve away, also from each other
-  // where two touch: between three discs that touch each other there is a hole.) A point without such a v is
-  // a single free point.
+  // True if P is in no open disc, and the discs with P on their boundaries leave a direction v in which one
+  // can leave P: v.(P - C) >= 0 for all their centres C. (= 0 is enough. The discs curve away, also from each
+  // other where two touch: between three discs that touch each other there is a hole.) A point without such a
+  // v is a single free point.
   bool borders_on_hole(const CirclePoint& p) {
     std::vector<ZVec<3>> centres;
     for (std::size_t i = 0; i < order_.size(); ++i) {
@@ -127,12 +127,12 @@ class Circle {
       const Disc& other = neighbours_[order_[i]];
       const int side = side_of(p, other);
       if (side < 0) {
-        std::swap(order_[i], order_[i / 2]);  // what covers one point may well cover the next
+        std::swap(order_[i], order_[i / 2]);  // a disc that covers one point is likely to cover the next
         return false;
       }
       if (side == 0) centres.push_back(other.centre);
     }
-    // If so all P - C are within half a turn, and to the left of one of them.
+    // Such a v exists iff all P - C are within half a turn, to the left of one of them.
     return std::any_of(centres.begin(), centres.end(), [&](const ZVec<3>& c) {
       return std::all_of(centres.begin(), centres.end(),
                          [&](const ZVec<3>& other) { return turn(p, c, other) >= 0; });
@@ -150,7 +150,7 @@ class Circle {
   std::size_t index_;
   Z own2_;  ///< squared radius in the plane
   std::vector<Disc> neighbours_;
-  std::vector<std::size_t> order_;  ///< in which the neighbours are tried
+  std::vector<std::size_t> order_;  ///< the order in which the neighbours are tried
   std::size_t& work_;
 };
 
@@ -183,7 +183,7 @@ std::vector<Disc> Shadow::discs_around(const ZVec<3>& point, const Z& reach, boo
   return around;
 }
 
-// In a reduced basis with b1.b2 >= 0 the triangle 0, b1, b2 has no obtuse angle: the centre of its
+// In a reduced basis with b1.b2 >= 0 the triangle 0, b1, b2 has no obtuse angle, so the centre of its
 // circumcircle is furthest from all lattice points.
 std::optional<HolePoint> hole_of_largest(const Shadow& shadow, unsigned long bits) {
   const ZVec<3>& b1 = shadow.basis[0].p;

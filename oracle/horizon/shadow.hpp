@@ -1,10 +1,10 @@
-// The shadow that a periodic scene of balls casts along one of its lattice vectors g: discs around a plane
-// lattice. Do the open discs cover the plane but for points and lines, or is there a hole? Private to
-// oracle/.
+// The shadow that a periodic scene of balls casts along one of its lattice vectors g consists of discs around
+// the points of a plane lattice. The question is whether the open discs cover the plane except for points and
+// lines, or leave a hole. Private to oracle/.
 //
 // A point x is seen as X = x cross g, in the plane perpendicular to g: its projection, turned by a right
-// angle and |g| times as long. So everything stays an integer, and the disc of a ball of radius r is |X -
-// C|^2 < r^2 g^2.
+// angle and |g| times as long. So everything stays an integer, and the disc of a ball of radius r is
+// |X - C|^2 < r^2 g^2.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@
 namespace lorentz::oracle {
 
 struct Disc {
-  ZVec<3> centre;  ///< relative to something, within the plane
+  ZVec<3> centre;  ///< within the plane, relative to some point
   Z radius;        ///< of the ball
 };
 
@@ -23,22 +23,23 @@ struct Shadow {
   ZVec<3> along;                         ///< g
   Z along2;                              ///< g.g
   std::array<LatticePoint<3>, 2> basis;  ///< of the plane lattice, reduced
-  std::vector<Disc> discs;               ///< one for each ball of the motif, the largest first
+  std::vector<Disc> discs;               ///< one for each ball of the motif in view, the largest first
 
-  /// Of the largest ball of `lattice` along a lattice vector; e1 and e2 complete it to a basis of the
-  /// lattice.
+  /// The shadow of the largest ball of `lattice` along a lattice vector; e1 and e2 complete this vector to a
+  /// basis of the lattice.
   Shadow(const ObstacleLattice<3>& lattice, const ZVec<3>& along, const ZVec<3>& e1, const ZVec<3>& e2);
 
-  /// Takes in the first `count` balls.
+  /// Adds balls until there are `count` of them.
   void see(const ObstacleLattice<3>& lattice, std::size_t count);
 
-  /// The discs, with all their translates, whose centres are at most `reach` times |g| from `point`; centres
-  /// relative to it. (That of a disc's own is among them.)
+  /// The discs, with all their translates, whose centres are at most `reach` (plus their radius, if
+  /// `add_radius`) times |g| from `point`. Their centres are relative to `point`. (A disc whose centre is
+  /// `point` is among them.)
   std::vector<Disc> discs_around(const ZVec<3>& point, const Z& reach, bool add_radius) const;
 };
 
 /// A point of the plane: (X - centre of disc `disc`) * 2^bits, rounded. Only signs are decided exactly, and
-/// they have been when there is one.
+/// they are decided before such a point is made.
 inline constexpr unsigned long kFineBits = 64;
 struct HolePoint {
   std::size_t disc;
@@ -46,7 +47,8 @@ struct HolePoint {
   unsigned long bits = kFineBits;
 };
 
-/// Would the largest disc alone leave a hole? Then the point furthest from all of its centres.
+/// Tests whether the largest disc alone would leave a hole. If so, returns the point furthest from all of its
+/// centres.
 std::optional<HolePoint> hole_of_largest(const Shadow& shadow, unsigned long bits = kFineBits);
 
 /// A point on the boundary of a hole, if there is one. Adds to `work` the number of points and discs

@@ -10,7 +10,7 @@
 namespace lorentz::oracle {
 namespace {
 
-// A hole that is there has room, though not always within the bits of its point.
+// A hole that exists has room, but not always within the bits of its point.
 HoleCentre room_in(const Shadow& shadow, const HolePoint& hole, std::size_t& work) {
   constexpr unsigned long kMostBits = 1 << 14;
   HoleCentre centre = centre_of(shadow, hole);
@@ -25,8 +25,9 @@ HoleCentre room_in(const Shadow& shadow, const HolePoint& hole, std::size_t& wor
   return centre;
 }
 
-// From the scene of balls back to the scene, rounded: offsets are in units of the largest ball's radius,
-// or, if the balls were ellipsoids, mapped by A; A^-1 makes nothing longer than its norm does.
+// Maps a line from the scene of balls back to the scene, rounded. Offsets are in units of the largest ball's
+// radius or, if the balls are ellipsoids in the scene, are mapped by A. A^-1 lengthens nothing by more than
+// its norm.
 void place(Cylinder& cylinder, const BallScene& balls, const ZVec<3>& position, const HoleCentre& centre,
            long exponent) {
   const auto real = [&](const Z& a) { return round_to_binary64({a, 1, 0, 1, exponent}); };
@@ -36,7 +37,7 @@ void place(Cylinder& cylinder, const BallScene& balls, const ZVec<3>& position, 
   }
   Quadratic radius = centre.clearance;
   if (balls.mapped) {
-    Z norm2 = 0;  // of the map, |det A| A^-1, squared
+    Z norm2 = 0;  // of the map |det A| A^-1, squared
     for (const ZVec<3>& row : balls.rows) norm2 += dot(row, row);
     radius.q *= ceil_sqrt(norm2);
   }
@@ -65,7 +66,7 @@ bool is_inside(Shadow shadow, const BallScene& balls, const Vec& point, long exp
 
 std::optional<HolePoint> hole_of(Shadow& shadow, const ObstacleLattice<3>& lattice, std::size_t& work) {
   std::optional<HolePoint> hole = hole_of_largest(shadow);
-  // Of many balls the first few mostly cover everything already.
+  // If there are many balls, the first few nearly always cover everything already.
   for (std::size_t count = 4; hole && shadow.discs.size() < lattice.obstacles.size(); count *= 4) {
     shadow.see(lattice, std::min(count, lattice.obstacles.size()));
     hole = hole_of_all(shadow, work);

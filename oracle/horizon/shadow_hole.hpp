@@ -1,4 +1,4 @@
-// A hole in a scene's shadow, and the line through it that is named. Private to oracle/.
+// A hole in the shadow of a scene, and the line through it that is reported. Private to oracle/.
 #pragma once
 
 #include <lorentz/horizon.hpp>
@@ -7,12 +7,12 @@
 
 namespace lorentz::oracle {
 
-/// A hole among all the lattice's balls, if there is one; the shadow has its largest. Adds to `work` as
-/// hole_of_all does.
+/// A hole among all balls of the lattice, if there is one; `shadow` must hold the largest ball. Adds to
+/// `work` as hole_of_all does.
 std::optional<HolePoint> hole_of(Shadow& shadow, const ObstacleLattice<3>& lattice, std::size_t& work);
 
-/// A cylinder that fits into that hole: its point and radius, and whether the rounded point is inside. Lengths
-/// in the shadow are times 2^-exponent.
+/// A cylinder that fits into that hole: its point and radius, and whether the rounded point is inside.
+/// Lengths in the shadow are multiplied by 2^-exponent.
 Cylinder cylinder_in(const HolePoint& hole, const Shadow& shadow, const BallScene& balls, long exponent,
                      std::size_t& work);
 

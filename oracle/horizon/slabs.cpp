@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t kMostCandidates = 2'000'000;  // normals: pairs of points
 constexpr std::size_t kMostSlabWork = 20'000'000;   // blocks
 constexpr double kMostCopies = 1e5;                 // blocks in a common period
-constexpr std::size_t kMostCounted = 64;            // lattices, those that leave the fewest normals
-constexpr std::size_t kPairWork = 10;               // of two lattices' periods, in blocks
+constexpr std::size_t kMostCounted = 64;            // lattices: those that leave the fewest normals
+constexpr std::size_t kPairWork = 10;               // for the periods of two lattices, in blocks
 
 // A ball of reciprocal lattice points that holds the normal of every slab.
 template <std::size_t D>
@@ -22,8 +22,8 @@ struct SlabCandidates {
   const ObstacleLattice<D>* lattice;
   Basis<D> basis;
   Z bound2;
-  double expected;         ///< by the ball's volume: log2, up to a constant
-  std::size_t points = 0;  ///< in the ball, counted no further than to more than there may be
+  double expected;         ///< log2 of the number of points, estimated by volume, up to a constant
+  std::size_t points = 0;  ///< in the ball; counting stops once there are more than allowed
 };
 
 template <std::size_t D>
@@ -45,10 +45,10 @@ std::array<ZVec<D>, D> multiple_of_identity(const Z& factor) {
   return axes;
 }
 
-// Between the planes of a lattice, 1/|k| apart for a reciprocal vector k, an obstacle leaves 1/|k| - 2 |A^T
-// k| / |k|. For a slab of width W that must be at least W (above 0, if W is 0): 2 |A^T k| + W |k| <= 1, and k
-// is found in a ball of the image of the reciprocal lattice under 2 r + W, 2 A^T, or W. Of all obstacles take
-// the one with the fewest candidates.
+// The planes of a lattice are 1/|k| apart for a reciprocal vector k, and an obstacle leaves
+// 1/|k| - 2 |A^T k| / |k| between them. For a slab of width W this must be at least W (above 0, if W is 0):
+// 2 |A^T k| + W |k| <= 1. So k is in a ball of the image of the reciprocal lattice under 2 r + W, 2 A^T, or
+// W. Of all obstacles take the one with the fewest candidates.
 template <std::size_t D>
 SlabCandidates<D> fewest_candidates(const ChannelScene<D>& scene) {
   std::vector<SlabCandidates<D>> all;
@@ -64,11 +64,12 @@ SlabCandidates<D> fewest_candidates(const ChannelScene<D>& scene) {
           make_candidates<D>(lattice, multiple_of_identity<D>(width), scene.unit > 0 ? Z(one2 + 1) : one2));
     } else {
       all.push_back(make_candidates<D>(lattice, doubled, one2));
-      if (scene.unit > 0)  // W |k| < 1, for the obstacle takes something
+      if (scene.unit > 0)  // W |k| < 1, because the obstacle takes some of the width
         all.push_back(make_candidates<D>(lattice, multiple_of_identity<D>(scene.unit), one2));
     }
   }
-  // Counted, not only estimated by a volume: in a slender cell the ball holds a few planes full of points.
+  // The points are counted, because the volume alone misleads: in a slender cell the ball holds a few planes
+  // full of points.
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.expected < b.expected; });
   if (all.size() > kMostCounted) all.resize(kMostCounted);
@@ -80,7 +81,7 @@ SlabCandidates<D> fewest_candidates(const ChannelScene<D>& scene) {
   return *fewest;
 }
 
-// The lattices whose planes are equally far apart, taken together, or a superposition of such.
+// The lattices whose planes are equally far apart, taken together; or a superposition of such classes.
 struct Class {
   Z period;
   std::vector<Gap> gaps;
@@ -107,9 +108,9 @@ Gap common_part(const Gap& a, const Gap& b) {
   return part;
 }
 
-// Against each other the gaps a and b of two classes take every shift that is a multiple of step = gcd of the
-// periods, once each in the common period. In how many do they have a part in common, and which shift has the
-// widest one?
+// Relative to each other, the gaps a and b of two classes take every shift that is a multiple of step = gcd
+// of the periods, once each in the common period. Finds the shifts for which they have a part in common, and
+// the one for which this part is widest.
 struct Meetings {
   Z first, last;  // k, both included; b is shifted by k step
   Z widest;
@@ -122,8 +123,8 @@ Meetings meetings_of(const Gap& a, const Gap& b, const Z& step, const Z& least2)
   result.last = last_step(a.high - b.low, a.high2, b.low2, least2, step, or_equal);
   result.first = -last_step(b.high - a.low, b.high2, a.low2, least2, step, or_equal);
   if (result.first > result.last) return result;
-  // The common part shrinks alike on both sides of the shift that centres b on a. (Clamped, for rounded
-  // roots.)
+  // The common part shrinks equally on both sides of the shift that centres b on a. (Clamped, because roots
+  // are rounded.)
   const auto fine = [](const Z& a2) { return floor_sqrt(shifted_left(a2, 128)); };
   const Z apart = shifted_left(a.low + a.high - b.low - b.high, 64) + fine(a.low2) - fine(a.high2) -
                   fine(b.low2) + fine(b.high2);
@@ -140,7 +141,7 @@ struct SlabSearch {
   Slabs<D> result;
   std::size_t work = 0;
 
-  // scene.unit seen along this normal, squared.
+  // scene.unit as seen along this normal, squared.
   Z least2(const ZVec<D>& normal) const { return scene.unit * scene.unit * dot(normal, normal); }
 
   void add(const ZVec<D>& normal, const Gap& gap, const Z& count) {
@@ -148,14 +149,14 @@ struct SlabSearch {
     result.open.push_back({normal, gap, count});
   }
 
-  // Where binary64 is finest.
+  // Moves a gap to where binary64 is finest.
   static Gap near_origin(Gap gap, const Z& period) {
     const Z twice_middle = gap.low + gap.high + floor_sqrt(gap.low2) - floor_sqrt(gap.high2);
     gap.shift(-period * ceil_div(twice_middle - period, 2 * period));
     return gap;
   }
 
-  // One class for each period; none if one of them leaves nothing free.
+  // One class for each period; empty if one of them leaves nothing free.
   std::vector<Class> classes_of(const ZVec<D>& normal) {
     std::vector<Class> classes;
     for (const ObstacleLattice<D>& lattice : scene.lattices) {
@@ -174,11 +175,12 @@ struct SlabSearch {
     return classes;
   }
 
-  // Replaces pairs of classes by one as long as their common period is short. False if nothing is free.
+  // Replaces pairs of classes by one class, as long as their common period is short. False if nothing is
+  // free.
   bool merge(std::vector<Class>& classes) {
     for (std::size_t i = 0; i < classes.size(); ++i)
       for (std::size_t k = i + 1; k < classes.size();) {
-        if ((work += kPairWork) > kMostSlabWork) return false;  // all of it is refused
+        if ((work += kPairWork) > kMostSlabWork) return false;  // the whole search is then refused
         const Z period = lcm(classes[i].period, classes[k].period);
         const double copies = copies_in_common(classes[i], classes[k], period);
         if (copies > kMostCopies) {
@@ -194,10 +196,10 @@ struct SlabSearch {
     return true;
   }
 
-  // All gaps that two classes have in common; one line for each pair of a gap here and a gap there.
+  // Adds all gaps that two classes have in common, one entry for each pair of a gap of a and a gap of b.
   void add_meetings(const ZVec<D>& normal, const Class& a, const Class& b) {
     const Z step = gcd(a.period, b.period), turns_a = a.period / step, turns_b = b.period / step;
-    // That of turns_a modulo turns_b.
+    // The inverse of turns_a modulo turns_b.
     const Z root = bezout(turns_a, turns_b).x, inverse = root - turns_b * floor_div(root, turns_b);
     for (const Gap& here : a.gaps)
       for (const Gap& there : b.gaps) {
@@ -215,7 +217,7 @@ struct SlabSearch {
   bool any_pair_closed(const std::vector<Class>& classes) {
     for (std::size_t i = 0; i < classes.size(); ++i)
       for (std::size_t k = i + 1; k < classes.size(); ++k) {
-        if (work > kMostSlabWork) return true;  // all of it is refused
+        if (work > kMostSlabWork) return true;  // the whole search is then refused
         if (!meet_anywhere(classes[i], classes[k])) return true;
       }
     return false;
@@ -232,7 +234,8 @@ struct SlabSearch {
     return false;
   }
 
-  // Two lattices mostly have but few normals in common, however many either has. False if they may have many.
+  // Two lattices usually have only a few normals in common, however many each of them has. False if they may
+  // have many.
   bool look_along_common() {
     if constexpr (D == 2)
       for (std::size_t i = 0; i < scene.lattices.size(); ++i)
@@ -244,10 +247,10 @@ struct SlabSearch {
     return false;
   }
 
-  // One by one. False if there are too many.
+  // Looks along the candidates one by one. False if there are too many.
   bool look_along_all(const SearchProgress& progress) {
     const SlabCandidates<D> candidates = fewest_candidates(scene);
-    // The points come as their images: back to normals by their coefficients.
+    // The points are images of normals; their coefficients lead back to the normals.
     const auto look_at = [&](const LatticePoint<D>& point) {
       LatticePoint<D> normal;
       for (std::size_t i = 0; i < D; ++i) normal.add_multiple(point.n[i], candidates.lattice->cofactors[i]);

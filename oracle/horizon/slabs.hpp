@@ -14,17 +14,17 @@ template <std::size_t D>
 struct Slab {
   ZVec<D> normal;
   Gap gap;
-  Z count = 1;  ///< so many slabs in a period of the whole scene, of which this one is the widest
+  Z count = 1;  ///< the number of slabs in a period of the whole scene; this one is the widest of them
 };
 
 template <std::size_t D>
 struct Slabs {
   std::vector<Slab<D>> open;
-  std::vector<ZVec<D>> undecided;  ///< normals of which it is not known whether slabs are open
-  std::string refusal;             ///< not empty: too many candidates, and this is the reason
+  std::vector<ZVec<D>> undecided;  ///< normals for which it is not known whether slabs are open
+  std::string refusal;             ///< not empty if there are too many candidates; the reason
 };
 
-/// All slabs, or those at least scene.unit wide if that is above 0.
+/// All slabs; if scene.unit is above 0, only those at least that wide.
 template <std::size_t D>
 Slabs<D> free_slabs(const ChannelScene<D>& scene, const SearchProgress& progress);
 

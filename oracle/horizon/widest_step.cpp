@@ -17,7 +17,7 @@ struct Corner {
   double x = 0, y = 0, t = 0;
 };
 
-// By how much a corner lies outside, and how much of that rounding can have made.
+// How far outside a corner lies (excess), and how much of that can be rounding (slack).
 double excess(const Constraint& k, const Corner& at) {
   return k.a * at.x + k.b * at.y + k.c * at.t - k.limit;
 }
@@ -25,7 +25,7 @@ double slack(const Constraint& k, const Corner& at) {
   return 1e-13 * (std::fabs(k.a * at.x) + std::fabs(k.b * at.y) + std::fabs(k.c * at.t) + std::fabs(k.limit));
 }
 
-// Where three constraints are equalities, by Cramer's rule; false if they are not independent.
+// The point where three constraints are equalities, by Cramer's rule; false if they are not independent.
 bool corner_of(const Constraint& p, const Constraint& q, const Constraint& r, Corner& corner) {
   const auto det = [&](auto first, auto second, auto third) {
     return first(p) * (second(q) * third(r) - second(r) * third(q)) -
@@ -42,7 +42,7 @@ bool corner_of(const Constraint& p, const Constraint& q, const Constraint& r, Co
   return std::isfinite(corner.x) && std::isfinite(corner.y) && std::isfinite(corner.t);
 }
 
-// The highest corner that all of a few constraints allow.
+// The highest corner that satisfies all of a few constraints.
 Corner highest(const std::vector<Constraint>& some) {
   Corner best{0, 0, -std::numeric_limits<double>::infinity()}, corner;
   for (std::size_t i = 0; i < some.size(); ++i)
@@ -58,8 +58,8 @@ Corner highest(const std::vector<Constraint>& some) {
 
 }  // namespace
 
-// Few walls matter: those that the step for the walls before comes too near to are added one by one, each
-// once, for it comes to none of those before by more than its slack.
+// Only a few walls matter. A wall that the step for the previous walls comes too near to is added, one at a
+// time. Each is added once, because no later step violates an earlier wall by more than its slack.
 WideStep widest_step(const std::vector<Wall>& walls, const StepBounds& bounds) {
   std::vector<Constraint> some{{1, 0, 0, bounds.high_x},
                                {-1, 0, 0, -bounds.low_x},

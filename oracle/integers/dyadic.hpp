@@ -1,4 +1,4 @@
-// Binary64 values as what they are: integers times powers of two. Private to oracle/ and fuzz/rewording.
+// Binary64 values as integers times powers of two. Private to oracle/ and fuzz/rewording.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace lorentz::oracle {
 
-/// mantissa * 2^exponent, mantissa odd or zero (then the exponent is 0).
+/// mantissa * 2^exponent. The mantissa is odd, or it is zero and the exponent is 0.
 struct Dyadic {
   Z mantissa;
   long exponent = 0;
@@ -33,7 +33,7 @@ inline Dyadic to_dyadic(double value) {
   return {Z(odd.mantissa), odd.exponent};
 }
 
-/// The smallest exponent of the nonzero values seen: 2^-exponent makes integers of all of them.
+/// The smallest exponent of the nonzero values seen: multiplied by 2^-exponent, all of them are integers.
 class CommonExponent {
  public:
   void see(double value) {

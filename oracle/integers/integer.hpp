@@ -1,4 +1,4 @@
-// The few operations on integers that the oracle is made of. Private to oracle/ and fuzz/rewording.
+// The few integer operations that the oracle consists of. Private to oracle/ and fuzz/rewording.
 #pragma once
 
 #include <array>
@@ -44,8 +44,8 @@ inline Z root_below(const Z& a) {
   return floor_sqrt(a - 1);
 }
 
-/// floor((a + sign * sqrt(d)) / q), for d >= 0 and q > 0; sign is +1 or -1. Exact: floor(y / q) =
-/// floor(floor(y) / q).
+/// floor((a + sign * sqrt(d)) / q), for d >= 0 and q > 0; sign is +1 or -1. The result is exact, because
+/// floor(y / q) = floor(floor(y) / q).
 inline Z floor_surd(const Z& a, int sign, const Z& d, const Z& q) {
   return floor_div(sign > 0 ? a + floor_sqrt(d) : a - ceil_sqrt(d), q);
 }

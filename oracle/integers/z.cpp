@@ -11,10 +11,10 @@ namespace {
 
 __extension__ using Wide = unsigned __int128;
 
-// Up to so many limbs a loop in place takes less time than the call of GMP's.
+// Up to this number of limbs, a loop in place takes less time than a call of GMP's function.
 constexpr std::size_t kShort = 4;
 
-// Limbs for an intermediate result; seldom more than stand here.
+// Limbs for an intermediate result; kHere limbs need no allocation and are nearly always enough.
 class Scratch {
  public:
   explicit Scratch(std::size_t n) {
@@ -36,7 +36,7 @@ std::size_t without_zeros(const mp_limb_t* limbs, std::size_t n) {
   return n;
 }
 
-// a + b, n >= m limbs; returns the carry. The sum may stand where a or b did.
+// a + b, of n >= m limbs; returns the carry. The sum may overwrite a or b.
 mp_limb_t add_limbs(mp_limb_t* sum, const mp_limb_t* a, std::size_t n, const mp_limb_t* b, std::size_t m) {
   if (n > kShort) return mpn_add(sum, a, static_cast<mp_size_t>(n), b, static_cast<mp_size_t>(m));
   Wide carry = 0;
@@ -68,7 +68,7 @@ void subtract_limbs(mp_limb_t* difference, const mp_limb_t* a, std::size_t n, co
   }
 }
 
-// a b of n >= m >= 1 limbs, apart from both; returns the size.
+// a b, of n >= m >= 1 limbs; returns the size. The product must overlap neither a nor b.
 std::size_t multiply_limbs(mp_limb_t* product, const mp_limb_t* a, std::size_t n, const mp_limb_t* b,
                            std::size_t m) {
   if (n > kShort || m > 2) {
@@ -106,7 +106,7 @@ int with_sign(std::size_t n, bool negative) {
   return negative ? -static_cast<int>(n) : static_cast<int>(n);
 }
 
-// A number of GMP's own, for functions that are seldom called.
+// A number of GMP's own type, for functions that are seldom called.
 class Mpz {
  public:
   Mpz() { mpz_init(value_); }
@@ -141,8 +141,8 @@ Z::Z(double value) : Z() {
   *this = whole.z();
 }
 
-// The sum may be the same number as a, and its limbs those of b: where they do not suffice, others take their
-// place when all is read.
+// The sum may be the same number as a, and b may be its limbs. If they are too few for the sum, new limbs
+// replace them after everything is read.
 void Z::add(Z& sum, const Z& a, const mp_limb_t* b_limbs, int b_size) {
   const mp_limb_t *more = a.limbs_, *less = b_limbs;
   int size = a.size_, other = b_size;
@@ -174,7 +174,7 @@ void Z::add(Z& sum, const Z& a, const mp_limb_t* b_limbs, int b_size) {
   sum.size_ = with_sign(n, size < 0);
 }
 
-// The product is neither a nor b.
+// The product must be neither a nor b.
 void Z::multiply(Z& product, const Z& a, const Z& b) {
   const std::size_t n = a.count(), m = b.count();
   if (n == 0 || m == 0) {
@@ -190,7 +190,7 @@ Z& Z::add_product(const Z& a, const Z& b, int sign) {
   const std::size_t n = a.count(), m = b.count();
   if (n == 0 || m == 0) return *this;
   const bool negative = ((a.size_ < 0) != (b.size_ < 0)) != (sign < 0);
-  if (n == 1 && a.limbs_[0] == 1) {  // often: from row to row, from plane to plane
+  if (n == 1 && a.limbs_[0] == 1) {  // frequent: from row to row, from plane to plane
     add(*this, *this, b.limbs_, with_sign(m, negative));
     return *this;
   }
@@ -212,11 +212,11 @@ mp_limb_t leading_bits(const mp_limb_t* limbs, std::size_t n) {
   return zeros == 0 ? limbs[n - 1] : limbs[n - 1] << zeros | limbs[n - 2] >> (GMP_NUMB_BITS - zeros);
 }
 
-// Quotients of less bits than this are off by one at most, if leading bits are divided in binary64.
+// Quotients of fewer bits than this are off by at most one if the leading bits are divided in binary64.
 constexpr long kShortQuotient = 50;
 
-// floor(a / b) for n >= m >= 2 limbs, which is short; returns whether it is exact. Most quotients of a search
-// have few bits. They are guessed, and the guess is put right by the remainder, however far off it is.
+// floor(a / b) for n >= m >= 2 limbs and a short quotient; returns whether it is exact. Most quotients of a
+// search have few bits. They are guessed, and the remainder corrects the guess, however far off it is.
 bool divide_short(const mp_limb_t* a, std::size_t n, const mp_limb_t* b, std::size_t m, mp_limb_t& quotient) {
   const auto bits = [](const mp_limb_t* limbs, std::size_t k) {
     return static_cast<int>(k) * GMP_NUMB_BITS - __builtin_clzl(limbs[k - 1]);
@@ -237,7 +237,7 @@ bool divide_short(const mp_limb_t* a, std::size_t n, const mp_limb_t* b, std::si
     }
     return without_zeros(r, m) == 0;
   }
-  mpn_sub_n(r, p, r, size + 1);  // what is missing
+  mpn_sub_n(r, p, r, size + 1);  // guess b - a, which is above 0
   for (--quotient; r[m] != 0 || mpn_cmp(r, b, size) > 0; --quotient) r[m] -= mpn_sub_n(r, r, b, size);
   return mpn_cmp(r, b, size) == 0;
 }
@@ -274,7 +274,7 @@ Z::Division divide(const Z& a, const Z& b, Z::Rounding rounding) {
     size = without_zeros(to, size);
   }
   if (!result.exact && rounding != Z::Rounding::to_zero && negative == (rounding == Z::Rounding::down)) {
-    // Away from 0.
+    // Round away from 0.
     result.quotient.limbs_[size] = 0;
     for (std::size_t i = 0; ++result.quotient.limbs_[i] == 0; ++i) {
     }

@@ -1,9 +1,9 @@
 // Integers of any size whose small values need no allocation. Private to oracle/ and fuzz/rewording.
 //
-// A number is a sign and limbs, as GMP has them; GMP's functions on limbs do the work. The numbers of a query
-// are mostly of one to ten limbs, and most of them live for a line of code: with mpz_class a third of the
-// oracle's time was malloc and free. So kInline limbs stand in the number itself, and only longer ones are on
-// the heap. There is no other difference between the two, and no limit to the size.
+// A number is a sign and limbs, as in GMP; GMP's functions on limbs do the work. Most numbers of a query have
+// one to ten limbs and live for a line of code: with mpz_class, malloc and free took a third of the oracle's
+// time. So a number holds kInline limbs in itself, and only longer ones are on the heap. There is no other
+// difference to mpz_class, and no limit to the size.
 #pragma once
 
 #include <gmp.h>
@@ -27,7 +27,8 @@ class Z {
     static_assert(sizeof(T) <= sizeof(mp_limb_t));
     inline_[0] = value < 0 ? -static_cast<mp_limb_t>(value) : static_cast<mp_limb_t>(value);
   }
-  /// Reads digits, with a '-' before them if negative; throws std::invalid_argument if these are none.
+  /// Reads digits, with a '-' before them if negative; throws std::invalid_argument if the text has any other
+  /// form.
   explicit Z(const std::string& digits, int base = 10);
   explicit Z(mpz_srcptr value);
   /// A finite binary64, rounded towards 0.
@@ -72,7 +73,7 @@ class Z {
   Z& operator/=(const Z& b) { return *this = *this / b; }
   Z& operator++() { return *this += 1; }
   Z& operator--() { return *this -= 1; }
-  /// Adds a b. Neither need differ from this number.
+  /// Adds a b. Either may be this number.
   Z& add_product(const Z& a, const Z& b) { return add_product(a, b, 1); }
   Z& subtract_product(const Z& a, const Z& b) { return add_product(a, b, -1); }
 
@@ -96,7 +97,7 @@ class Z {
     multiply(product, a, b);
     return product;
   }
-  /// The quotient rounded towards 0; throws std::domain_error for b = 0, like all that divide.
+  /// The quotient rounded towards 0. Throws std::domain_error for b = 0, as every division does.
   friend Z operator/(const Z& a, const Z& b);
   /// a - a / b * b
   friend Z operator%(const Z& a, const Z& b);
@@ -117,7 +118,7 @@ class Z {
   }
   /// Negative, 0 or positive as a < b, a = b or a > b.
   friend int cmp(const Z& a, const Z& b) { return compare(a, b); }
-  /// The same of |a| and |b|.
+  /// The same for |a| and |b|.
   friend int compare_sizes(const Z& a, const Z& b) {
     const std::size_t n = a.count(), m = b.count();
     return n != m ? (n < m ? -1 : 1) : n == 0 ? 0 : mpn_cmp(a.limbs_, b.limbs_, static_cast<mp_size_t>(n));
@@ -150,7 +151,8 @@ class Z {
   double get_d() const;                                                ///< rounded towards 0
   std::string get_str(int base = 10) const;
 
-  /// The number as GMP's own functions read it; it must not outlive the number, nor a change of it.
+  /// The number in the form that GMP's own functions read. It must not outlive the number, nor any change of
+  /// it.
   class LimbView {
    public:
     explicit LimbView(const Z& a) { mpz_roinit_n(value_, a.limbs_, a.size_); }
@@ -167,12 +169,13 @@ class Z {
   std::size_t count() const { return static_cast<std::size_t>(size_ < 0 ? -size_ : size_); }
   bool is_inline() const { return limbs_ == inline_; }
 
-  // There is always room for kAtOnce limbs, so that many are copied whether they are used or not.
+  // There is always room for kAtOnce limbs, so this copies that many at once, whether they are used or not.
   static void copy(mp_limb_t* to, const mp_limb_t* from, std::size_t n) {
     std::memcpy(to, from, kAtOnce * sizeof(mp_limb_t));
     if (n > kAtOnce) std::memcpy(to + kAtOnce, from + kAtOnce, (n - kAtOnce) * sizeof(mp_limb_t));
   }
-  // The limbs of another number of the same size, by copy or from its heap; its own are in place.
+  // Takes over the limbs of another number of the same size: copies them, or adopts its heap array. This
+  // number's own limbs must be in place.
   void take(Z& other) noexcept {
     if (other.is_inline()) {
       copy(limbs_, other.limbs_, other.count());
@@ -207,25 +210,25 @@ class Z {
     return 0;
   }
 
-  mp_limb_t* limbs_;  // least first; inline_, or an array of `capacity_`
-  int size_ = 0;      // how many, the last of them not 0; negative for a number below 0
+  mp_limb_t* limbs_;  // least significant first; inline_, or an array of `capacity_`
+  int size_ = 0;      // number of limbs, the last of them not 0; negative for a number below 0
   unsigned capacity_ = kInline;
   mp_limb_t inline_[kInline];
 };
 
-/// a / b rounded as was asked, and whether it was an integer.
+/// a / b rounded as requested, and whether it is an integer.
 struct Z::Division {
   Z quotient;
   bool exact = false;
 };
 
-/// floor(sqrt(a)), and whether that is all.
+/// floor(sqrt(a)), and whether it is the exact root.
 struct Z::Root {
   Z floor;
   bool exact = false;
 };
 
-// Above, and here for who names them in full or calls them with built-in integers.
+// The friends declared above, declared again for callers that qualify their names or pass built-in integers.
 long bit_length(const Z& a);
 Z abs(const Z& a);
 /// a 2^bits
@@ -243,7 +246,7 @@ Bezout bezout(const Z& a, const Z& b);
 /// base^exponent
 Z power(unsigned long base, unsigned long exponent);
 
-/// a = m 2^exponent as 0.5 <= |m| < 1, rounded towards 0; 0 for 0.
+/// a = m 2^exponent with 0.5 <= |m| < 1, m rounded towards 0; 0 for a = 0.
 struct BinaryApproximation {
   double mantissa = 0;
   long exponent = 0;

@@ -16,7 +16,7 @@ Z z_of(const fmpz_t integer) {
   return result;
 }
 
-// A binary fraction times 2^bits, to an integer.
+// A binary fraction times 2^bits, rounded to an integer.
 Z rounded_arf(const arf_t value, long bits, arf_rnd_t rounding) {
   arf_t scaled;
   fmpz_t integer;

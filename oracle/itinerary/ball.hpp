@@ -1,5 +1,5 @@
-// Real numbers enclosed in balls, mid +- radius, by Arb: every operation's result holds what exact arithmetic
-// on any numbers of its operands' balls would give. Private to oracle/itinerary.
+// Real numbers enclosed in balls, mid +- radius, by Arb. The result of an operation contains the results that
+// exact arithmetic gives for all numbers in the balls of its operands. Private to oracle/itinerary.
 #pragma once
 
 #include <arb.h>
@@ -13,7 +13,7 @@
 
 namespace lorentz::oracle {
 
-/// An upper bound: 30 bits, any exponent, all operations rounded upwards.
+/// An upper bound: 30 bits, any exponent, with all operations rounded upwards.
 class Bound {
  public:
   Bound() { mag_init(value_); }
@@ -61,7 +61,7 @@ class Bound {
 
 class Ball {
  public:
-  /// Sets the precision of all operations of this thread, in bits, while it lives.
+  /// Sets the precision in bits of all operations of this thread during its lifetime.
   class WorkingPrecision {
    public:
     explicit WorkingPrecision(long bits) : before_(bits_) { bits_ = bits; }
@@ -149,7 +149,7 @@ class Ball {
     return *this;
   }
 
-  /// All numbers of the ball are.
+  /// True if all numbers of the ball have the property.
   bool is_positive() const { return arb_is_positive(value_); }
   bool is_nonnegative() const { return arb_is_nonnegative(value_); }
   bool is_negative() const { return arb_is_negative(value_); }
@@ -161,24 +161,24 @@ class Ball {
   Bound radius() const { return Bound(arb_radref(value_)); }
   /// At least the size of every number of the ball.
   Bound size() const;
-  /// At most that.
+  /// At most the size of every number of the ball.
   Bound least_size() const;
-  /// Wider by so much.
+  /// The ball widened by this much.
   Ball widened(const Bound& by) const;
-  /// Its middle.
+  /// The middle of the ball.
   Ball middle() const;
   double nearest() const { return arf_get_d(arb_midref(value_), ARF_RND_NEAR); }
 
-  /// The middle times 2^bits, rounded to an integer; less than 1 off.
+  /// The middle times 2^bits, rounded to an integer; the error is less than 1.
   Z rounded(long bits) const;
-  /// The middle is integer * 2^exponent with an odd integer, or 0.
+  /// The middle as integer * 2^exponent, where the integer is odd or 0.
   struct Exact {
     Z integer;
     long exponent = 0;
   };
   Exact exact_middle() const;
 
-  /// Numbers without a radius below and above all of the ball, rounded outwards to the precision.
+  /// Numbers without a radius, below and above all numbers of the ball, rounded outwards to the precision.
   Ball lower() const;
   Ball upper() const;
 
@@ -199,9 +199,9 @@ Ball dot(const BallVec<N>& a, const BallVec<N>& b) {
   return sum;
 }
 
-/// A decimal text of `digits` significant digits, the number correctly rounded, if the whole ball rounds to
-/// the same one; positional for exponents -7 to `digits` - 1, else d.ddde+x. Of a ball around 0 with a radius
-/// below 10^-digits / 2: a zero with `digits` decimals. Otherwise nothing.
+/// A decimal text of `digits` significant digits, correctly rounded, if all numbers of the ball round to the
+/// same text. It is positional for exponents from -7 to `digits` - 1, else d.ddde+x. An exact 0 gives "0".
+/// Nothing if the ball contains 0 otherwise, or is not finite.
 std::optional<std::string> certain_decimal(const Ball& a, int digits);
 
 }  // namespace lorentz::oracle

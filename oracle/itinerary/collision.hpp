@@ -1,9 +1,10 @@
-// One flight and one specular reflection, in balls, and its derivative. Private to oracle/itinerary.
+// One flight and one specular reflection in balls, and their derivative. Private to oracle/itinerary.
 //
 // Everything is linear algebra in coordinates w = K y in which the obstacle is a ball of radius R around 0
-// (exact_problem.hpp: BallFrame); for a ball K is 1. With u = K v, a = u.u, s = -w.u and the part across,
+// (exact_problem.hpp: BallFrame); if the obstacle is a ball, K is 1. With u = K v, a = u.u, s = -w.u and the
+// part across,
 //   D = R^2 a - |w x u|^2,   t = (s - sqrt(D)) / a,   w' = w + t u,   y' = y + t v.
-// The normal is along m = K^T w', and since v.m = u.w' = -sqrt(D),
+// The normal is along m = K^T w'. Because v.m = u.w' = -sqrt(D),
 //   v' = v + 2 sqrt(D) / (m.m) m.
 #pragma once
 
@@ -14,14 +15,15 @@
 
 namespace lorentz::oracle {
 
-/// A particle: y from the centre of the obstacle it leaves, its velocity, the time since the start.
+/// A particle: its position y relative to the centre of the obstacle that it leaves, its velocity, and the
+/// time since the start.
 template <std::size_t D>
 struct State {
   BallVec<D> y, v;
   Ball t;
 };
 
-/// An obstacle's form in balls: K (none for a ball), R and R^2.
+/// An obstacle's form in balls: K (absent for a ball), R and R^2.
 template <std::size_t D>
 struct Form {
   std::optional<std::array<BallVec<D>, D>> to_ball;
@@ -66,11 +68,12 @@ struct EnclosedCollision {
   Ball root;        ///< sqrt(D), above 0
   BallVec<D> w, m;  ///< w', m
   Ball m2;          ///< m.m
-  State<D> before;  ///< y from the centre of the obstacle that is hit
+  State<D> before;  ///< with y relative to the centre of the obstacle that is hit
   State<D> after;
 };
 
-/// The collision of a particle with the obstacle around 0; nothing if it is not certain that it meets it.
+/// The collision of a particle with the obstacle around 0; nothing if it is not certain that the particle
+/// meets it.
 template <std::size_t D>
 std::optional<EnclosedCollision<D>> collide(const State<D>& state, const Form<D>& form) {
   EnclosedCollision<D> c;
@@ -92,7 +95,8 @@ std::optional<EnclosedCollision<D>> collide(const State<D>& state, const Form<D>
   return c;
 }
 
-/// What a small change of the particle before the collision becomes after it: with dq = K (dy + t dv),
+/// The change of the particle after the collision that a small change before it causes. With
+/// dq = K (dy + t dv):
 ///   dt = w'.dq / sqrt(D),   dw' = dq + u dt,   dm = K^T dw',   d(v.m) = dv.m + v.dm,
 ///   dv' = dv - 2 (d(v.m) m + (v.m) dm) / m^2 + 4 (v.m) (m.dm) m / m^4.
 template <std::size_t D>

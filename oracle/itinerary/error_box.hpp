@@ -1,11 +1,12 @@
-// What is not known of a particle's state, as a small parallelepiped that turns with the flow. Private to
+// The uncertainty of a particle's state: a small parallelepiped that turns with the flow. Private to
 // oracle/itinerary.
 //
-// State = middle + Q e, Q near to orthogonal, |e_i| <= width_i. A collision maps this into
-// F(middle) + J Q e, J the derivative anywhere in the box (mean value theorem), and Q' = the orthogonal
-// factor of J Q's columns, longest first, makes of it Q' e' with e' = Q'^-1 (J Q e + rounding). So the box is
-// long where the flow stretches and thin elsewhere, and grows by what the flow stretches; boxes along the
-// axes would grow by some 4 bits a collision more. (R. Lohner's method for differential equations.)
+// State = middle + Q e, with Q nearly orthogonal and |e_i| <= width_i. A collision maps this into
+// F(middle) + J Q e, with J the derivative anywhere in the box (mean value theorem). With Q' = the orthogonal
+// factor of the columns of J Q, longest first, this is Q' e', where e' = Q'^-1 (J Q e + rounding). So the box
+// is long where the flow stretches and thin elsewhere, and grows by as much as the flow stretches. Boxes
+// along the axes would grow by about 4 bits more per collision. (This is R. Lohner's method for differential
+// equations.)
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,7 @@ class ErrorBox {
   using Matrix = std::array<BallVec<N>, N>;  ///< rows
   using Bounds = std::array<Bound, N>;
 
-  /// Nothing unknown but for `widths` of the components.
+  /// A box in which only the `widths` of the components are uncertain.
   explicit ErrorBox(const Bounds& widths = {}) : turn_(identity()), widths_(widths) {}
 
   bool is_point() const {
@@ -31,7 +32,8 @@ class ErrorBox {
     return true;
   }
 
-  /// How far a linear function of the state, with this gradient, may be from its value in the middle.
+  /// The largest distance of a linear function of the state, with this gradient, from its value in the
+  /// middle.
   Bound width_of(const BallVec<N>& gradient) const {
     Bound sum;
     for (int k = 0; k < N; ++k) {
@@ -42,14 +44,15 @@ class ErrorBox {
     return sum;
   }
 
-  /// The same of one component.
+  /// The same for one component.
   Bound width_of(int component) const {
     Bound sum;
     for (int k = 0; k < N; ++k) sum += Ball(turn_[component][k]).size() * widths_[k];
     return sum;
   }
 
-  /// The box after a step with this derivative anywhere in it, whose result's middle was rounded.
+  /// Replaces the box by the box after a step. `derivative` encloses the derivative anywhere in the box, and
+  /// `rounding` bounds the rounding of the result's middle.
   void advance(const Matrix& derivative, const Bounds& rounding) {
     const Matrix moved = times_turn(derivative);
     turn_ = turn_along(moved);
@@ -63,8 +66,8 @@ class ErrorBox {
       }
       largest = larger(largest, next[i]);
     }
-    // Q'^-1 = (1 + E)^-1 Q'^T, E = Q'^T Q' - 1: |(1 + E)^-1 x - x| <= |E| / (1 - |E|) |x|, largest
-    // components.
+    // Q'^-1 = (1 + E)^-1 Q'^T, E = Q'^T Q' - 1. In the norm of the largest component,
+    //   |(1 + E)^-1 x - x| <= |E| / (1 - |E|) |x|.
     const Bound slant = beyond_orthogonal();
     for (int i = 0; i < N; ++i) widths_[i] = next[i] + slant * largest;
   }
@@ -86,8 +89,8 @@ class ErrorBox {
     return moved;
   }
 
-  // Any matrix will do; a good one is Q of the QR factors of the columns, longest first. Their lengths are
-  // beyond binary64's range, their directions not.
+  // Any matrix is valid; a good one is Q of the QR factors of the columns, longest first. The lengths of the
+  // columns are beyond binary64's range, but not their directions.
   Turn turn_along(const Matrix& moved) const {
     std::array<int, N> order;
     std::array<Bound, N> length;
@@ -107,7 +110,7 @@ class ErrorBox {
     return orthogonal_factor(columns);
   }
 
-  // Q of the QR factors, by Householder's reflections: orthogonal however near to dependent the columns are.
+  // Q of the QR factors, by Householder's reflections: orthogonal even if the columns are nearly dependent.
   static Turn orthogonal_factor(Turn columns) {
     Turn result = identity();
     for (int k = 0; k + 1 < N; ++k) {
@@ -134,7 +137,7 @@ class ErrorBox {
     return result;
   }
 
-  // |E| / (1 - |E|), at least; |E| the largest sum of a row's sizes.
+  // |E| / (1 - |E|), or more; |E| is the largest sum of the sizes in a row.
   Bound beyond_orthogonal() const {
     Bound norm;
     for (int i = 0; i < N; ++i) {
@@ -146,7 +149,7 @@ class ErrorBox {
       }
       norm = larger(norm, row);
     }
-    if (Bound(0.5) < norm) return Bound(1) / Bound();  // never seen; infinite, so that nothing is certain
+    if (Bound(0.5) < norm) return Bound(1) / Bound();  // never seen; infinite, so nothing is certain then
     return norm + norm;
   }
 

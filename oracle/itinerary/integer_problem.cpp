@@ -72,7 +72,7 @@ IntegerScene<D> times_unit(const RationalScene& scene, const Z& unit) {
   return result;
 }
 
-// Exactly, if there is no root.
+// Exact if there is no root.
 Ball times(const Surd& number, const Z& unit) {
   if (!number.root) return Ball(times(number.shift, unit));
   return (to_ball(number.shift) + to_ball(number.scale) * sqrt(to_ball(*number.root))) * Ball(unit);
@@ -102,7 +102,7 @@ double nearest(const Rational& number) {
 
 namespace {
 
-// Rounded twice if there is a root, which hardly ever shows.
+// Rounded twice if there is a root, which hardly ever changes the result.
 double nearest_surd(const Surd& number) {
   if (!number.root) return oracle::nearest(number.shift);
   const Ball::WorkingPrecision precision(256);

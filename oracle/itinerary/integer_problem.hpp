@@ -1,5 +1,5 @@
-// A scene and a start of rational numbers as integers: all lengths times one number, and the velocity times
-// the same, so that times stay what they are. Private to oracle/itinerary.
+// A scene and a start of rational numbers, in integers: all lengths and the velocity are multiplied by one
+// number, so times stay the same. Private to oracle/itinerary.
 #pragma once
 
 #include <lorentz/itinerary.hpp>
@@ -10,14 +10,14 @@ namespace lorentz::oracle {
 
 template <std::size_t D>
 struct IntegerProblem {
-  Z unit;  ///< a length of 1, in integers
+  Z unit;  ///< the length 1, in integers
   IntegerScene<D> scene;
   ZVec<D> x;
 
   IntegerProblem(const RationalScene& scene, const Start& start);
 };
 
-/// The velocity in the problem's unit, to the precision that holds; exactly, if it is rational.
+/// The velocity in the problem's unit, to the current precision; exact if it is rational.
 template <std::size_t D>
 BallVec<D> velocity_of(const Start& start, const Z& unit);
 

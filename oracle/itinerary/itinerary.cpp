@@ -24,8 +24,8 @@ namespace {
 
 constexpr double kBitsADecimal = 3.33;
 
-// The bits that the next passage should have: what this one lost on its way, carried on to the journey's end.
-// A passage that comes to a stop tells how far it came; at least half of it more, at most four times as much.
+// The bits for the next passage: the bits that this passage lost, extrapolated to the journey's end. (A
+// passage that stops tells what part it has done.) At least 1.5 and at most 4 times the bits of this passage.
 template <std::size_t D>
 long next_bits(const Passage<D>& passage, const Journey& journey, double part) {
   const double lost = static_cast<double>(passage.bits_lost()) / std::max(part, 1e-6);
@@ -51,7 +51,7 @@ Arrival follow_in(const RationalScene& scene, const Start& start, const Journey&
   }
 }
 
-// Independent vectors and semiaxes.
+// Checks that the vectors and semiaxes are independent.
 template <std::size_t D>
 void check(const RationalScene& scene) {
   const Start origin;

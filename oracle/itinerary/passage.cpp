@@ -7,10 +7,11 @@
 namespace lorentz::oracle {
 namespace {
 
-// Beyond what the state's error makes meaningful, so many bits are kept: roundings add 2^-kGuardBits of it.
+// Bits kept beyond those that the state's error makes meaningful: roundings add 2^-kGuardBits of that error.
 constexpr long kGuardBits = 64;
 
-// Of what is only an estimate of changes: derivatives. Where they lose all of that, all bits are used.
+// Bits for derivatives, which only estimate changes. If the derivatives lose all of these bits, all bits are
+// used.
 constexpr long kDerivativeBits = 256;
 
 template <std::size_t D>
@@ -28,7 +29,8 @@ Passage<D>::Passage(Route<D>& route, long bits) : route_(route), bits_(bits), fr
   const BallVec<D> v = velocity_of<D>(route.start, route.problem.unit);
   const Bound size = largest_size<D>(v);
   if (size.is_zero()) throw InputError("v: is zero");
-  // As large as a cell, so that times are as large as free paths; single obstacles have none.
+  // Scale the velocity to the size of a cell, so that times have the size of free paths; single obstacles
+  // have no cell.
   for (const Z& length : route.problem.scene.lattices[0].vectors[0])
     cell_ = larger(cell_, Ball(length).size());
   if (cell_.is_zero()) cell_ = route.sight.least_radius();
@@ -109,7 +111,7 @@ typename Passage<D>::PassageStep Passage<D>::collide_with(const ObstacleId& obst
   return tell(obstacle) ? PassageStep::done : PassageStep::lost;
 }
 
-// The collision from anywhere in the box.
+// The collision from any point of the box.
 template <std::size_t D>
 std::optional<EnclosedCollision<D>> Passage<D>::collision_anywhere(const ZVec<D>& centre,
                                                                    const Form<D>& form) const {
@@ -162,7 +164,7 @@ void Passage<D>::move_on(const EnclosedCollision<D>& middle, const typename Erro
     box_ = ErrorBox<N>(rounding);
 }
 
-// Nothing if the precision does not tell.
+// Nothing if the precision is not sufficient to decide.
 template <std::size_t D>
 std::optional<bool> Passage<D>::is_beyond_end(const Ball& time) const {
   if (!route_.journey.time) return false;
@@ -177,7 +179,8 @@ Ball Passage<D>::end_time() const {
   return scaled(to_ball(*route_.journey.time), -velocity_exponent_);
 }
 
-// Tells of this collision, if nobody has been told yet and all its digits are certain; false if they are not.
+// Reports this collision, if it has not been reported and all its digits are certain. False if they are not
+// certain.
 template <std::size_t D>
 bool Passage<D>::tell(const ObstacleId& obstacle) {
   if (collisions_ <= route_.told) return true;
@@ -214,7 +217,8 @@ typename Passage<D>::PassageStep Passage<D>::arrive(JourneyEnd end) {
   return PassageStep::arrived;
 }
 
-// The particle's place at a time after the last collision, or there; in the problem's unit.
+// The particle's position at a time after the last collision or, without a time, at that collision; in the
+// problem's unit.
 template <std::size_t D>
 typename Passage<D>::Function Passage<D>::place(int i, const Ball* time) const {
   Function function{Ball(centre_[i]) + state_.y[i], {}};
@@ -250,7 +254,7 @@ Ball Passage<D>::enclosed(const Function& function) const {
   return function.value.widened(box_.width_of(function.gradient));
 }
 
-// A component of the state, anywhere in the box.
+// A component of the state, enclosed for the whole box.
 template <std::size_t D>
 Ball Passage<D>::component(int i) const {
   const Ball& middle = i == kTime ? state_.t : i < static_cast<int>(D) ? state_.y[i] : state_.v[i - D];
@@ -294,10 +298,10 @@ bool Passage<D>::describe_distance(const Ball* time, std::string& text) const {
   return decimals.has_value();
 }
 
-// The digits that were asked for. A number that is known much better, and still could be rounded to either
-// side, is midway between two decimals or all but so: then a digit or two more. One that is 0 as far as can
-// be seen, far below its `scale` (of which time has none: it is above 0), is "0e-k": less than 10^-k, no
-// digit is certain.
+// Gives the requested digits. A number that is known much better, and still could be rounded to either side,
+// is midway between two decimals or nearly so; then one or two digits more are given. A number that cannot be
+// told from 0, far below its `scale`, is "0e-k": it is less than 10^-k, and no digit is certain. (Times have
+// no `scale`, because they are above 0.)
 template <std::size_t D>
 std::optional<std::string> Passage<D>::decimal(const Ball& number, const Bound* scale) const {
   constexpr double kBitsADigit = 3.33, kDigitsABit = 0.30102;

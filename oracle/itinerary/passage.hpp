@@ -1,5 +1,5 @@
-// A journey at one precision; and what is kept of it for the next passage, at a greater one. Private to
-// oracle/itinerary.
+// A journey at one precision, and the results that the next passage, at a higher precision, takes over from
+// it. Private to oracle/itinerary.
 #pragma once
 
 #include <lorentz/itinerary.hpp>
@@ -9,8 +9,8 @@
 
 namespace lorentz::oracle {
 
-/// What passages have in common: the problem, and the obstacles and decimals that are certain already. An
-/// obstacle that was certain at some precision is the true one: it is not asked for again.
+/// The data that passages share: the problem, and the obstacles and decimals that are already certain. An
+/// obstacle that was certain at some precision is the true one, so it is not searched again.
 template <std::size_t D>
 struct Route {
   const Start& start;
@@ -19,7 +19,7 @@ struct Route {
   IntegerProblem<D> problem;
   Sight<D> sight;
   std::vector<ObstacleId> known;
-  std::uint64_t told = 0;  ///< collisions of which on_collision knows
+  std::uint64_t told = 0;  ///< number of collisions reported to on_collision
   bool stopped = false;    ///< by on_collision
 
   Route(const RationalScene& scene, const Start& its_start, const Journey& its_journey,
@@ -36,14 +36,14 @@ class Passage {
  public:
   Passage(Route<D>& route, long bits);
 
-  /// Goes on as far as this precision allows; true if that is the journey's end.
+  /// Goes on as far as this precision allows; returns true if that is the journey's end.
   bool go();
 
-  /// The end; or how far everything is certain.
+  /// The end, or how far everything is certain.
   const Arrival& arrival() const { return arrival_; }
   long bits() const { return bits_; }
   long bits_lost() const;
-  /// Of the journey, by collisions or time.
+  /// The part of the journey that is done, by collisions or time.
   double part_done() const;
 
  private:
@@ -52,7 +52,7 @@ class Passage {
   using Gradient = BallVec<N>;
   enum class PassageStep { done, arrived, lost };
 
-  /// A function of the state: its value in the middle, rounded, and its gradient anywhere in the box.
+  /// A function of the state: its value in the middle, rounded, and its gradient enclosed for the whole box.
   struct Function {
     Ball value;
     Gradient gradient;
@@ -83,7 +83,7 @@ class Passage {
   const long bits_;
   Bound cell_;                  // the size of a cell
   long velocity_exponent_ = 0;  // the velocity here is the true one (in the problem's unit) times 2^this
-  State<D> state_;              // its middle: balls without radius
+  State<D> state_;              // the middle of the box: balls without radius
   ZVec<D> centre_;              // of the obstacle at which the particle is, or 0
   std::optional<ObstacleId> from_;
   ErrorBox<N> box_;

@@ -34,7 +34,7 @@ class Rounded final : public RoundedItinerary::Impl {
     State<D> state = state_;
     for (std::size_t i = 0; i < D; ++i) state.y[i] = rounded(state.y[i] + Ball(centre_[i] - centre[i]));
     const auto collision = collide(state, sight_.form_of(*obstacle));
-    if (!collision) return std::nullopt;  // it only touches, as far as these bits tell
+    if (!collision) return std::nullopt;  // to this precision it only touches the obstacle
     settle(*collision, sight_.form_of(*obstacle));
     centre_ = centre;
     from_ = *obstacle;
@@ -44,7 +44,7 @@ class Rounded final : public RoundedItinerary::Impl {
  private:
   static Ball rounded(const Ball& a) { return (a + Ball()).middle(); }
 
-  // On the surface, and at the speed of the start, as good programs do.
+  // Puts the particle on the surface, at the speed of the start, as good programs do.
   void settle(const EnclosedCollision<D>& collision, const Form<D>& form) {
     const Ball onto = form.radius / sqrt(dot(collision.w, collision.w));
     const Ball faster = sqrt(speed2_ / dot(collision.after.v, collision.after.v));

@@ -5,11 +5,11 @@
 namespace lorentz::oracle {
 namespace {
 
-// The levels m that are tried: from kUsual finer as long as the state allows; or, of a state that does not
-// allow that, coarser to kCoarsest.
+// The levels m that are tried: from kUsual on, finer as long as the state allows. If the state does not allow
+// kUsual, the levels get coarser, down to kCoarsest.
 constexpr long kUsual = 32, kCoarsest = 4;
 
-// Decisions need a few digits more than the states of one collision have in common.
+// Decisions need more digits than the states of one collision have in common.
 constexpr long kDecisionBits = 256;
 
 template <std::size_t D>
@@ -19,7 +19,7 @@ Bound sum(const std::array<Bound, D>& bounds) {
   return total;
 }
 
-// A rational ray near the state: x' = x / 2^bits, v' = v / 2^bits.
+// A rational ray near the state: x' = x / 2^bits, v' = v / 2^bits for integers x and v.
 template <std::size_t D>
 ExactQuery<D> rational_ray(const Seen<D>& seen, long bits) {
   ZVec<D> x, v;
@@ -41,10 +41,10 @@ ObstacleId obstacle_of(const ExactEntry<D>& entry) {
   return {entry.lattice, entry.atom, to_cell(entry.n)};
 }
 
-// The same ray from its place at the time theta / 2^bits on.
+// The same ray, starting from its position at the time theta / 2^bits.
 template <std::size_t D>
 ExactQuery<D> later_ray(const ExactQuery<D>& ray, const Z& theta, long bits, const ObstacleId& from) {
-  ZVec<D> x;  // times and velocities in units of 2^-bits and of 2^velocity_exponent, lengths of both
+  ZVec<D> x;  // times are in units of 2^-bits, velocities of 2^velocity_exponent, lengths of both
   for (std::size_t i = 0; i < D; ++i) {
     x[i] = shifted_left(ray.x[i], bits);
     x[i].add_product(theta, ray.velocity.v[i]);
@@ -52,7 +52,7 @@ ExactQuery<D> later_ray(const ExactQuery<D>& ray, const Z& theta, long bits, con
   return ExactQuery<D>(x, ray.length_exponent - bits, ray.velocity.v, ray.velocity_exponent, from);
 }
 
-// How far a is from the span of a lattice's vectors.
+// The distance of a from the span of a lattice's vectors.
 Ball beside_span(const IntegerScene<2>::Lattice& lattice, const BallVec<2>& a) {
   if (lattice.rank == 0) return sqrt(dot(a, a));
   const BallVec<2> b{Ball(lattice.vectors[0][0]), Ball(lattice.vectors[0][1])};
@@ -66,7 +66,7 @@ Ball beside_span(const IntegerScene<3>::Lattice& lattice, const BallVec<3>& a) {
   return is_row ? sqrt(across_squared(a, b) / dot(b, b)) : dot(a, b) / sqrt(dot(b, b));
 }
 
-// An obstacle lies within so much of its centre.
+// Every point of an obstacle is within this distance of its centre.
 template <std::size_t D>
 Bound reach_of(const typename IntegerScene<D>::Atom& atom) {
   if (!atom.semiaxes) return Ball(atom.radius).size();
@@ -80,7 +80,7 @@ bool all_zero(const ZVec<D>& a) {
   return std::all_of(a.begin(), a.end(), [](const Z& component) { return component == 0; });
 }
 
-// Integers a and one exponent: a 2^exponent are the middles.
+// Integers a and one exponent, such that a 2^exponent are the middles.
 template <std::size_t D>
 std::pair<ZVec<D>, long> exact_middles(const BallVec<D>& balls) {
   std::array<Ball::Exact, D> parts;
@@ -95,7 +95,7 @@ std::pair<ZVec<D>, long> exact_middles(const BallVec<D>& balls) {
   return {result, exponent};
 }
 
-// The ray of a state's middle, which is a rational one.
+// The ray of the middle of a state; it is rational.
 template <std::size_t D>
 ExactQuery<D> exact_ray(const Seen<D>& seen) {
   auto [x, length_exponent] = exact_middles<D>(seen.state.y);
@@ -121,8 +121,8 @@ IntegerScene<D> resized(IntegerScene<D> scene, long level, int sign) {
   return scene;
 }
 
-// A ball of radius |det A| / |adj A| (Frobenius) fits into the ellipsoid, for |A^-1 y| <= |adj A| |y| / |det
-// A|.
+// A ball of radius |det A| / |adj A| (Frobenius norm) fits into the ellipsoid, because
+// |A^-1 y| <= |adj A| |y| / |det A|.
 template <std::size_t D>
 Bound inscribed_radius(const ExactAtom<D>& atom) {
   Z squares = 1;
@@ -194,7 +194,7 @@ std::variant<ObstacleId, Unseen> Sight<D>::next(const Seen<D>& seen) {
   if (seen.is_exact()) return next_exactly(seen);
   if (seen.place_is_exact() && smallest_around(exact_, exact_ray(seen))) return Unseen::around;
   const long finest =
-      std::max(kUsual, Ball::WorkingPrecision::now());  // a state of so many bits allows no more
+      std::max(kUsual, Ball::WorkingPrecision::now());  // a state of this many bits allows no higher level
   long level = kUsual;
   for (bool coarser = false, finer = false; level <= finest;) {
     const auto result = next_at(seen, level);
@@ -230,7 +230,8 @@ std::variant<ObstacleId, Unseen, typename Sight<D>::Doubt> Sight<D>::next_at(con
         smallest_around(shrunk(level), ray))
       return Unseen::around;
     if (first.around) return Doubt::look_closer;
-    // What the deviation of the particle from the ray makes of the question, within this time.
+    // The doubt, if any, that the deviation of the particle from the ray within this time leaves about the
+    // answer.
     const auto doubt_within = [&](const Bound& time) -> std::optional<Doubt> {
       const Bound of_state = y_error + time * v_error;
       const Bound of_rounding = Bound(D) * (Bound(1) + time) * Bound::power_of_two(-bits);
@@ -269,8 +270,9 @@ std::variant<ObstacleId, Unseen, typename Sight<D>::Doubt> Sight<D>::next_at(con
   }
 }
 
-// With p beside the span of a lattice and u the part of v there, |p + t u| is more than an obstacle's reach
-// from (|p| + reach) / |u| on. Infinite if v may lie in the span, as it does in a crystal's.
+// Let p be the part of the position beside the span of a lattice, and u the same part of v. From
+// (|p| + reach) / |u| on, |p + t u| is more than an obstacle's reach. Infinite if v may lie in the span, as
+// it always does for a crystal.
 template <std::size_t D>
 Bound Sight<D>::time_of_escape(const Seen<D>& seen) const {
   Bound latest;
@@ -287,12 +289,12 @@ Bound Sight<D>::time_of_escape(const Seen<D>& seen) const {
   return latest;
 }
 
-// True if no grown obstacle but this one is entered by the ray before the true collision is over.
+// True if the ray enters no other grown obstacle before the true collision is over.
 template <std::size_t D>
 bool Sight<D>::is_alone(long level, const ExactQuery<D>& ray, const ExactEntry<D>& entry,
                         const Ball& flight) {
   const Ball entered = time_of(ray, entry);
-  // theta, a time shortly before that: the ray moves by less than a grown obstacle has grown
+  // theta is a time shortly before that: the ray moves by less than a grown obstacle has grown
   const Bound speed = Ball(ceil_sqrt(ray.velocity.v2)).size() * Bound::power_of_two(ray.velocity_exponent);
   const long bits = std::max(0L, level + 8 + (speed / least_radius_).exponent());
   const Z theta = std::max(Z(0), entered.lower().rounded(bits) - 1);

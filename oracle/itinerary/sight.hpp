@@ -1,14 +1,16 @@
-// Which obstacle a particle meets next, when its state is known to some bits only. Private to
-// oracle/itinerary.
+// Finds the obstacle that a particle meets next, when its state is known to a limited number of bits. Private
+// to oracle/itinerary.
 //
 // The exact search of oracle/first_hit knows no intervals, and needs none. Let the obstacles grow by a factor
-// 1 + 2^-m, to at least eta in every direction. Let a rational ray (x', v') be so near to the true one that
+// 1 + 2^-m, that is, by at least eta in every direction. Let a rational ray (x', v') be so near to the true
+// one that
 //   |x' - x| + t |v' - v| <= eta   for 0 <= t <= T.
-// What the true ray enters at a time t <= T holds x' + t v' when it has grown, and is entered by the rational
-// ray at t or before. So ask the exact search for the first grown obstacle o on the rational ray, at t1, and
-// for the next one on the same ray from t1 on, at t2. If the true ray certainly enters o at t <= T < t2, then
-// it enters nothing else before: the answer is certain, though every number in it was rounded. If x' stands
-// in a grown obstacle, or t2 comes too soon, m must be larger; the state's own error sets an end to that.
+// If the true ray enters an obstacle at a time t <= T, the grown obstacle contains x' + t v', so the rational
+// ray enters it at t or before. So ask the exact search for the first grown obstacle o on the rational ray,
+// at t1, and for the next one on the same ray from t1 on, at t2. If the true ray certainly enters o at
+// t <= T < t2, then it enters nothing else before. The answer is certain, although every number in it was
+// rounded. If x' is in a grown obstacle, or t2 comes too soon, m must be larger; the error of the state
+// limits m.
 #pragma once
 
 #include <map>
@@ -19,8 +21,8 @@
 
 namespace lorentz::oracle {
 
-/// A state as decisions see it: where the obstacle that it leaves stands, and how far each component of the
-/// true y and v may be from the middle of these balls.
+/// A state as decisions see it: the centre of the obstacle that the particle leaves, and bounds of the
+/// distance of each component of the true y and v from the middle of these balls.
 template <std::size_t D>
 struct Seen {
   const ZVec<D>& centre;
@@ -33,8 +35,8 @@ struct Seen {
 };
 
 enum class Unseen {
-  around,  ///< an obstacle around the start
-  never,   ///< nothing is ever entered: of exact states, and where no lattice is a crystal
+  around,  ///< the start is inside an obstacle
+  never,   ///< nothing is ever entered; possible for exact states, and if no lattice is a crystal
   blurred  ///< the state is not known well enough
 };
 
@@ -43,13 +45,13 @@ class Sight {
  public:
   explicit Sight(IntegerScene<D> scene);
 
-  /// The obstacle that is entered next, for certain.
+  /// The obstacle that is certainly entered next.
   std::variant<ObstacleId, Unseen> next(const Seen<D>& seen);
 
   const ExactScene<D>& scene() const { return exact_; }
   const Form<D>& form_of(const ObstacleId& obstacle) const { return forms_[obstacle.lattice][obstacle.atom]; }
   ZVec<D> centre_of(const ObstacleId& obstacle) const;
-  /// The radius of the smallest ball in any obstacle, at most.
+  /// The radius of the smallest ball in any obstacle, or less.
   const Bound& least_radius() const { return least_radius_; }
 
  private:

@@ -6,14 +6,15 @@
 namespace lorentz::oracle {
 namespace {
 
-constexpr long kFiner = 64;  // the ulps of v are integers in units so much finer
+constexpr long kFiner = 64;  // the ulps of v are integers in units finer by this many bits
 
-// Short vectors are combinations of a reduced basis with small coefficients. Among tiny obstacles (1e-9 and
-// less) dozens of lattice lines run within a few ulps of v, and x lies in the corridor of some of them.
+// Combinations of a reduced basis with coefficients up to this size are tried; short vectors are among them.
+// Among tiny obstacles (1e-9 and less) dozens of lattice lines run within a few ulps of v, and x lies in the
+// corridor of some of them.
 template <std::size_t D>
 constexpr int kCoefficients = D == 2 ? 16 : 4;
 
-// v and its ulps as integers.
+// v and its ulps in integers.
 template <std::size_t D>
 struct CorridorBox {
   ZVec<D> v, ulp;
@@ -26,9 +27,10 @@ struct CorridorBox {
     }
   }
 
-  // Is v within k ulps of f g for some factor f > 0? That is g / f between v - k ulps and v + k ulps.
+  // True if v is within k ulps of f g for some factor f > 0, that is, if g / f is between v - k ulps and
+  // v + k ulps.
   bool contains(const ZVec<D>& g) const {
-    Real least;  // of 1 / f
+    Real least;  // lower bound of 1 / f
     std::optional<Real> most;
     const auto at_most = [&](const Real& bound) { most = most ? std::min(*most, bound) : bound; };
     for (std::size_t i = 0; i < D; ++i) {
@@ -74,7 +76,8 @@ std::array<ZVec<3>, 3> dual_vectors(const Basis<3>& b) {
   return {cross(b[1].p, b[2].p), cross(b[2].p, b[0].p), cross(b[0].p, b[1].p)};
 }
 
-// Calls visit with all combinations of the vectors with small coefficients, up to the sign.
+// Calls visit for all combinations of the vectors with small coefficients, one of each pair of opposite
+// signs.
 template <class Vector, std::size_t D, class Visit>
 bool any_combination(const std::array<Vector, D>& basis, const Visit& visit) {
   constexpr int kMost = kCoefficients<D>, kWidth = 2 * kMost + 1;
@@ -90,7 +93,7 @@ bool any_combination(const std::array<Vector, D>& basis, const Visit& visit) {
   return false;
 }
 
-// The normal, after a linear map, of what G was normal to.
+// The normal, after a linear map, of the line or plane to which G was normal.
 ZVec<2> mapped_normal(const ZMatrix<2>& map, const ZVec<2>& G) {
   const ZVec<2> along = map * ZVec<2>{Z(-G[1]), G[0]};
   return {Z(-along[1]), along[0]};
@@ -116,8 +119,8 @@ class CorridorSearch {
   }
 
  private:
-  // Nothing is ever hit in this direction, obstacles being smaller by what `ulps` ulps make across the
-  // corridor (2D) or the plane channel (3D) with the normal G, if these have any width.
+  // True if nothing is ever hit in this direction. The obstacles are made smaller by the change that `ulps`
+  // ulps make across the corridor (2D) or the planar channel (3D) with the normal G, if these have any width.
   bool is_open(const ZVec<D>& direction, const ZVec<D>& G) const {
     const ExactQuery<D>& query = query_.query();
     const ExactVelocity<D> velocity{direction, dot(direction, direction)};
@@ -138,9 +141,9 @@ class CorridorSearch {
     return true;
   }
 
-  // Is there room between the obstacles of one atom, in lattice lines or planes with this normal? Their
-  // radius is that of the scene, give or take `ulps` of its ulps: far from the origin ulps of x are large,
-  // and what x could be moved by is no reason for obstacles to shrink and open a way that is nowhere.
+  // True if there is room between the obstacles of one atom, in lattice lines or planes with this normal. The
+  // radius is that of the scene, give or take `ulps` of its ulps. The ulps of x do not count here: far from
+  // the origin they are large, and shrinking the obstacles by them could open a way that does not exist.
   bool leave_gaps(const View<D>& view, const ZVec<D>& normal) const {
     Z spacing = 0;  // of the planes, times |normal|
     for (const LatticePoint<D>& vector : view.basis) spacing = gcd(spacing, Z(dot(normal, vector.p)));
@@ -148,7 +151,8 @@ class CorridorSearch {
     return width <= 0 || width * width * real(dot(normal, normal)) < real(spacing) * real(spacing);
   }
 
-  // Normal to a short vector of the dual lattice: along lattice lines (2D), within lattice planes (3D).
+  // Tries directions normal to short vectors of the dual lattice: along lattice lines (2D), within lattice
+  // planes (3D).
   bool along_planes(const Basis<D>& basis) const {
     std::array<DualVector<D>, D> dual;
     const auto vectors = dual_vectors(basis);
@@ -178,7 +182,7 @@ class CorridorSearch {
   }
 
   int precision_bits() const { return bits_of(query_.ulps().precision); }
-  // An angle of 2^-50, in binary32 2^-21, counts as much as the length.
+  // An angle of 2^-50 (binary32: 2^-21) counts as much as the length.
   long sharp() const { return precision_bits() - 3; }
 
   const PerturbedQuery<D>& query_;

@@ -1,4 +1,4 @@
-// By how many ulps the inputs must move for another answer to be right. Private to oracle/.
+// The number of ulps by which the inputs must move for another answer to be right. Private to oracle/.
 #pragma once
 
 #include <cmath>
@@ -13,18 +13,19 @@ namespace lorentz::oracle {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Obstacles that are passed over and stretches of the line, looked at until one is met by more than the
-// tolerance. A line that grazes a row meets as many as one likes by less, and the farther an obstacle is, the
-// more the inputs' last bits move the line there: those beyond the first are passed over by less still.
+// The most obstacles and stretches of the line that are looked at before one obstacle is met by more than the
+// tolerance. A line that grazes a row can meet any number of obstacles by less than that. The farther an
+// obstacle is, the more the inputs' last bits move the line there, so obstacles beyond these would be passed
+// over by even less.
 inline constexpr std::size_t kMostPassedOver = 100'000;
 
 struct Departure {
   double ulps = 0;
-  std::optional<ObstacleId> obstacle = {};  // that needs so much
+  std::optional<ObstacleId> obstacle = {};  // the obstacle that needs this number
 };
 
-// By how many ulps the inputs must move for an answer to be right, and for which obstacle's sake; computed
-// until it is certain that they are more than the tolerance.
+// The number of ulps by which the inputs must move for an answer to be right, and the obstacle that requires
+// it. Computed until it certainly exceeds the tolerance.
 template <std::size_t D>
 class DepartureBound {
  public:
@@ -52,7 +53,7 @@ class DepartureBound {
 
  private:
   bool exceeds_tolerance() const { return needed_.ulps > ulps_; }
-  // Counts what is passed over. Returns whether to stop.
+  // Counts the obstacles and stretches that are passed over. Returns whether to stop.
   bool pass_over(int steps) {
     passed_over_ += steps;
     return exceeds_tolerance() || passed_over_ > kMostPassedOver;
@@ -65,7 +66,7 @@ class DepartureBound {
     if (ulps > needed_.ulps) needed_ = {ulps, query_.id_of(atom, centre.point.n)};
   }
 
-  // X is entered, or missed by no more than k; nothing contains x or is entered earlier with more than k to
+  // X is entered, or missed by at most k. No obstacle contains x, or is entered earlier, with more than k to
   // spare.
   void bound_hit(const ObstacleId& id) {
     const Uncertain<D>& atom = query_.atom_of(id);
@@ -87,7 +88,7 @@ class DepartureBound {
       if (!exceeds_tolerance()) bound_all_earlier(atom, centre, other);
   }
 
-  // X contains x, or nearly; no smaller one does with more than k to spare.
+  // X contains x, or nearly. No smaller obstacle does so with more than k to spare.
   void bound_inside(const ObstacleId& id) {
     const Uncertain<D>& atom = query_.atom_of(id);
     const Centre<D> centre = query_.centre_of(id);
@@ -100,7 +101,7 @@ class DepartureBound {
     });
   }
 
-  // Nothing contains x with more than k to spare, and there is an open corridor that contains x, whose
+  // No obstacle contains x with more than k to spare, and there is an open corridor that contains x and whose
   // direction is within k ulps of v.
   void bound_never() {
     bound_containing([&](const Uncertain<D>& atom, const Centre<D>& centre) {
@@ -112,7 +113,7 @@ class DepartureBound {
     needs(open_near(query_, ulps_) ? ulps_to_open_way() : kInfinity, exact_.obstacle);
   }
 
-  // No obstacle is entered with more than k to spare; above all not the one that is hit.
+  // No obstacle is entered with more than k to spare. The obstacle that is hit comes first.
   void bound_all_entered() {
     if (exact_.outcome == Outcome::hit) {
       const Uncertain<D>& hit = query_.atom_of(exact_.obstacle);
@@ -122,7 +123,7 @@ class DepartureBound {
     for (const Uncertain<D>& atom : query_.atoms()) {
       if (exceeds_tolerance()) return;
       passed_over_ =
-          0;  // a row of this atom beside the line, without an end, is not to cost the next one its turn
+          0;  // a row of this atom beside the line, without an end, must not use up the next atom's share
       const View<D>& view = atom.view();
       const std::optional<Z> end = last_s(view);
       const auto look = [&](const Centre<D>& centre) {
@@ -131,8 +132,7 @@ class DepartureBound {
         if (entered && !query_.is_from(atom, centre.point.n))
           needs(atom.margin_of_meeting(centre), atom, centre);
       };
-      // A flight along the lattice has no end: it is followed as far as the first obstacle with more to
-      // spare.
+      // A flight along the lattice has no end. It is followed up to the first obstacle with more to spare.
       Z low = 1, high = root_below(atom.rho2()) + 2;
       for (bool done = false; !done && passed_over_ <= kMostPassedOver; low = high, high *= 2) {
         done = end && high >= *end;
@@ -144,7 +144,7 @@ class DepartureBound {
     }
   }
 
-  // The tolerance is enough. How much of it is, to 1 part in 1000?
+  // The tolerance is enough. Finds the part of it that is enough, to 1 part in 1000.
   double ulps_to_open_way() const {
     double too_few = 0, enough = ulps_;
     for (int halvings = 0; halvings < 10; ++halvings) {
@@ -154,7 +154,7 @@ class DepartureBound {
     return enough;
   }
 
-  // The obstacles that contain x, of those that count.
+  // The obstacles that contain x, if `counts` returns true for them.
   template <class Counts>
   void bound_containing(const Counts& counts) {
     if (exact_.outcome != Outcome::inside) return;
@@ -174,8 +174,8 @@ class DepartureBound {
     }
   }
 
-  // An obstacle that contains x: where x is outside after all, it is entered at once, unless it is missed or behind;
-  // or it takes `later` to be entered after another one.
+  // An obstacle that contains x. If x is moved outside, the obstacle is entered at once, unless it is missed
+  // or lies behind the start; or, with a margin of `later()`, it is entered after another obstacle.
   template <class Later>
   void bound_entered_at_once(const Uncertain<D>& atom, const Centre<D>& centre, const Later& later) {
     if (centre.s <= 0) return;
@@ -183,7 +183,8 @@ class DepartureBound {
     if (to_double(spare, kHuge) > needed_.ulps) needs(std::min(spare, later()), atom, centre);
   }
 
-  // One that is met, and X, or where the line is nearest to it.
+  // Compare the entry of an obstacle that is met with that of X or, if X is missed, with the point of the
+  // line nearest to X.
   static bool is_after(const Uncertain<D>& target, const Centre<D>& hit, const Uncertain<D>& atom,
                        const Centre<D>& centre) {
     const Z chord2 = target.rho2() - hit.h2, grazing = chord2 > 0 ? chord2 : Z(0);
@@ -197,8 +198,8 @@ class DepartureBound {
            largest_change(query_.ulps(), atom, atom.arrival(centre));
   }
 
-  // Obstacles of one atom that are entered before X (which may be missed by a little: then where the line is
-  // nearest).
+  // The obstacles of one atom that are entered before X. If X is missed by a little, the point of the line
+  // nearest to X counts.
   void bound_all_earlier(const Uncertain<D>& target, const Centre<D>& hit, const Uncertain<D>& atom) {
     const View<D>& view = atom.view();
     const Z end = ceiling(target.time_of(hit) * real(view.velocity.v2)) + root_below(atom.rho2()) + 1;
@@ -207,7 +208,7 @@ class DepartureBound {
         [&](int steps) { return pass_over(steps); });
   }
 
-  // One obstacle that may be entered before X: with how much to spare?
+  // An obstacle that may be entered before X: how much it has to spare.
   void bound_earlier(const Uncertain<D>& target, const Centre<D>& hit, const Uncertain<D>& atom,
                      const Centre<D>& centre) {
     ++passed_over_;
@@ -224,7 +225,8 @@ class DepartureBound {
       needs(std::min(spare, spare_before(target, hit, atom, centre)), atom, centre);
   }
 
-  // Is it entered at most T times its time before that, and not yet left then?
+  // True if the obstacle is entered before `time` by at most the tolerance times its own entry time, and not
+  // yet left at `time`.
   bool is_excused_by_time(const Real& time, const Uncertain<D>& atom, const Centre<D>& centre) const {
     if (!time_tolerance_) return false;
     const Real entry = atom.time_of(centre), chord = sqrt(real(Z(atom.rho2() - centre.h2)));

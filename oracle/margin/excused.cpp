@@ -1,5 +1,6 @@
-// What the judge forgives, listed. Whatever may be in it is looked for, and each is judged: an obstacle that is
-// met, or missed by so few ulps, until one is entered with more to spare; one that contains x, or nearly; never.
+// Lists the answers that the judge forgives. Every candidate is searched and judged: obstacles that are met,
+// or missed by at most the tolerance, up to the first one that is entered with more to spare; obstacles that
+// contain x, or nearly; and `never`.
 #include "oracle/margin/excused.hpp"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ class ExcusedSearch {
   }
 
  private:
-  // How far is looked, in radii, as a power of two; a hit beyond the first is too far for a list.
+  // The range of the search in radii, as powers of two. A hit beyond kFarthestHit is too far away for a list.
   static constexpr long kFarthestHit = 100, kFarthest = 160;
 
   void judge(const Answer& answer) {
@@ -45,15 +46,15 @@ class ExcusedSearch {
     return answer;
   }
 
-  static constexpr long kStretch = 20;  // what a stretch of the line costs, in obstacles
+  static constexpr long kStretch = 20;  // the cost of a stretch of the line, in obstacles
 
-  // Returns whether that is too much.
+  // Returns whether the budget is exceeded.
   bool spend(long steps) {
     is_too_much_ |= (budget_ -= steps) < 0;
     return is_too_much_;
   }
 
-  // All points of a row, from the nearest to the farthest, until `look` returns true.
+  // Looks at the points of a row, from the nearest to the farthest, until `look` returns true.
   template <class Look>
   void look_at_row(const View<D>& view, LatticePoint<D> point, LatticePoint<D> step, const Z& last,
                    const Look& look) {
@@ -92,7 +93,7 @@ class ExcusedSearch {
     if (exact_.outcome == Outcome::hit) {
       const Uncertain<D>& hit = query_.atom_of(exact_.obstacle);
       const Centre<D> centre = query_.centre_of(exact_.obstacle);
-      is_too_much_ |= !is_order_certain(hit, centre);  // to first order all its translates are excused
+      is_too_much_ |= !is_order_certain(hit, centre);  // then all its translates are excused, to first order
       note_certain(hit, centre);
     }
     const std::optional<Real> last = end_of_scene();
@@ -106,7 +107,7 @@ class ExcusedSearch {
       for (const Uncertain<D>& atom : query_.atoms()) look(atom, low, end);
       judge_candidates();
     }
-    // A direction that is uncertain, however little, reaches other obstacles farther on. (A zero is exact.)
+    // Even a slightly uncertain direction reaches other obstacles farther on. (A zero component is exact.)
     is_too_much_ |= std::ranges::count_if(query_.ulps().v, [](const Real& ulp) { return ulp > 0; }) > 1;
   }
 
@@ -114,7 +115,7 @@ class ExcusedSearch {
     return query_.atom_of(obstacle).time_of(query_.centre_of(obstacle));
   }
 
-  // Beyond which no obstacle comes near, where no lattice fills the space.
+  // The time beyond which no obstacle comes near, if no lattice fills space.
   std::optional<Real> end_of_scene() const {
     Real latest = 0;
     for (const Uncertain<D>& atom : query_.atoms()) {
@@ -125,7 +126,7 @@ class ExcusedSearch {
     return latest;
   }
 
-  // In time.
+  // The longest radius, in time.
   Real longest_radius() const {
     Real longest = 0;
     for (const Uncertain<D>& atom : query_.atoms())
@@ -143,7 +144,7 @@ class ExcusedSearch {
     const Real wide = real(view.radius) + Real(ulps_) * atom.largest_change_across(high);
     const Z reach2 = ceiling(wide * wide * v2);
     is_too_much_ |= view.rank < D && wide > 3 * real(view.radius);  // stretches reach no farther (Stretches)
-    // The first window has what lies behind the start by no more than is excused.
+    // The first window includes what lies behind the start by no more than is excused.
     const Z begin = low == 0 ? Z(-ceiling(wide * sqrt(v2))) : ceiling(low * v2) - 1;
     const Stretches<D> stretches(view, reach2);
     const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step,
@@ -169,8 +170,8 @@ class ExcusedSearch {
     if (candidates_.size() > 4 * most_ && !until_) judge_candidates();
   }
 
-  // One that is entered with more to spare: none that is entered later, by more than the order is uncertain, is
-  // excused.
+  // Notes an obstacle that is entered with more to spare. An obstacle that is entered later than this one, by
+  // more than the uncertainty of their order, is not excused.
   void note_certain(const Uncertain<D>& atom, const Centre<D>& centre) {
     const bool is_entered = centre.s > 0 && centre.h2 < atom.rho2() && centre.c2 >= atom.view().radius2;
     if (!is_entered || is_excused(atom.margin_of_meeting(centre))) return;
@@ -180,8 +181,8 @@ class ExcusedSearch {
     if (!until_ || until < *until_) until_ = until;
   }
 
-  // Of one that is grazed closely the time depends so much on v that translates of it along the flight are not told
-  // apart, to first order.
+  // False if the obstacle is grazed so closely that, to first order, it cannot be told apart from its
+  // translates along the flight, because its time depends so much on v.
   bool is_order_certain(const Uncertain<D>& atom, const Centre<D>& centre) const {
     const PerturbedArrival<D> arrival = atom.arrival(centre);
     Real slope = 0;
@@ -189,15 +190,16 @@ class ExcusedSearch {
     return 2 * Real(ulps_) * slope < 1;
   }
 
-  // However all inputs move by as much as is excused. (A margin is first-order: in space, of a line near the centre,
-  // it may be too large.) So no open corridor is that near, and the search for one is spared.
+  // True if the obstacle is met however the inputs move by at most the tolerance. (A margin is only
+  // first-order: in space it may be too large if the line passes near the centre.) Then no open corridor is
+  // that near, and the search for one is not needed.
   bool is_met_for_certain(const Uncertain<D>& atom, const Centre<D>& centre) const {
     const Real v2 = real(atom.view().velocity.v2),
                room = real(atom.view().radius) - sqrt(real(centre.h2) / v2);
     return room > 2 * Real(ulps_) * atom.largest_change_across(real(centre.s) / v2);
   }
 
-  // In order of time, each once: neighbouring stretches share their ends.
+  // Judges the candidates in order of time, each once, because neighbouring stretches share their ends.
   void judge_candidates() {
     std::sort(candidates_.begin(), candidates_.end());
     for (const auto& [time, lattice, atom, n] : candidates_) {
@@ -216,7 +218,7 @@ class ExcusedSearch {
   std::vector<ExcusedAnswer> found_;
   std::vector<Candidate> candidates_;
   std::set<std::tuple<int, int, ZVec<D>>> judged_;
-  std::optional<Real> until_;  // no later one is excused
+  std::optional<Real> until_;  // no obstacle entered later is excused
   bool is_inside_ = false;     // by more than is excused
   bool is_never_out_ = false;
   bool is_too_much_ = false;

@@ -1,7 +1,7 @@
-// The smallest margin of an answer. Obstacles that were nearly hit, or nearly contain x, stand within k ulps'
-// worth of change outside the cylinder that the line's obstacles lie in: widen it until the first of them is
-// found, and look at all that the widened cylinder holds. A change grows with the time T along the flight; so
-// does the widening.
+// Finds the smallest margin of an answer. The obstacles that the line meets lie in a cylinder. An obstacle
+// that is nearly hit, or nearly contains x, lies outside this cylinder by at most the change that k ulps
+// make. So widen the cylinder until the first of them is found, and look at all that the widened cylinder
+// holds. A change grows with the time T along the flight, and so does the widening.
 #include <lorentz/margin.hpp>
 
 #include <algorithm>
@@ -15,8 +15,9 @@
 namespace lorentz::oracle {
 namespace {
 
-// Points and stretches of one atom that a search may look at. More is met only where thousands of obstacles
-// are about as hard to tell apart; then the margin is the smallest of those looked at.
+// The number of points and stretches of one atom that a search may look at. There are more only where
+// thousands of obstacles are about equally hard to tell apart; the margin is then the smallest of those
+// looked at.
 constexpr long kSmallBudget = 500;
 constexpr double kFirstTry = 0x1p-30, kGrowth = 8;
 constexpr int kMostTries = 4;
@@ -42,18 +43,18 @@ class MarginSearch {
   }
 
  private:
-  // `inside` rests on the obstacles up to the one named.
+  // `inside` depends only on the obstacles up to the one named.
   bool concerns(const Uncertain<D>& atom) const {
     return is_hit_ || std::pair(atom.lattice(), atom.atom()) <= std::pair(target_.lattice(), target_.atom());
   }
 
-  // The latest T at which an obstacle of this atom, of radius up to twice its own, counts.
+  // The latest T at which an obstacle of this atom, with up to twice its own radius, counts.
   Real latest(const Uncertain<D>& atom) const {
     return target_time_ + 2 * real(atom.view().radius) / sqrt(real(atom.view().velocity.v2));
   }
 
-  // Until nothing of this atom with a margin below the smallest can have been missed: at once, or (where that
-  // holds thousands of obstacles, along a wall of a channel) by widening more and more.
+  // Searches until no obstacle of this atom with a margin below the smallest can be left: in one step or, if
+  // that step would hold thousands of obstacles (along a wall of a channel), by widening more and more.
   void search(const Uncertain<D>& atom) {
     const Real change = atom.largest_change(latest(atom)), radius = real(atom.view().radius);
     const Real at_once = std::min(Real(kLargestMargin), radius / change / 4);
@@ -69,7 +70,7 @@ class MarginSearch {
     }
   }
 
-  // Widens by as much as leaves the cylinder about as large as it was. Returns whether that was not too much.
+  // Widens so little that the cylinder stays about as large as it was. Returns whether the budget was enough.
   bool search_at_once(const Uncertain<D>& atom, const Real& k) {
     const Real wide = real(atom.view().radius) + k * atom.largest_change(latest(atom));
     budget_ = kSmallBudget;
@@ -77,7 +78,7 @@ class MarginSearch {
     return budget_ >= 0;
   }
 
-  // Widens as the changes grow along the flight. Returns whether that was not too much.
+  // Widens as the changes grow along the flight. Returns whether the budget was enough.
   bool search_in_windows(const Uncertain<D>& atom, const Real& k, long budget) {
     const Real radius = real(atom.view().radius), v2 = real(atom.view().velocity.v2);
     const Z end = last_s(atom, radius + k * atom.largest_change(latest(atom)));
@@ -91,7 +92,7 @@ class MarginSearch {
     return budget_ >= 0;
   }
 
-  // Where the uncertainty of v begins to count for more than that of x.
+  // The time from which on the uncertainty of v counts for more than that of x.
   Real turning_point() const {
     Real x = 0, v = 0;
     for (std::size_t i = 0; i < D; ++i) {
@@ -116,7 +117,7 @@ class MarginSearch {
         [&](int steps) { return (budget_ -= steps) < 0; });
   }
 
-  // The decisions about one obstacle.
+  // Weighs the decisions about one obstacle.
   void weigh(const Uncertain<D>& atom, const Centre<D>& centre) {
     if (query_.is_from(atom, centre.point.n)) return;
     const bool is_target = &atom == &target_ && centre.point.n == target_centre_.point.n;
@@ -137,7 +138,7 @@ class MarginSearch {
                margin_of_order(query_.ulps(), target_, target_centre_, atom, centre));
   }
 
-  // Would an obstacle that was missed be entered before the one that was hit, were it just met?
+  // True if a missed obstacle, were it just met, would be entered before the one that was hit.
   bool nearest_before_target(const Uncertain<D>& atom, const Centre<D>& centre) const {
     return compare_entries(centre.s, 0, atom.view().velocity.v2, target_centre_.s,
                            target_.rho2() - target_centre_.h2, target_.view().velocity.v2) < 0;
@@ -162,7 +163,7 @@ class MarginSearch {
   long budget_ = 0;
 };
 
-// Widens the cylinder until enough obstacles are in it, or it is three times as wide.
+// Widens the cylinder until it holds enough obstacles, or is three times as wide.
 template <std::size_t D>
 std::vector<PassedObstacle> passed_obstacles(const PerturbedQuery<D>& perturbed, const Answer& exact,
                                              std::size_t most) {
@@ -202,7 +203,7 @@ std::vector<PassedObstacle> passed_obstacles(const PerturbedQuery<D>& perturbed,
   return all;
 }
 
-// a 2^exponent, the mantissa odd.
+// a 2^exponent, with an odd mantissa.
 std::string hexadecimal(const Z& a, long exponent) {
   if (a == 0) return "0x0p+0";
   const long zeros = trailing_zeros(a), power = exponent + zeros;
@@ -222,7 +223,7 @@ bool is_binary64(const Z& a, long exponent) {
 struct Margins::Impl {
   PerturbedScene scene;
 
-  // Of the time, in this unit, when every input moves by an ulp.
+  // The change of the time, in this unit, if every input moves by an ulp.
   double change(const Query& query, const Answer& exact, double unit) const {
     if (exact.outcome != Outcome::hit || !exact.time) throw InputError("answer: is no hit with a time");
     return scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {

@@ -27,10 +27,10 @@ class MissSearch {
   }
 
  private:
-  static constexpr int kMostDoublings = 80;  // of a flight that runs along a lattice for ever
+  static constexpr int kMostDoublings = 80;  // for a flight that runs along a lattice for ever
 
-  // In windows, the first as long as the obstacle is wide, each as wide as margins below the smallest reach:
-  // as far as the radius again, beyond which the margins are large.
+  // Searches in windows of doubling length; the first one reaches two radii ahead and behind. Each is as wide
+  // as margins below the smallest one reach, at most twice the radius, beyond which margins are large.
   void search(const Uncertain<D>& atom) {
     const View<D>& view = atom.view();
     if (view.rank == 0) {  // one obstacle, however far from the line
@@ -62,7 +62,7 @@ class MissSearch {
         [&](int steps) { return (budget_ -= steps) < 0; });
   }
 
-  // What is behind the start would be entered only by a start inside it.
+  // An obstacle behind the start could only be entered from a start inside it.
   void weigh(const Uncertain<D>& atom, const Centre<D>& centre) {
     consider(DecisionKind::containing, atom, centre, atom.margin_of_containing(centre));
     if (centre.s > 0) consider(DecisionKind::meeting, atom, centre, atom.margin_of_meeting(centre));

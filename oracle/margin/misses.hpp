@@ -1,5 +1,5 @@
-// Flights among lattices that repeat in fewer directions than there are: they pass a bounded stretch, or run
-// along a lattice for ever. Private to oracle/.
+// Flights in scenes whose lattices repeat in fewer directions than the space has. Such flights pass a bounded
+// stretch of the lattices, or run along a lattice for ever. Private to oracle/.
 #pragma once
 
 #include <lorentz/margin.hpp>
@@ -7,13 +7,13 @@
 
 namespace lorentz::oracle {
 
-/// Are all lattices such?
+/// True if all lattices repeat in fewer directions than the space has.
 template <std::size_t D>
 bool is_open_everywhere(const ExactScene<D>& scene);
 
-/// The smallest margin of a flight that enters nothing in such a scene: of the obstacles that it misses, and
-/// of those that nearly contain its start. Along a lattice margins fall with the distance; then the smallest
-/// is that of the obstacles that were looked at.
+/// The smallest margin of a flight that enters nothing in such a scene, over the obstacles that it misses and
+/// those that nearly contain its start. Along a lattice, margins fall with the distance; the result is then
+/// the smallest margin of the obstacles that were looked at.
 template <std::size_t D>
 HardestDecision hardest_miss(const PerturbedQuery<D>& perturbed, long budget);
 

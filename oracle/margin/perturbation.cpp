@@ -115,7 +115,7 @@ Real Uncertain<D>::margin_of_ahead(const Centre<D>& centre) const {
   return real(Z(abs(centre.s))) / (weighted(view_.velocity.v, ulps_.x) + weighted(centre.point.p, ulps_.v));
 }
 
-// (s - sqrt(d)) / v^2 = (c^2 - r^2) / (s + sqrt(d)): where s > 0 nothing cancels there.
+// (s - sqrt(d)) / v^2 = (c^2 - r^2) / (s + sqrt(d)): if s > 0, nothing cancels in the second form.
 template <std::size_t D>
 Real Uncertain<D>::time_of(const Centre<D>& centre) const {
   const Z d = rho2_ - centre.h2;
@@ -125,7 +125,8 @@ Real Uncertain<D>::time_of(const Centre<D>& centre) const {
   return (real(centre.s) - chord) / real(view_.velocity.v2);
 }
 
-// t v - c = (s v - v^2 c) / v^2 - sqrt(d) v / v^2: two vectors at right angles, the first one of integers.
+// t v - c = (s v - v^2 c) / v^2 - sqrt(d) v / v^2: two vectors at right angles; the first has integer
+// components.
 template <std::size_t D>
 PerturbedArrival<D> Uncertain<D>::arrival(const Centre<D>& centre) const {
   if (centre.h2 >= rho2_) throw InputError("answer: the line does not meet the obstacle that it names");
@@ -169,8 +170,8 @@ Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const 
     change += abs(two.by_x[i] - one.by_x[i]) * ulps.x[i];
     change += abs(two.t * two.by_x[i] - one.t * one.by_x[i]) * ulps.v[i];
   }
-  // So far out that all digits carried are the same: translates along the flight, which any error moves
-  // alike.
+  // The obstacles are so far away that all digits carried are the same: they are translates along the flight,
+  // which any error moves alike.
   if (change == 0) return Real(kLargestMargin);
   return abs(two.t - one.t) / change;
 }

@@ -1,19 +1,20 @@
-// How much a decision changes when the inputs move by an ulp each (docs/verdicts.md). Private to oracle/.
+// How much a decision changes when each input moves by an ulp (docs/verdicts.md). Private to oracle/.
 //
-// The inputs: the components of x, each by max(ulp(x_i), ulp(size)), the size that of the primitive vectors,
-// and of what lattices that repeat in fewer directions hold; those of v, each by
-// ulp(v_i), a zero not at all; the radius of each atom by an ulp, an ellipsoid by a factor 1 +- 2^(1-p), where
-// the engine's numbers have p bits.
-// Everything is in the coordinates of one atom's View, in which its obstacles are balls: a change dx of x is
-// B dx there, B = to_ball. With T = s / v^2 the time at which the line is nearest to the centre c, and t the
-// time of entry:
+// The inputs are the components of x, each with an ulp of max(ulp(x_i), ulp(size)); those of v, each with
+// ulp(v_i), where a zero does not move; and the radius of each atom with its ulp, an ellipsoid with a factor
+// 1 +- 2^(1-p), where the engine's numbers have p bits. `size` is that of the primitive vectors, and of the
+// atoms of lattices that repeat in fewer directions.
+//
+// Everything is in the coordinates of one atom's View, in which its obstacles are balls. A change dx of x is
+// B dx there, with B = to_ball. With T = s / v^2 the time at which the line is nearest to the centre c, and t
+// the time of entry:
 //
 //   distance |x - c|          d = m.B dx,                    m the unit vector from c to x
 //   distance of the line      d = n.B (dx + T dv),           n the unit vector from c to the nearest point
-//   time of entry             d = (a.(dx + t dv) - r dr / sqrt(D)),   a = B^T (t v - c) / sqrt(D), D = rho^2
-//   - |h|^2
+//   time of entry             d = (a.(dx + t dv) - r dr / sqrt(D)),
+//                             a = B^T (t v - c) / sqrt(D),   D = rho^2 - |h|^2
 //
-// and the largest change is the sum of the absolute values, each times its input's ulp.
+// The largest change is the sum of the absolute values, each times the ulp of its input.
 #pragma once
 
 #include <lorentz/claim.hpp>
@@ -23,7 +24,7 @@
 
 namespace lorentz::oracle {
 
-constexpr double kHuge = 1e300;  ///< reported for what is more
+constexpr double kHuge = 1e300;  ///< reported for all larger values
 
 /// A centre seen from x, in the coordinates of its atom's view.
 template <std::size_t D>
@@ -38,9 +39,9 @@ struct Centre {
         h2(velocity.v2 * c2 - s * s) {}
 };
 
-/// Hands to `look` the centres with |h|^2 < reach2 and low <= s <= high, of long rows those that
-/// visit_extremes chooses. Ends when `spend(steps)` returns true, which is asked before each stretch (1 step)
-/// and after each row (0). Returns whether it ended early.
+/// Passes to `look` the centres with |h|^2 < reach2 and low <= s <= high; in long rows, those that
+/// visit_extremes chooses. Ends when `spend(steps)` returns true, which is called before each stretch (1
+/// step) and after each row (0 steps). Returns whether it ended early.
 template <std::size_t D, class Look, class Spend>
 bool visit_centres(const View<D>& view, const Z& reach2, const Z& low, const Z& high, const Look& look,
                    const Spend& spend) {
@@ -54,7 +55,7 @@ bool visit_centres(const View<D>& view, const Z& reach2, const Z& low, const Z& 
       low, high, [&](const RowStretch<D>& stretch) { return spend(1) || stretches.visit(stretch, visit); });
 }
 
-/// What an ulp of each input is, in the units of an exact query.
+/// The size of an ulp of each input, in the units of an exact query.
 template <std::size_t D>
 struct InputUlps {
   std::array<Real, D> x, v;
@@ -72,7 +73,7 @@ struct PerturbedArrival {
   Real by_radius;
 };
 
-/// One atom's obstacles and the uncertainty of everything about them.
+/// One atom's obstacles, and the uncertainty of all their quantities.
 template <std::size_t D>
 class Uncertain {
  public:
@@ -89,26 +90,26 @@ class Uncertain {
   Real margin_of_containing(const Centre<D>& centre) const;
   /// |distance of the line - r| in ulps.
   Real margin_of_meeting(const Centre<D>& centre) const;
-  /// |s| in ulps: is the centre ahead?
+  /// |s| in ulps, for whether the centre is ahead.
   Real margin_of_ahead(const Centre<D>& centre) const;
-  /// Of an obstacle that is met. One that is missed counts as entered where the line is nearest to it
-  /// (derivatives: infinite, so none).
+  /// For an obstacle that is met. time_of accepts missed obstacles: they count as entered where the line is
+  /// nearest to them. (Their derivatives would be infinite, so `arrival` throws for them.)
   PerturbedArrival<D> arrival(const Centre<D>& centre) const;
   Real time_of(const Centre<D>& centre) const;
 
-  /// The largest change of the place of x along a direction, and of r.
+  /// The largest change of the position of x along a direction, plus that of r.
   Real change_along(const ZVec<D>& direction) const;
 
-  /// A bound of the change of |distance of the line - r| and of ||x - c| - r| for all centres with |T| <=
-  /// latest.
+  /// A bound of the change of |distance of the line - r| and of ||x - c| - r| for all centres with
+  /// |T| <= latest.
   Real largest_change(const Real& latest) const;
-  /// The same of the distance of the line alone.
+  /// The same for the distance of the line alone.
   Real largest_change_across(const Real& latest) const;
 
  private:
   /// Sum of |(B^T a)_i| ulp_i.
   Real weighted(const ZVec<D>& a, const std::array<Real, D>& ulp) const;
-  /// Largest length of B y over the corners |y_i| = ulp_i, or of its part across the flight.
+  /// The largest length of B y over the corners |y_i| = ulp_i, or of its part across the flight.
   Real longest_corner(const std::array<Real, D>& ulp, bool across) const;
   std::array<Real, D> ulps_at(const Real& time) const;
 
@@ -120,7 +121,7 @@ class Uncertain {
   Real radius_ulp_;
 };
 
-/// |t2 - t1| in ulps, of two entries; zero of a tie.
+/// |t2 - t1| of two entries, in ulps; zero for a tie.
 template <std::size_t D>
 Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const Centre<D>& centre1,
                      const Uncertain<D>& atom2, const Centre<D>& centre2);

@@ -1,5 +1,4 @@
-// One query with everything that is uncertain about it: what margins and judgements start from. Private to
-// oracle/.
+// One query with all of its uncertainty, the starting point of margins and judgements. Private to oracle/.
 #pragma once
 
 #include <deque>
@@ -60,7 +59,7 @@ class PerturbedQuery {
   }
 
  private:
-  static constexpr long kFiner = 64;  // lengths far below an ulp are integers, too
+  static constexpr long kFiner = 64;  // so that lengths far below an ulp are integers, too
 
   const ExactScene<D>& exact_scene_;
   ExactQuery<D> exact_;
@@ -77,7 +76,7 @@ Real change_of_time(const PerturbedQuery<D>& perturbed, const ObstacleId& id) {
   return times_power_of_two(change, query.length_exponent - query.velocity_exponent);
 }
 
-/// The time at which an obstacle is entered, in the query's own units; beyond binary64, too.
+/// The time at which an obstacle is entered, in the query's own units; it may be beyond binary64.
 template <std::size_t D>
 Real time_in_own_units(const PerturbedQuery<D>& perturbed, const ObstacleId& id) {
   const ExactQuery<D>& query = perturbed.query();
@@ -85,7 +84,7 @@ Real time_in_own_units(const PerturbedQuery<D>& perturbed, const ObstacleId& id)
                             query.length_exponent - query.velocity_exponent);
 }
 
-/// A scene whose queries are looked at closely.
+/// A scene for queries with uncertainty.
 class PerturbedScene {
  public:
   PerturbedScene(const Scene& scene, NumberFormat precision)
@@ -96,7 +95,8 @@ class PerturbedScene {
   const Scene& scene() const { return scene_; }
   NumberFormat precision() const { return precision_; }
 
-  /// What `work` makes of the query's PerturbedQuery<2> or PerturbedQuery<3>. Throws InputError for a query with a flaw.
+  /// Calls `work` with the query's PerturbedQuery<2> or PerturbedQuery<3>, and returns its result. Throws
+  /// InputError if the query is invalid.
   template <class Work>
   auto with(const Query& query, const Work& work) const {
     checked(query, scene_);

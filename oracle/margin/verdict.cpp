@@ -11,8 +11,9 @@ struct Judge::Impl {
   PerturbedScene scene;
   std::optional<double> time_tolerance;
 
-  // The right obstacle. Is the time off by more than k times what an ulp in each input can make of it, and by
-  // more than k of its own ulps? Or, if there is a tolerance of times, by more than that?
+  // Judges the time for the right obstacle. The time is wrong if it is off by more than k times the change
+  // that an ulp in each input can make, and by more than k of its own ulps. If there is a tolerance of times,
+  // it is wrong if it is off by more than that.
   Judgement judge_time(const Query& query, const Answer& exact, const Answer& given, double ulps) const {
     Judgement judgement{Verdict::agree};
     if (!exact.time || !given.time || *given.time == *exact.time ||
@@ -32,7 +33,7 @@ struct Judge::Impl {
     return judgement;
   }
 
-  // In ulps.
+  // The error of the time, in ulps.
   double off(const Answer& exact, const Answer& given) const {
     return std::fabs(*given.time - *exact.time) / ulp(*exact.time, scene.precision());
   }
@@ -42,8 +43,9 @@ struct Judge::Impl {
     return abs(Real(given) - Real(exact)) <= Real(tolerance) * abs(Real(exact));
   }
 
-  // How far it is off, in what an ulp in each input makes of the time (at least an ulp of it). The exact time may
-  // lie beyond the precision's range; one that is said to be infinite is the first power of two there.
+  // The error of the time, divided by the change that an ulp in each input makes (at least an ulp of the
+  // time). The exact time may be beyond the precision's range; an infinite time counts as the first power of
+  // two there.
   double in_conditions(const Query& query, const Answer& exact, double given) const {
     if (std::isnan(given)) return kInfinity;
     const Real told =
@@ -94,7 +96,7 @@ Judgement Judge::judge(const Query& query, const Answer& exact, const Answer& gi
       used_tolerance = bound.used_tolerance();
       return departure;
     });
-  // Not a tie either, where nothing is forgiven.
+  // With a tolerance of 0 nothing is forgiven, not even a tie.
   const bool forgiven = (ulps > 0 || used_tolerance) && needed.ulps <= ulps;
   return {forgiven ? Verdict::ill_posed : Verdict::wrong, {}, needed.ulps, false, false, needed.obstacle};
 }

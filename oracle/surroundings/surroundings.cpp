@@ -1,5 +1,5 @@
-// Places on a flight's line as integers, finer by far than the numbers of the scene: what stands around them
-// is enumerated exactly.
+// Places on a flight's line are integers in a unit far smaller than that of the scene's numbers. The
+// obstacles around them are enumerated exactly.
 #include <lorentz/surroundings.hpp>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace lorentz::oracle {
 namespace {
 
-constexpr long kFiner = 64;  // what is rounded to an integer is so many bits below the scene's numbers
+constexpr long kFiner = 64;  // roundings to integers are this many bits below the scene's numbers
 constexpr double kHuge = 1e300;
 
 double rounded(const Real& a) {
@@ -50,13 +50,13 @@ class SightLine {
   long exponent() const { return query_.length_exponent; }
   Real in_own_units(const Real& length) const { return times_power_of_two(length, exponent()); }
 
-  // In the units of the exact query, in which x + t v is a place, too.
+  // In the units of the exact query, in which x + t v is also a place.
   Real time_of(const PlaceOnLine& place) const {
     const Real beyond = times_power_of_two(Real(place.beyond), -exponent());
     return mark_of(place) + beyond / sqrt(real(query_.velocity.v2));
   }
 
-  // Without what is beyond it.
+  // The time without the distance beyond it.
   Real mark_of(const PlaceOnLine& place) const {
     if (!place.obstacle)
       return times_power_of_two(Real(place.time), query_.velocity_exponent - query_.length_exponent);
@@ -83,7 +83,8 @@ class SightLine {
     return result;
   }
 
-  // The lattice as it stands, whatever the shape of the obstacles: a ball around the place is one in space.
+  // Uses the lattice in space, whatever the shape of the obstacles, because a ball around the place is a ball
+  // in space.
   void visit(int l, int a, const ZVec<D>& middle, const Z& radius2, std::size_t most,
              Neighbourhood& found) const {
     Basis<D> basis = scene_.lattices[l].reduced;
@@ -91,7 +92,7 @@ class SightLine {
       for (Z& component : b.p) component = shifted_left(component, scene_.exponent - exponent());
     LatticePoint<D> offset;
     offset.p = centre_of<D>(scene_, l, a, offset.n, middle, exponent());
-    // What completes the lattice is made so long that no copy is in the ball.
+    // The completing vectors are made so long that no copy is in the ball.
     const std::size_t rank = scene_.lattices[l].rank;
     const Z far = ceil_sqrt(radius2) + ceil_sqrt(dot(offset.p, offset.p)) + 1;
     for (std::size_t i = rank; i < D; ++i)

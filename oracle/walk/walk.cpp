@@ -1,11 +1,13 @@
 // How it walks. In coordinates y of one atom's lattice (n counts from the atom) the plane is cut into unit
 // cells around the integer points. The ray passes from cell to cell. A point of the ray on an obstacle's
-// surface has |n_i - y_i| <= r |row i of M^-1| =: R_i for that obstacle, and lies within 1/2 of its cell, so
-// an obstacle that is entered in a cell has its n within K_i = floor(R_i + 1/2) of the cell's: all of these
-// are tested, each exactly. The walk ends in the cell that the ray leaves after the earliest entry found.
+// surface has |n_i - y_i| <= r |row i of M^-1| =: R_i for that obstacle, and lies within 1/2 of its cell's n.
+// So an obstacle that is entered in a cell has its n within K_i = floor(R_i + 1/2) of the cell's n. All of
+// these obstacles are tested, each exactly. The walk ends in the cell that the ray leaves after the earliest
+// entry found.
 //
-// A lattice of fewer vectors gets others for the missing ones, perpendicular to its own and so long that all
-// its obstacles, and x, are within half of one: the ray that leaves a cell across such a one meets no more.
+// A lattice of fewer vectors is completed by vectors perpendicular to its own, so long that x and all its
+// obstacles are within half of each. So a ray that leaves a cell across such a vector meets no more
+// obstacles.
 #include <lorentz/walk.hpp>
 
 #include <CGAL/MP_Float.h>
@@ -28,7 +30,7 @@ namespace {
 
 using Real = CGAL::MP_Float;  // exact sums and products of binary64 values
 using Ratio = CGAL::Quotient<Real>;
-using Root = CGAL::Root_of_traits<Real>::Root_of_2;  // a + b sqrt(c), exactly compared
+using Root = CGAL::Root_of_traits<Real>::Root_of_2;  // a + b sqrt(c), compared exactly
 using RealVec = std::array<Real, 3>;
 using Index = std::array<std::int64_t, 3>;
 
@@ -87,7 +89,7 @@ class AtomWalk {
     }
   }
 
-  // False if the start or an obstacle is too far out to walk.
+  // False if the start is too far out, or an obstacle reaches too far, for a walk.
   bool can_walk() const {
     for (int i = 0; i < dimension_; ++i)
       if (reach_[i] > kMaxReach || std::fabs(CGAL::to_double(Ratio(Y_[i], det_))) > kMaxStart) return false;
@@ -104,7 +106,7 @@ class AtomWalk {
     return found;
   }
 
-  // Obstacles entered from `limit` on, if there is one, may be ignored.
+  // Obstacles that are entered at `limit` or later, if it is given, may be ignored.
   WalkEnd walk(std::int64_t max_cells, const std::optional<Ratio>& limit, std::optional<Hit>& best) const {
     Index n = home_;
     around(n, -1, 0, [&](const Index& m) { test(m, best); });
@@ -119,8 +121,8 @@ class AtomWalk {
       if (axis >= rank_) return WalkEnd::done;
       n[axis] += sign;
       around(n, axis, sign, [&](const Index& m) { test(m, best); });
-      // Back at the same place relative to the lattice, twice (`from` may have hidden a hit once): nothing
-      // new comes.
+      // The ray has come back to the same place relative to the lattice for the second time, so it meets
+      // nothing new. (The first time is not enough: `from` may have hidden a hit once.)
       if (first_axis < 0) {
         first_axis = axis;
         first_crossing = n;
@@ -133,9 +135,9 @@ class AtomWalk {
   }
 
  private:
-  // Stretches space so that the ellipsoids { A y : |y| < 1 } become balls: with det(A) A^-1, whose rows are
-  // the products of two columns of A. Their radius is then det(A). What is in the same places on line and
-  // lattice stays so: n and t are the same.
+  // Maps space so that the ellipsoids { A y : |y| < 1 } become balls, by det(A) A^-1, whose rows are the
+  // cross products of two columns of A. The radius of the balls is det(A). Points that coincide on the line
+  // and the lattice still do, so n and t are the same.
   Real make_balls(const std::vector<Vec>& semiaxes) {
     RealVec a[3] = {exact(semiaxes[0]), exact(semiaxes[1]), {Real(0), Real(0), Real(1)}};
     if (dimension_ == 3) a[2] = exact(semiaxes[2]);
@@ -159,7 +161,7 @@ class AtomWalk {
   // An integer n with |n - y / det| <= 1/2.
   std::int64_t nearest(const Real& y) const {
     const double guess = CGAL::to_double(Ratio(y, det_));
-    if (!(std::fabs(guess) <= kMaxStart)) return 0;  // can_walk says no
+    if (!(std::fabs(guess) <= kMaxStart)) return 0;  // can_walk returns false
     auto n = static_cast<std::int64_t>(std::floor(guess + 0.5));
     const Real two(2);
     while (two * (y - Real(static_cast<double>(n)) * det_) > det_) ++n;
@@ -174,8 +176,8 @@ class AtomWalk {
     return c;
   }
 
-  // Visits, in lexicographic order, the indices within reach of cell n; with an axis, only those that came
-  // within reach by the step onto n.
+  // Visits the indices within reach of cell n in lexicographic order. If an axis is given, visits only those
+  // that came within reach by the step onto n.
   template <class Visit>
   void around(const Index& n, int axis, int sign, Visit visit) const {
     Index low{}, high{};
@@ -241,7 +243,7 @@ class AtomWalk {
     return true;
   }
 
-  // The missing vectors.
+  // Finds the missing vectors.
   void complete(const Real& r) {
     if (rank_ == dimension_) return;
     const RealVec z{Real(0), Real(0), Real(1)};
@@ -256,7 +258,8 @@ class AtomWalk {
         for (Real& component : u_[i]) component = component * Real(2);
   }
 
-  // |u| > 4 (|s.u| / |u| + r), s from x to the atom's place; with |s.u| / |u| < |s| and squares for roots.
+  // |u| > 4 (|s.u| / |u| + r), where s leads from x to the atom's position; tested by squares, with
+  // |s.u| / |u| <= |s|.
   bool is_long(const RealVec& u, const Real& r) const {
     return inner(u, u) > Real(64) * (inner(start_, start_) + r * r);
   }
@@ -277,7 +280,7 @@ double rounded(const Root& time) {
     return CGAL::compare(time, Root(Real(value(bits)))) != CGAL::SMALLER;
   };
   const std::uint64_t infinity = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
-  std::uint64_t low = 0, high = infinity;  // low <= time < high, infinity being 2^1024
+  std::uint64_t low = 0, high = infinity;  // low <= time < high, where infinity stands for 2^1024
   const double guess = CGAL::to_double(time);
   if (guess > 0 && guess < 1e300) {
     const std::uint64_t bits = std::bit_cast<std::uint64_t>(guess);
@@ -288,7 +291,7 @@ double rounded(const Root& time) {
     const std::uint64_t middle = low + (high - low) / 2;
     (at_least(middle) ? low : high) = middle;
   }
-  // 2^1024 is twice 2^1023, which a binary64 still holds.
+  // 2^1024 is twice 2^1023, which binary64 can represent.
   const Real above = high == infinity ? Real(2) * Real(0x1p1023) : Real(value(high));
   const auto order = CGAL::compare(Root(Real(2)) * time, Root(Real(value(low)) + above));
   const bool up = order == CGAL::LARGER || (order == CGAL::EQUAL && low % 2 == 1);
@@ -305,7 +308,8 @@ std::array<Vec, 3> columns_of(const Atom& atom) {
   return columns;
 }
 
-// Exactly: are the first `count` vectors linearly dependent? (In the plane the third components are zero.)
+// Decides exactly whether the first `count` vectors are linearly dependent. (In the plane the third
+// components are zero.)
 bool are_dependent(const std::array<Vec, 3>& vectors, int count) {
   const auto nothing = [](const RealVec& a) { return inner(a, a) == Real(0); };
   if (count == 0) return false;

@@ -1,4 +1,4 @@
-// The table of all engines: their names, which scenes are beyond them, how they are made.
+// The table of all engines: their names, the scenes that they do not support, and how they are made.
 #include <lorentz/engine.hpp>
 #include <lorentz/reduction.hpp>
 #include "src/engines/base/unsupported.hpp"
@@ -9,7 +9,7 @@
 namespace lorentz {
 namespace {
 
-// One ball in the middle of each unit cell, and nothing of any other in it.
+// One ball in the middle of each unit cell, and no other obstacle that reaches into the cell.
 bool is_one_ball_a_cell(const Scene& scene) {
   return is_unit_scene(scene) && scene.lattices[0].atoms[0].radius <= 0.5;
 }
@@ -30,7 +30,8 @@ std::unique_ptr<Engine> make(const Scene& scene) {
 
 constexpr const char* kCrystals = "does crystals only: lattices that repeat in all directions";
 
-// All engines: name, why a scene is beyond it (or nothing), and how it is made.
+// An engine: its name, whether it supports crystals only, why it does not support a scene (or nothing), and
+// how it is made.
 struct EngineEntry {
   const char* name;
   bool crystals_only;

@@ -1,5 +1,5 @@
-// Queries and answers in columns: what the formats besides JSON read and write. Private to the formats, and
-// to those in this program who fly columns.
+// Queries and answers in columns, which the formats other than JSON read and write. Private to the formats,
+// and to the parts of the program that fly columns.
 #pragma once
 
 #include <array>
@@ -17,9 +17,9 @@
 
 namespace lorentz {
 
-/// Queries of one scene, a column each component. In 2D the third columns of vectors are empty.
+/// Queries of one scene, with one column per component. In 2D the third columns of vectors are empty.
 struct QueryRows {
-  /// A row that means no query, and why; what stands in its columns means nothing.
+  /// A row that is not a valid query, and why. Its values in the columns have no meaning.
   struct Flaw {
     std::size_t row;
     std::string message;
@@ -29,24 +29,25 @@ struct QueryRows {
   std::array<std::vector<double>, 3> x, v;
   std::vector<double> max_time;  ///< empty: no query has a limit
 
-  /// The obstacle that a query leaves; a lattice below 0: none. Empty: no query leaves one.
+  /// The obstacle that a query leaves. A lattice below 0 means that it leaves none. If the columns are empty,
+  /// no query leaves one.
   std::vector<std::int32_t> from_lattice, from_atom;
   std::array<std::vector<std::int64_t>, 3> from_cell;
-  /// Those whose cells 64 bits do not hold, by row; the columns say that these rows leave none.
+  /// Those whose cells do not fit 64 bits, by row. In the columns these rows leave no obstacle.
   std::vector<std::pair<std::size_t, ObstacleId>> large_from;
 
-  std::vector<std::string> id;  ///< as text; empty: there are none
+  std::vector<std::string> id;  ///< as text; empty: there are no ids
 
   std::vector<Flaw> flaws;         ///< in the order of the rows
-  std::uint64_t first = 0;         ///< which row of the file the first is, from 0
-  std::vector<std::size_t> lines;  ///< in which line each stands, if the file has lines
+  std::uint64_t first = 0;         ///< the number of the first row in the file, from 0
+  std::vector<std::size_t> lines;  ///< the line of each row, if the file has lines
 
-  /// Removes all rows; what is allocated stays.
+  /// Removes all rows, but keeps allocated memory.
   void clear();
   Query query(std::size_t i, int dimension) const;
 };
 
-/// The cells of answers: a column each coordinate, one behind the other, as an array in the order of Fortran.
+/// The cells of answers: one column per coordinate, one after the other, like an array in Fortran order.
 class CellColumns {
  public:
   void resize(std::size_t rows, int dimension) {
@@ -55,14 +56,15 @@ class CellColumns {
   }
   std::int64_t* operator[](int k) { return all_.data() + static_cast<std::size_t>(k) * rows_; }
   const std::int64_t* operator[](int k) const { return all_.data() + static_cast<std::size_t>(k) * rows_; }
-  std::size_t rows() const { return rows_; }  ///< from column to column
+  std::size_t rows() const { return rows_; }  ///< the distance from column to column
 
  private:
   std::size_t rows_ = 0;
   std::vector<std::int64_t> all_;
 };
 
-/// Answers in columns, as long as the queries'. What an outcome does not have is 0, the time NaN.
+/// Answers in columns that are as long as those of the queries. Values that an outcome does not have are 0; a
+/// time that it does not have is NaN.
 struct AnswerRows {
   /// Why a row is an `error`.
   struct Reason {
@@ -70,7 +72,7 @@ struct AnswerRows {
     std::string message;
     bool unsupported;  ///< no fault of the query
   };
-  /// What `stage` says besides the numbers of lorentz::Stage.
+  /// Values of `stage` besides those of lorentz::Stage.
   static constexpr std::uint8_t kExactStage = 3, kNoStage = 255;
 
   std::size_t count = 0;
@@ -82,16 +84,16 @@ struct AnswerRows {
   CellColumns cell;  ///< as many columns as dimensions
   std::vector<double> time;
 
-  std::vector<std::pair<std::size_t, Cell>> large_cells;  ///< those that 64 bits do not hold, by row
+  std::vector<std::pair<std::size_t, Cell>> large_cells;  ///< those that do not fit 64 bits, by row
   std::vector<Reason> reasons;
 
-  /// Room for so many rows, whose columns say nothing yet; without large cells and reasons.
+  /// Makes room for `rows` rows, whose columns have no meaning yet. Removes large cells and reasons.
   void resize(std::size_t rows, int dimensions);
-  /// Makes a row an outcome without an obstacle or a time.
+  /// Sets a row to an outcome without an obstacle or a time.
   void set_plain(std::size_t i, Outcome plain);
   void set_error(std::size_t i, std::string message, bool unsupported);
   void set(std::size_t i, const Answer& answer, std::uint8_t of_stage, bool rounded);
-  /// Answers with cells that 64 bits do not hold become errors: for a format that has no more.
+  /// Turns answers whose cells do not fit 64 bits into errors, for a format that has only 64 bits.
   void refuse_large_cells();
 };
 
@@ -100,14 +102,15 @@ class ColumnReader {
  public:
   virtual ~ColumnReader() = default;
 
-  /// Up to about `most` more rows behind those that are there; false if there are none. Throws InputError,
-  /// also behind the last good row of a broken file, and FileError.
+  /// Appends up to about `most` rows; false if there are no more. Throws FileError, and InputError, also
+  /// after the last good row of a broken file.
   virtual bool next(QueryRows& rows, std::size_t most) = 0;
 
-  /// Called when the input pauses: the place to answer the rows that are there, and clear them.
+  /// Sets a function that is called when the input pauses. It can answer the rows that have been read, and
+  /// clear them.
   void before_waiting(std::function<void()> callback) { before_waiting_ = std::move(callback); }
 
-  /// What the input is called in messages.
+  /// The input's name in messages.
   virtual const std::string& name() const = 0;
 
  protected:
@@ -125,7 +128,7 @@ class AnswerReader {
   virtual const std::string& name() const = 0;
 };
 
-/// Told of each column that queries do not have, and where it stands. What it throws ends the reading.
+/// Called with each column that queries do not have, and with its place. If it throws, reading ends.
 using OnUnknownColumn = std::function<void(const std::string& place, const std::string& column)>;
 
 }  // namespace lorentz

@@ -1,5 +1,5 @@
-// Queries and answers as CSV: a line of names, then a line a query (docs/formats.md). Private to the formats
-// and the program.
+// Queries and answers as CSV: a line of names, then one line per query (docs/formats.md). Private to the
+// formats and the program.
 #pragma once
 
 #include "src/exchange/csv_table.hpp"
@@ -11,7 +11,7 @@ namespace lorentz {
 class CsvQueryReader final : public ColumnReader {
  public:
   /// Opens the file, or standard input for "-", and reads its first line. Throws FileError, or InputError if
-  /// the columns are not those of queries in so many dimensions.
+  /// the columns are not those of queries with this number of components.
   CsvQueryReader(const std::string& path, const Components& components,
                  const OnUnknownColumn& on_unknown_column);
 
@@ -21,7 +21,7 @@ class CsvQueryReader final : public ColumnReader {
 
  private:
   static constexpr std::size_t kNone = CsvTable::kNone;
-  /// What a line says, before it is known to be good.
+  /// The content of a line, before it is checked.
   struct Row {
     std::array<double, 3> x{}, v{};
     double max_time;
@@ -45,7 +45,7 @@ class CsvQueryReader final : public ColumnReader {
 /// Reads answers: the columns that append_csv_answers writes, in any order.
 class CsvAnswerReader final : public AnswerReader {
  public:
-  /// As CsvQueryReader; unknown columns are ignored.
+  /// Like CsvQueryReader; unknown columns are ignored.
   CsvAnswerReader(const std::string& path, const Components& components);
 
   bool next(Answer& answer, Id& id) override;
@@ -66,14 +66,14 @@ class CsvAnswerReader final : public AnswerReader {
 /// All columns that queries can have.
 std::vector<std::string> csv_query_columns(int dimension);
 
-/// The line of names of queries, without ids and limits; and queries, a line each.
+/// Append the line of names for queries without ids and limits; and queries, one line each.
 void append_csv_query_names(std::string& out, int dimension, bool with_from);
 void append_csv_queries(std::string& out, const QueryRows& queries, const Components& components);
 
-/// The line of names of answers.
+/// Appends the line of names for answers.
 void append_csv_names(std::string& out, int dimension, bool with_ids);
 
-/// Answers, a line each; the ids are those of the queries.
+/// Appends answers, one line each; the ids are those of the queries.
 void append_csv_answers(std::string& out, const QueryRows& queries, const AnswerRows& answers,
                         const Components& components, bool with_ids);
 

@@ -12,7 +12,7 @@ void append_int(std::string& out, std::int64_t n) {
   out.append(text, std::to_chars(text, text + sizeof text, n).ptr);
 }
 
-// In quotes if a reader would take it apart otherwise.
+// Puts the text in quotes if a reader would otherwise split or trim it.
 void append_text(std::string& out, const std::string& text) {
   const bool plain = text.find_first_of(",\"\r\n") == text.npos && !text.starts_with(' ') &&
                      !text.ends_with(' ') && !text.starts_with('\t') && !text.ends_with('\t');

@@ -8,24 +8,24 @@
 
 namespace lorentz {
 
-/// Reads queries: an array of numbers, a row each, or of fields x, v, ..
+/// Reads queries: an array of numbers with one row per query, or an array of fields x, v, ..
 class NpyQueryReader final : public ColumnReader {
  public:
-  /// Opens the file, or standard input for "-", and reads its header. Throws FileError, or InputError if the
-  /// array is not one of queries in so many dimensions.
+  /// Opens the file, or standard input for "-", and reads its header. Throws FileError, or InputError if it
+  /// is not an array of queries in this number of dimensions.
   NpyQueryReader(const std::string& path, int dimension, const OnUnknownColumn& on_unknown_column);
 
   bool next(QueryRows& rows, std::size_t most) override;
   const std::string& name() const override { return file_.name(); }
 
-  /// How many rows the header promises.
+  /// The number of rows that the header promises.
   std::uint64_t promised() const { return promised_; }
 
   /// True if bytes follow the last row. Waits for them, or for the end.
   bool has_more();
 
  private:
-  /// Numbers of the rows at hand, every `stride` bytes.
+  /// One number of each buffered row, `stride` bytes apart.
   struct Numbers {
     const char* first;
     std::size_t stride;
@@ -51,21 +51,21 @@ class NpyQueryReader final : public ColumnReader {
   const int dimension_;
   NpyField x_, v_;
   std::optional<NpyField> max_time_, from_lattice_, from_atom_, from_cell_;
-  bool by_columns_ = false;  // in the order of Fortran
+  bool by_columns_ = false;  // in Fortran order
   std::size_t row_bytes_ = 0;
   std::uint64_t promised_ = 0, done_ = 0;
 
   std::vector<char> buffer_;  // rows; or columns, `held_` numbers each
   std::size_t begin_ = 0, end_ = 0, held_ = 0;
-  std::optional<std::uint64_t> place_;  // of the first number, of columns in a file
-  std::vector<char> all_;               // of columns in a pipe
+  std::optional<std::uint64_t> place_;  // of the first number, for columns in a file
+  std::vector<char> all_;               // for columns in a pipe
 };
 
-/// Reads answers: an array of fields outcome, lattice, .., as append_npy_answers writes them, in any order and of
-/// any types that hold them; other fields are ignored.
+/// Reads answers: an array of fields outcome, lattice, .., as append_npy_answers writes them, in any order
+/// and of any types that hold them. Other fields are ignored.
 class NpyAnswerReader final : public AnswerReader {
  public:
-  /// As NpyQueryReader.
+  /// Like NpyQueryReader.
   NpyAnswerReader(const std::string& path, int dimension);
 
   bool next(Answer& answer, Id& id) override;
@@ -87,17 +87,17 @@ class NpyAnswerReader final : public AnswerReader {
 /// All fields that queries can have.
 std::vector<std::string> npy_query_fields();
 
-/// The header of an array of so many queries without limits: of numbers, or of fields if they leave
-/// obstacles.
+/// The header of an array of `count` queries without limits: an array of numbers, or of fields if the queries
+/// leave obstacles.
 std::string npy_query_header(std::uint64_t count, int dimension, bool with_from);
 
-/// Their elements.
+/// Appends the queries as elements of this array.
 void append_npy_queries(std::string& out, const QueryRows& queries, int dimension);
 
-/// The header of an array of so many answers.
+/// The header of an array of `count` answers.
 std::string npy_answer_header(std::uint64_t count, int dimension);
 
-/// Their elements. There must be no large cells.
+/// Appends the answers as elements of this array. There must be no large cells.
 void append_npy_answers(std::string& out, const AnswerRows& answers);
 
 }  // namespace lorentz

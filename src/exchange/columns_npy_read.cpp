@@ -10,7 +10,7 @@ namespace lorentz {
 namespace {
 
 constexpr std::size_t kLargestPart = std::size_t{1} << 26;  // bytes that are held
-// Of what a pipe gives, which is held whole; each next part doubles it.
+// The first part read from a pipe, which is held whole; each next part doubles what is held.
 constexpr std::size_t kFirstPart = std::size_t{1} << 16;
 
 void append_reals(std::vector<double>& column, const char* first, std::size_t stride, std::size_t count,
@@ -71,7 +71,7 @@ const NpyField* NpyQueryReader::field(const std::string& name, bool needed) cons
   return nullptr;
 }
 
-// Is it of the type and shape that it must have?
+// Refuses a field that does not have the type and shape that it must have.
 void NpyQueryReader::check_number(const NpyField& field, bool is_vector, bool is_real) const {
   const bool integer = (field.kind == 'i' || field.kind == 'u') &&
                        (field.bytes == 1 || field.bytes == 2 || field.bytes == 4 || field.bytes == 8);
@@ -99,7 +99,7 @@ void NpyQueryReader::understand_fields(const OnUnknownColumn& on_unknown_column)
       on_unknown_column(file_.name(), field.name);
 }
 
-// Rows, as they come: no more than there are at once, but one at least.
+// Reads rows as they arrive: no more than are available at once, but at least one.
 std::size_t NpyQueryReader::fill_rows(std::size_t most) {
   if (begin_ > 0) std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_, begin_ = 0;
@@ -119,7 +119,7 @@ std::size_t NpyQueryReader::fill_rows(std::size_t most) {
   return rows;
 }
 
-// The next numbers of a column; returns how many.
+// Reads the next numbers of a column, and returns how many.
 std::size_t NpyQueryReader::read_column(std::size_t column, std::size_t most, char* bytes) {
   const std::uint64_t from = 8 * (column * promised_ + done_);
   if (place_) return file_.read_all_at(*place_ + from, bytes, 8 * most) / 8;
@@ -128,7 +128,7 @@ std::size_t NpyQueryReader::read_column(std::size_t column, std::size_t most, ch
   return there / 8;
 }
 
-// A part of each column. From a pipe that takes all of it, for the last column comes last.
+// Reads a part of each column. A pipe is read to its end for that, because the last column comes last.
 std::size_t NpyQueryReader::fill_columns(std::size_t most) {
   if (!place_ && all_.empty()) {
     const std::uint64_t size = row_bytes_ * promised_;

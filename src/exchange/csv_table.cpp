@@ -28,7 +28,7 @@ std::string shown(std::string_view text) {
   return json_quoted(shortened(text, 60));
 }
 
-// Why a file's first line has no names of columns, if it is of a format that one may have meant.
+// Why a file's first line has no column names, if the file is in another format that the user may have meant.
 std::string other_format(std::string_view text) {
   if (text.starts_with("\x93NUMPY")) return "this is a .npy file: --format npy reads it";
   if (trimmed(text).starts_with('{')) return "this looks like a stream in JSON: --format ndjson reads it";
@@ -78,7 +78,7 @@ std::size_t CsvTable::need(const std::string& column, const char* why) const {
   return place;
 }
 
-// A field in quotes that begins at `begin`; returns where it ends, at a comma or the end of the line.
+// Reads a field in quotes that begins at `begin`. Returns where it ends, at a comma or the end of the line.
 std::size_t CsvTable::split_quoted(std::string_view text, std::size_t begin) {
   std::string& field = unquoted_.emplace_back();
   for (std::size_t i = begin + 1; i < text.size(); ++i) {
@@ -140,7 +140,8 @@ double CsvTable::number(std::size_t column) const {
   return *value;
 }
 
-// Digits; or, as tables write integers that once stood beside empty fields, a number that means one.
+// Accepts digits, or a number with an integer value, because tables write integers that way if they once
+// stood beside empty fields.
 std::int64_t CsvTable::integer(std::size_t column) const {
   const std::string_view text = fields_[column];
   std::int64_t value = 0;

@@ -8,7 +8,7 @@
 
 namespace lorentz {
 
-/// A text as a field: in quotes if it has commas, quotes or line ends.
+/// The text as a field: in quotes if it has commas, quotes or line ends.
 std::string csv_field(const std::string& text);
 
 class CsvTable {
@@ -16,8 +16,8 @@ class CsvTable {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   /// Opens the file, or standard input for "-", reads its first line, and calls understand(*this). Throws
-  /// FileError; and InputError, with the place, for no names, for a known one that comes twice, and for what
-  /// understand() throws.
+  /// FileError. Throws InputError, with the place, if there are no names, if a known name comes twice, or if
+  /// understand() throws it.
   CsvTable(const std::string& path, const std::vector<std::string>& known,
            const std::function<void(CsvTable&)>& understand, const OnUnknownColumn& on_unknown_column);
 
@@ -25,7 +25,8 @@ class CsvTable {
   const LineReader& lines() const { return lines_; }
   const std::vector<std::string>& names() const { return names_; }
 
-  /// Which column that is; kNone, or an InputError that says why it is needed, if it is not there.
+  /// The number of a column. If there is no such column, `take` returns kNone, and `need` throws InputError,
+  /// which says why it is needed.
   std::size_t take(const std::string& column) const;
   std::size_t need(const std::string& column, const char* why) const;
 
@@ -33,12 +34,13 @@ class CsvTable {
   bool next();
   std::size_t line() const { return line_.number; }
 
-  /// Its fields. Throws InputError if they are not as many as the names, or a quote is not closed.
+  /// Splits the line into fields. Throws InputError if there are not as many fields as names, or if a quote
+  /// is not closed.
   void split();
   bool is_whole() const { return fields_.size() == names_.size(); }
   std::string_view field(std::size_t column) const { return fields_[column]; }  ///< without spaces and quotes
 
-  /// What a field means. Throw InputError, with the column.
+  /// The value of a field. These throw InputError, with the column.
   double number(std::size_t column) const;
   std::int64_t integer(std::size_t column) const;
   [[noreturn]] void refuse(std::size_t column, const char* why) const;
@@ -52,7 +54,7 @@ class CsvTable {
   LineReader::Line line_;
   std::vector<std::string> names_;
   std::vector<std::string_view> fields_;
-  std::deque<std::string> unquoted_;  // those that are not, as they are, a part of the line
+  std::deque<std::string> unquoted_;  // fields that differ from their text in the line
 };
 
 }  // namespace lorentz

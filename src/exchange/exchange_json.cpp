@@ -18,7 +18,7 @@ namespace ondemand = simdjson::ondemand;
 
 namespace json {
 
-// What a place holds.
+// Access to the simdjson object that a handle holds.
 struct Inside {
   template <class Inner, class Outer>
   static Inner& of(Outer& outer) {
@@ -87,7 +87,7 @@ class Keys {
   std::array<std::size_t, kFew> hashes_;
   std::array<const char*, kFew> few_;
   std::size_t count_ = 0;
-  std::optional<std::set<std::string_view>> many_;  // of objects with more
+  std::optional<std::set<std::string_view>> many_;  // for objects with more
 };
 
 }  // namespace
@@ -206,7 +206,7 @@ std::string_view token_of(ondemand::value& value) {
   return token.substr(0, token.find_last_not_of(" \t\n\r") + 1);
 }
 
-// The text of a number. On-Demand has not looked at it.
+// The text of a number. It is checked here, because On-Demand has not looked at it.
 std::string_view number_text(ondemand::value& value) {
   const std::string_view token = token_of(value);
   if (is_json_number(token)) return token;
@@ -216,9 +216,9 @@ std::string_view number_text(ondemand::value& value) {
                 " is no JSON value");
 }
 
-// Are a number's digits an integer below 10^19, counted generously? simdjson gathers the digits in 64 bits
-// before it rounds, which is right (by the algorithm of Eisel and Lemire) while they fit. It does not always
-// see that they do not: simdjson 3.0.1 reads "0." and 20 digits or more modulo 2^64.
+// Are a number's digits certainly an integer below 10^19? simdjson gathers the digits in 64 bits before it
+// rounds, which is right (by the algorithm of Eisel and Lemire) while they fit. It does not always notice
+// when they do not fit: simdjson 3.0.1 reads "0." and 20 digits or more modulo 2^64.
 bool fits_64_bits(std::string_view token) {
   if (token.starts_with('-')) token.remove_prefix(1);
   if (token.starts_with("0.")) token.remove_prefix(2);
@@ -262,7 +262,7 @@ void skip(json::Value value, int depth) {
 
 namespace {
 
-// The nearest number of a JSON number; infinite beyond the range of binary64.
+// The binary64 nearest to a JSON number; infinite beyond the range of binary64.
 double nearest_number(ondemand::value& value) {
   double number;
   if (fits_64_bits(value.raw_json_token()) && !value.get_double().get(number)) return number;
@@ -274,7 +274,7 @@ double number_of(ondemand::value& value, const Place& place) {
   const ondemand::json_type type = json::known(value.type());
   if (type == ondemand::json_type::string) return parse_hexadecimal(json::known(value.get_string()), place);
   if (type == ondemand::json_type::null && !token_of(value).starts_with("null"))
-    throw NotJson("no value");  // nan, say
+    throw NotJson("no value");  // for example nan
   if (type != ondemand::json_type::number) throw InputError(std::string(place) + ": needs a number");
   const double number = nearest_number(value);
   return std::isinf(number) ? finite_number(number, place) : number;
@@ -313,7 +313,7 @@ Integer read_integer(json::Value value, const char* key) {
   else if (value.type() == json::Type::string)
     text = value.text();
   constexpr std::size_t kLongest =
-      2500;  // characters: of what is longer, no checker of proofs has to make a number
+      2500;  // characters, so that no checker of proofs has to convert a longer one
   if (text.size() <= kLongest)
     if (auto n = Integer::from_decimal(text)) return *n;
   const double number = is_number ? *nearest_decimal(text) : 0.5;

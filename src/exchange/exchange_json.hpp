@@ -1,5 +1,5 @@
-// JSON values as the exchange formats have them, read once and from front to back by simdjson, which no other
-// file sees. Private to the libraries that read these.
+// JSON values for the exchange formats, read once and from front to back by simdjson, which no other file
+// uses. Private to the libraries that read these formats.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@
 
 namespace lorentz {
 
-/// A text that is no JSON. Not an InputError: behind a bad value a reader goes on, behind what is no JSON it
-/// cannot.
+/// A text that is not JSON. This is not an InputError, because a reader can go on after a bad value, but not
+/// after a text that is not JSON.
 struct NotJson : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -32,14 +32,14 @@ struct KeyTwice : InputError {
 
 namespace json {
 
-/// What simdjson says: no JSON, a value of another type, or a member that is missing.
+/// An error of simdjson: the text is not JSON, a value has another type, or a member is missing.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 enum class Type { array, object, number, string, boolean, null };
 
-/// A value of a simdjson On-Demand document, which must be there: small, and copied like a pointer.
+/// A value of a simdjson On-Demand document, which must still exist. It is small, and copied like a pointer.
 class Handle {
  protected:
   friend struct Inside;
@@ -50,7 +50,7 @@ class Array : public Handle {};
 
 class Object : public Handle {
  public:
-  class Value operator[](const char* key);  ///< wherever it stands; throws Error if it is not there
+  class Value operator[](const char* key);  ///< in any position; throws Error if it is missing
   std::string_view text();                  ///< as it stands in the document
 };
 
@@ -61,14 +61,14 @@ class Value : public Handle {
   bool is_null();
   Array array();
   Object object();
-  std::string_view text();  ///< of a string, unescaped; it is there as long as the document
-  std::string raw();        ///< of any type, as it stands in the document but for spaces in arrays
+  std::string_view text();  ///< of a string, unescaped; valid as long as the document
+  std::string raw();        ///< of any type, as it stands in the document except for spaces in arrays
   std::uint64_t natural();
   std::int64_t integer();
   bool boolean();
 };
 
-/// A text, and what was read of it.
+/// A text, and how far it was read.
 class Document {
  public:
   Document();
@@ -76,16 +76,17 @@ class Document {
   Document& operator=(Document&&) noexcept;
   ~Document();
 
-  /// A text that is copied, or one that is followed by some bytes that may be read: `allocated` in all.
+  /// Opens a text that is copied, or one that is followed by bytes that may be read: `allocated` bytes in
+  /// all.
   void open(std::string_view text);
   void open(std::string_view text, std::size_t allocated);
   Type type();
   Object object();
-  /// An array or an object.
+  /// The document's value, an array or an object.
   Value value();
   /// True if nothing but white space follows the value that was read.
   bool ended();
-  /// The line, from 1, of an opened copy in which the reader stands, if it can tell.
+  /// The line, from 1, that the reader has reached in an opened copy, if it can tell.
   std::optional<std::size_t> line();
 
  private:
@@ -93,7 +94,7 @@ class Document {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Of simdjson, like "3.0.1".
+/// The version of simdjson, like "3.0.1".
 std::string library_version();
 
 using OnMember = void (*)(const void* read, std::string_view key, Value value);
@@ -119,10 +120,10 @@ void each_element(Array array, const Read& read) {
 
 }  // namespace json
 
-/// Throws InputError beyond 64 levels, far more than any format here has. Recursion is bounded by this.
+/// Throws InputError beyond 64 levels, far more than any format here has. This bounds recursion.
 void check_depth(int depth);
 
-/// Passes over a value that is in `depth` objects and arrays. On-Demand checks only what is looked at, so
+/// Passes over a value that lies in `depth` objects and arrays. On-Demand checks only what is looked at, so
 /// everything is looked at.
 void skip(json::Value value, int depth = 1);
 
@@ -142,14 +143,15 @@ NumbersRead read_numbers(json::Value value, const char* place);
 /// An integer, or a decimal string with one, of at most 2500 characters; throws InputError, naming `key`.
 Integer read_integer(json::Value value, const char* key);
 
-/// An answer's members into a fresh answer; `components` becomes the number of its cell's coordinates;
-/// `keys`, if given, gets all keys, and `ulps` the number of that key. Throws InputError. False for a `golden` header.
+/// Reads an answer's members into a fresh answer. `components` becomes the number of coordinates of its cell.
+/// `keys`, if given, gets all keys, and `ulps` the number under that key. Throws InputError. False for a
+/// `golden` header.
 bool read_answer(json::Object object, std::string& id, Answer& answer, std::size_t& components,
                  const OnUnknownKey& on_unknown_key = {}, std::set<std::string>* keys = nullptr,
                  double* ulps = nullptr);
 
-/// A value of a scene, which is in `depth` objects and arrays. A number beyond the range of binary64 is
-/// infinite.
+/// A value of a scene, which lies in `depth` objects and arrays. A number beyond the range of binary64
+/// becomes infinite.
 SceneNode read_node(json::Value value, const std::string& place = "scene", int depth = 1);
 
 }  // namespace lorentz

@@ -79,7 +79,7 @@ FromRead read_from(json::Value value, const OnUnknownKey& on_unknown_key) {
 
 namespace {
 
-// What programs write for a number that is none, and JSON does not have.
+// Finds a word that programs write where a number is missing or infinite, and that JSON does not have.
 std::string_view no_number_in(std::string_view text) {
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -128,7 +128,7 @@ void check_dimension(const char* what, std::size_t count, int dimension) {
                      " components, the scene has dimension " + std::to_string(dimension));
 }
 
-// What golden records, golden itineraries and files of disagreements have beside the query.
+// The keys that golden records, golden itineraries and files of disagreements have beside the query.
 bool is_beside_query(std::string_view key) {
   constexpr std::string_view kKeys[] = {"golden",      "tags",        "expect",    "time_decimal", "margin",
                                         "condition",   "certificate", "itinerary", "times",        "end",

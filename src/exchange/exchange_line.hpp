@@ -9,10 +9,11 @@ namespace lorentz {
 /// A line as JSON.
 class JsonLine {
  public:
-  /// The line's object. What is no object is no line of any stream: throws InputError or simdjson's error.
+  /// The line's object. Throws InputError or simdjson's error if the line is not an object; every line of a
+  /// stream is one.
   json::Object open(const LineReader::Line& line);
 
-  /// Throws NotJson if there is more in the line.
+  /// Throws NotJson if something follows the object in the line.
   void close();
 
  private:
@@ -32,7 +33,7 @@ int read_index(json::Value value, const char* key);
 
 Id read_id(json::Value value);
 
-/// The outcome that name_of() calls so, or nothing.
+/// The outcome with this name (name_of), or nothing.
 std::optional<Outcome> outcome_named(std::string_view name);
 
 struct FromRead {
@@ -44,20 +45,20 @@ struct FromRead {
 /// The obstacle that is left; throws InputError.
 FromRead read_from(json::Value value, const OnUnknownKey& on_unknown_key);
 
-/// Why a line is no JSON, with what its writer may have meant.
+/// Why a line is not JSON, with what its writer may have meant.
 std::string not_json(const LineReader::Line& line, const std::string& why);
 
 bool is_blank(const LineReader::Line& line);
 
-/// Of a line that is no JSON, cut short say: was it meant to be a scene? Then the queries after it are not
-/// for the scene before it.
+/// For a line that is not JSON, for example because it was cut short: was it meant to be a scene? If so, the
+/// queries after it are not for the scene before it.
 bool begins_as_scene(std::string_view text);
 
 /// Throws InputError unless the cell has as many coordinates as its lattice has vectors.
 template <class AScene>
 void check_cell(const FromRead& from, const AScene& scene) {
   const auto l = static_cast<std::size_t>(from.obstacle.lattice);
-  if (l >= scene.lattices.size()) return;  // which is told elsewhere
+  if (l >= scene.lattices.size()) return;  // which is reported elsewhere
   const int rank = scene.dimension - scene.lattices[l].missing;
   if (from.components != static_cast<std::size_t>(rank))
     throw InputError("from.cell: has " + std::to_string(from.components) + " components, the lattice has " +
@@ -67,7 +68,7 @@ void check_cell(const FromRead& from, const AScene& scene) {
 /// Throws InputError unless `count` is the scene's dimension.
 void check_dimension(const char* what, std::size_t count, int dimension);
 
-/// True of keys that golden records and files of disagreements have beside the query.
+/// True for keys that golden records and files of disagreements have beside the query.
 bool is_beside_query(std::string_view key);
 
 struct ExchangeReader::Impl {
@@ -77,8 +78,9 @@ struct ExchangeReader::Impl {
   void read_query(const LineReader::Line& line, const Scene* scene, StreamItem& item);
   void read_start(const LineReader::Line& line, const RationalScene* scene, StartItem& item);
 
-  /// All members of the line's object by read(key, value). What is bad in one does not end it, for the id may
-  /// follow; `flaw` becomes the first. An id that comes twice is `null`.
+  /// Reads all members of the line's object by read(key, value). An error in one member does not end the
+  /// reading, because the id may follow; `flaw` becomes the first error. An id that comes twice becomes
+  /// `null`.
   template <class Read>
   void read_members(const LineReader::Line& line, Id& id, std::string& flaw, const Read& read) {
     const auto complain = [&](const InputError& error) {
@@ -99,7 +101,7 @@ struct ExchangeReader::Impl {
     json_line.close();
   }
 
-  /// An item by read(), which throws what is bad in the line.
+  /// Reads an item by read(), which throws if the line is bad.
   template <class Item, class Read>
   void read_item(const LineReader::Line& line, Item& item, const Read& read) {
     item.kind = StreamItem::Kind::nothing;

@@ -8,7 +8,7 @@
 namespace lorentz {
 namespace {
 
-// Where the digits end that begin at `place`.
+// The end of the digits that begin at `place`.
 std::size_t after_digits(std::string_view text, std::size_t place) {
   while (place < text.size() && is_digit(text[place])) ++place;
   return place;
@@ -26,13 +26,13 @@ struct Notation {
 constexpr Notation kDecimal{std::chars_format::general, "0123456789", "eE", 1, 400};
 constexpr Notation kHexadecimal{std::chars_format::hex, "0123456789abcdefABCDEF", "pP", 4, 1200};
 
-// 0.DIGITS base^exponent, DIGITS without a zero in front (none at all for zero).
+// The number 0.DIGITS base^exponent. DIGITS has no zero in front, and is empty for zero.
 struct Parts {
   std::string digits;
   std::int64_t exponent = 0;
 };
 
-// An exponent beyond all reason counts as one beyond any number of digits in memory.
+// An exponent beyond 2^60 counts as 2^60, which is beyond any number of digits in memory.
 std::int64_t exponent_of(std::string_view text) {
   constexpr std::int64_t kMost = std::int64_t{1} << 60;
   const bool negative = text.starts_with('-');
@@ -43,7 +43,7 @@ std::int64_t exponent_of(std::string_view text) {
   return negative ? -std::min(exponent, kMost) : std::min(exponent, kMost);
 }
 
-// Of a text that std::from_chars has found to be a number.
+// The parts of a text that std::from_chars has found to be a number.
 Parts parts_of(std::string_view text, const Notation& notation) {
   Parts parts;
   const auto mark = std::min(text.find_first_of(notation.exponent_marks), text.size());
@@ -58,7 +58,8 @@ Parts parts_of(std::string_view text, const Notation& notation) {
   return parts;
 }
 
-// With its digits at the front, so that neither the place of the point nor the exponent is far from 0.
+// Rewrites the number with its digits at the front, so that neither the place of the point nor the exponent
+// is far from 0.
 double nearest_of_parts(const Parts& parts, const Notation& notation) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (parts.digits.empty() || parts.exponent < -notation.far) return 0;
@@ -70,8 +71,9 @@ double nearest_of_parts(const Parts& parts, const Notation& notation) {
   return value;
 }
 
-// std::from_chars rounds rightly, but says "out of range" of what is too large and of what is too small, and
-// its exponents end somewhere beyond 2^16: with more digits than that they may make up for each other.
+// std::from_chars rounds correctly, but reports "out of range" both for numbers that are too large and for
+// numbers that are too small. Its exponents end somewhere beyond 2^16; with more digits than that, digits and
+// exponent may make up for each other.
 std::optional<double> nearest_unsigned(std::string_view text, const Notation& notation) {
   constexpr std::size_t kLong = 1 << 14;
   const bool begins =

@@ -11,15 +11,15 @@ inline bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Is it a number as JSON has them? -?(0|[1-9][0-9]*)([.][0-9]+)?([eE][+-]?[0-9]+)?
+/// Is the text a JSON number? -?(0|[1-9][0-9]*)([.][0-9]+)?([eE][+-]?[0-9]+)?
 bool is_json_number(std::string_view text);
 
-/// [+-]? and digits, perhaps with one point before, among or behind them, perhaps [eE][+-]?[0-9]+; nothing if
-/// the text is no such number. What is nearer to 0 than to the smallest subnormal becomes 0; what rounds to
-/// more than the largest binary64 becomes infinite.
+/// Reads [+-]? and digits, perhaps with one point before, among or behind them, perhaps [eE][+-]?[0-9]+.
+/// Nothing if the text is not such a number. A number nearer to 0 than to the smallest subnormal becomes 0;
+/// one that rounds to more than the largest binary64 becomes infinite.
 std::optional<double> nearest_decimal(std::string_view text);
 
-/// The same of [+-]?0[xX], hexadecimal digits, perhaps with a point, perhaps [pP][+-]?[0-9]+.
+/// The same for [+-]?0[xX], hexadecimal digits, perhaps with a point, perhaps [pP][+-]?[0-9]+.
 std::optional<double> nearest_hexadecimal(std::string_view text);
 
 }  // namespace lorentz

@@ -8,7 +8,7 @@
 namespace lorentz {
 namespace {
 
-// What a line of a query stream says, before it is held against the scene.
+// The content of a line of a query stream, before it is compared with the scene.
 struct QueryFields {
   NumbersRead x, v;
   std::optional<FromRead> from;
@@ -63,7 +63,7 @@ void ExchangeReader::on_unknown_key(OnUnknownKey listener) {
 
 void ExchangeReader::Impl::read_query(const LineReader::Line& line, const Scene* scene, StreamItem& item) {
   QueryFields fields;
-  std::string flaw;  // the first; reading goes on, for the id may follow
+  std::string flaw;  // the first; reading goes on, because the id may follow
   read_members(line, item.id, flaw, [&](std::string_view key, json::Value value) {
     item.bad_scene |= key == "scene";
     read_query_field(key, value, item.id, fields, on_unknown_key);
@@ -104,7 +104,7 @@ struct AnswerFields {
   std::size_t components = 0;  // of the cell
 };
 
-// What --digits and --detail add to an answer.
+// The keys that --digits and --detail add to an answer, and that of a header.
 bool is_beside_answer(std::string_view key) {
   return key == "golden" || key == "time_decimal" || key == "point" || key == "normal" ||
          key == "impact_parameter";

@@ -18,7 +18,8 @@ const SceneNode* SceneNode::member(const char* key) const {
 
 namespace {
 
-// The number that a text was found to be, or why it is none.
+// The number that a text was found to be. Throws InputError if it was not one, or is beyond the range of
+// binary64.
 double finite(std::optional<double> number, std::string_view text, const std::string& place,
               const char* what) {
   if (!number) throw InputError(place + ": " + json_quoted(text) + what);
@@ -121,7 +122,7 @@ AnAtom atom_from(const SceneNode& node, int dimension, const std::string& place)
   return atom;
 }
 
-// Tells of the members of an object, or of each object of an array, that are none of these.
+// Reports the members of an object, or of each object of an array, that are not known.
 void check_keys(const SceneNode& node, const std::string& place,
                 std::initializer_list<std::string_view> known, const OnUnknownKey& on_unknown_key) {
   if (const auto* array = std::get_if<SceneNode::Array>(&node.value))
@@ -142,7 +143,7 @@ void check_scene_keys(const SceneNode& node, const OnUnknownKey& on_unknown_key)
         check_keys(*atoms, "lattices.atoms.", {"position", "radius", "semiaxes"}, on_unknown_key);
 }
 
-// A scene in numbers of either sort.
+// A scene in numbers of either type.
 template <class AScene>
 AScene parts_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
   using ALattice = typename decltype(AScene::lattices)::value_type;

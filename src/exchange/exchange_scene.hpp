@@ -28,13 +28,13 @@ struct SceneNode::Member {
   SceneNode node;
 };
 
-/// Throws InputError with the place of what is missing or wrong, e.g. "lattices[0].atoms[1].radius".
+/// Throws InputError with the place of what is missing or wrong, for example "lattices[0].atoms[1].radius".
 Scene scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key);
 
-/// The same of rational numbers, exactly.
+/// The same for rational numbers, exactly.
 RationalScene rational_scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key);
 
-/// A number, exactly: a binary64, or a text as rational_from takes it. Throws InputError, naming `place`.
+/// A number, exactly: a binary64, or a text that rational_from accepts. Throws InputError, naming `place`.
 Rational rational_at(const SceneNode& node, const std::string& place);
 
 /// The number, unless it is infinite: throws InputError, naming `place`.

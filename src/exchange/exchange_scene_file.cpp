@@ -27,7 +27,7 @@ SceneNode node_from(const toml::node& node) {
   return {};
 }
 
-// The parser and its tables are recursive, so a key of 100 000 dotted parts would take the stack with it.
+// The parser and its tables are recursive, so a key of 100 000 dotted parts would overflow the stack.
 void check_dotted_keys(const std::string& text) {
   int dots = 0;
   for (const char c : text) {
@@ -52,7 +52,7 @@ SceneNode parse_json(const std::string& text) {
   json::Document document;
   try {
     document.open(text);
-  } catch (const json::Error& error) {  // a document that was not begun must not be asked where it stands
+  } catch (const json::Error& error) {  // a document that was not begun must not be asked for its line
     throw InputError(std::string("not JSON: ") + error.what());
   }
   const auto not_json = [&](const char* why) {
@@ -83,7 +83,7 @@ std::string text_of(const std::string& path) {
   return text;
 }
 
-// What `scene_of` makes of the file.
+// The result of `scene_of` for the file's content.
 template <class SceneOf>
 auto read(const std::string& path, const SceneOf& scene_of) {
   try {

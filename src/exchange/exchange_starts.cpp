@@ -1,4 +1,5 @@
-// Lines of streams of starts: as queries, in numbers that may be rational, and directions beyond.
+// Lines of streams of starts: like queries, but with numbers that may be rational, and directions that may be
+// irrational.
 #include <algorithm>
 
 #include <lorentz/exchange.hpp>
@@ -7,7 +8,7 @@
 namespace lorentz {
 namespace {
 
-// What a line says, before it is held against the scene.
+// The content of a line, before it is compared with the scene.
 struct StartFields {
   std::optional<SceneNode> scene, x, v, direction;
   std::optional<FromRead> from;
@@ -91,7 +92,7 @@ void read_start_field(std::string_view key, json::Value value, Id& id, StartFiel
 void ExchangeReader::Impl::read_start(const LineReader::Line& line, const RationalScene* scene,
                                       StartItem& item) {
   StartFields fields;
-  std::string flaw;  // the first; reading goes on, for the id may follow
+  std::string flaw;  // the first; reading goes on, because the id may follow
   read_members(line, item.id, flaw, [&](std::string_view key, json::Value value) {
     item.bad_scene |= key == "scene";
     read_start_field(key, value, item.id, fields, on_unknown_key);

@@ -12,14 +12,15 @@
 namespace lorentz {
 namespace {
 
-// What bare keys, numbers and dates are made of: a piece of these is one of them, or nothing.
+// The characters of bare keys, numbers and dates. A piece that consists of these is one of them, or is not
+// valid.
 bool is_bare(char c) {
   return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
          std::string_view("_+-.:").find(c) != std::string_view::npos;
 }
 
-// TOML's decimal numbers are JSON's, perhaps with a plus sign, and with underscores between digits; in the
-// exponent zeros may lead (in JSON's, too). Empty if the piece is none.
+// TOML's decimal numbers are those of JSON, perhaps with a plus sign, and with underscores between digits. An
+// exponent may have leading zeros (in JSON, too). Empty if the piece is not such a number.
 std::string as_json_number(std::string_view piece) {
   if (piece.starts_with('+')) piece.remove_prefix(1);
   const std::string framed = ' ' + std::string(piece) + ' ';
@@ -29,7 +30,7 @@ std::string as_json_number(std::string_view piece) {
   return is_json_number(number) ? number : "";
 }
 
-// Where a string ends that begins at `start`; the text's end, if it does not.
+// The end of the string that begins at `start`; the text's end, if the string does not end.
 std::size_t after_string(std::string_view toml, std::size_t start) {
   const char quote = toml[start];
   const std::string mark(toml.substr(start).starts_with(std::string(3, quote)) ? 3 : 1, quote);
@@ -37,14 +38,14 @@ std::size_t after_string(std::string_view toml, std::size_t start) {
     if (quote == '"' && toml[i] == '\\')
       ++i;
     else if (mark.size() == 1 && toml[i] == '\n')
-      return i;                                 // no TOML, as the parser will say
+      return i;                                 // not TOML, as the parser will report
     else if (toml.substr(i).starts_with(mark))  // of up to five quotes the last three end it
       return mark.size() == 1 ? i + 1 : std::min(toml.find_first_not_of(quote, i), toml.size());
   }
   return toml.size();
 }
 
-// Where the piece ends that begins at `start`: a string, a comment, a bare word, or another character.
+// The end of the piece that begins at `start`: a string, a comment, a bare word, or another character.
 std::size_t after_piece(std::string_view toml, std::size_t start) {
   const char c = toml[start];
   if (c == '"' || c == '\'') return after_string(toml, start);
@@ -63,7 +64,7 @@ void append_hexadecimal(std::string& out, double value) {
 
 }  // namespace
 
-// A bare key that looks like a number gets another name, for which nobody asks either.
+// A bare key that looks like a number gets another name. No reader asks for a key of either name.
 std::string with_hexadecimal_numbers(std::string_view toml) {
   std::string out;
   for (std::size_t start = 0, end; start < toml.size(); start = end) {

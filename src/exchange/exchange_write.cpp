@@ -20,7 +20,7 @@ void append_escape(std::string& out, char32_t code) {
 
 std::string json_quoted(std::string_view text) {
   const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; };
-  const auto plain = std::find_if_not(text.begin(), text.end(), is_plain) - text.begin();  // mostly all of it
+  const auto plain = std::find_if_not(text.begin(), text.end(), is_plain) - text.begin();  // usually all
   std::string out = "\"";
   out += text.substr(0, plain);
   text.remove_prefix(plain);
@@ -44,7 +44,7 @@ void append_number(std::string& out, double value) {
     return;
   }
   char text[32];
-  // Beyond 2^53 never as digits only, which a reader might take for an integer.
+  // Beyond 2^53 a number is never written as digits only, because a reader might take that for an integer.
   const bool large = std::fabs(value) >= 0x1p53;
   const auto end = large ? std::to_chars(text, text + sizeof text, value, std::chars_format::scientific)
                          : std::to_chars(text, text + sizeof text, value);

@@ -1,5 +1,5 @@
-// The members of what the formats know, for lines that have others besides. Private to the libraries and the
-// program.
+// The members of scenes, queries and answers, for lines that have other members, too. Private to the
+// libraries and the program.
 #pragma once
 
 #include <span>
@@ -23,7 +23,7 @@ inline void append_json(std::string& out, const Scene& scene) {
   json::append(out, [&](json::Members& object) { add_scene(object, scene); });
 }
 
-/// Lattice, atom and cell.
+/// Adds lattice, atom and cell.
 void add_obstacle(json::Members& object, const ObstacleId& obstacle, const Components& count);
 
 /// The first components of a vector or of a cell: a 2D problem has two.

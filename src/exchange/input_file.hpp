@@ -17,16 +17,17 @@ class InputFile {
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
-  /// At most `most` bytes, as many as are there, at least one; 0 at the end. Throws FileError.
+  /// Reads the bytes that are available, at least one and at most `most`; returns 0 at the end. Throws
+  /// FileError.
   std::size_t read(char* bytes, std::size_t most);
 
-  /// `count` bytes, fewer only at the end. Throws FileError.
+  /// Reads `count` bytes, fewer only at the end. Throws FileError.
   std::size_t read_all(char* bytes, std::size_t count);
 
-  /// The same from a place in the file, which must have one.
+  /// The same from a place in the file. Requires an input that has places: place() returns one.
   std::size_t read_all_at(std::uint64_t place, char* bytes, std::size_t count) const;
 
-  /// Where the next byte stands; nothing for a pipe or a terminal.
+  /// The place of the next byte; nothing for a pipe or a terminal.
   std::optional<std::uint64_t> place() const;
 
   /// False if a read would have to wait.
@@ -40,7 +41,7 @@ class InputFile {
   int descriptor_ = -1;
 };
 
-/// Is there something to be read, or the end?
+/// Is there something to read, or the end?
 bool is_ready(int descriptor);
 
 }  // namespace lorentz

@@ -1,5 +1,5 @@
-// Writes JSON: members in the order of the code, no white space, numbers by append_number. The only place with
-// braces, quotes and commas. Private to the libraries and the program.
+// Writes JSON: members in the order of the code, no white space, numbers by append_number. Braces, quotes and
+// commas are written here only. Private to the libraries and the program.
 #pragma once
 
 #include <charconv>
@@ -55,9 +55,9 @@ void append_whole(std::string& out, T value) {
   if (quoted) out += '"';
 }
 
-/// Appends a value: a Raw, a PlainText, Digits, a truth value, a number, a text, an optional (null if empty), a
-/// function that adds the members of an object or appends a text, a range of such values, or anything that has
-/// an append_json(out, value) of its own.
+/// Appends a value: a Raw, a PlainText, Digits, a truth value, a number, a text, an optional (null if empty),
+/// a function that adds the members of an object or appends a text, a range of such values, or anything that
+/// has an append_json(out, value) of its own.
 template <class T>
 void append(std::string& out, const T& value) {
   if constexpr (std::same_as<T, Raw>) {
@@ -91,7 +91,7 @@ void append(std::string& out, const T& value) {
   }
 }
 
-/// The members of an object under way.
+/// The members of an object that is being written.
 class Members {
  public:
   explicit Members(std::string& out) : out_(out) {}
@@ -141,7 +141,7 @@ void append_object(std::string& out, const Fill& fill) {
   object.end();
 }
 
-/// The array of what each(out, item) appends, with `before` in front of each item.
+/// The array of the values that each(out, item) appends, with `before` in front of each item.
 template <class Items, class Each>
 auto array(const Items& items, Each each, std::string_view before = "") {
   return [&items, each, before](std::string& out) {

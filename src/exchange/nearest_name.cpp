@@ -8,7 +8,7 @@
 namespace lorentz {
 namespace {
 
-// Optimal string alignment: rows of the table of distances between beginnings of the two.
+// Optimal string alignment: rows of the table of distances between prefixes of the two.
 std::size_t mistakes_between(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -35,7 +35,7 @@ std::string lower_case(std::string_view text) {
 }  // namespace
 
 std::string nearest_name(std::string_view typed, const std::vector<std::string>& names) {
-  constexpr std::size_t kLongest = 100;  // nobody mistypes that
+  constexpr std::size_t kLongest = 100;  // a longer text is not a mistyped name
   std::string nearest;
   std::size_t fewest = typed.size() / 3 + 1;
   if (typed.size() > kLongest) return nearest;

@@ -1,4 +1,4 @@
-// One of several names, or what was meant by a mistyped one.
+// One of several names, or the name that was meant by a mistyped one.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,15 @@
 namespace lorentz {
 
 /// The name that takes the fewest typing mistakes (a character too many, missing, wrong, or two exchanged),
-/// if they are at most a third of it; else empty. Of several the first.
+/// if they are at most a third of `typed`; otherwise empty. If there are several, the first.
 std::string nearest_name(std::string_view typed, const std::vector<std::string>& names);
 
-/// " (did you mean NAME?)", or empty, also if the text is one of the names (and stands where it means
-/// nothing).
+/// " (did you mean NAME?)", or empty. It is also empty if the text is one of the names (in a place where it
+/// has no meaning).
 std::string did_you_mean(std::string_view typed, const std::vector<std::string>& names);
 
-/// Which of the names it is. Throws InputError, which begins with `what` and lists them, if it is not one.
+/// The number of the name in the list. If it is not there, throws InputError, which begins with `what` and
+/// lists the names.
 std::size_t index_of_name(const std::string& name, const std::vector<std::string>& names,
                           std::string_view what);
 

@@ -27,7 +27,7 @@ constexpr std::size_t kLongestHeader = 1 << 20, kLargestItem = 1 << 20;
   throw InputError("the type " + what + " of the array is not understood");
 }
 
-// a b, which must stay a size that a row can have.
+// a b. Throws InputError if that is larger than a row may be.
 std::size_t product(std::size_t a, std::size_t b) {
   if (b != 0 && a > kLargestItem / b) throw InputError("its rows are longer than 1 MiB");
   return a * b;
@@ -69,7 +69,7 @@ std::size_t read_field(const PythonValue& entry, NpyField& field) {
   const bool titled = name.is(Kind::tuple) && name.items.size() == 2;
   field.name = titled ? name.items[1].text : name.text;
   if (entry.items.size() == 3) field.shape = small_shape(entry.items[2]);
-  if (entry.items[1].is(Kind::list)) {  // fields inside of a field: no number of a query
+  if (entry.items[1].is(Kind::list)) {  // fields inside a field: not a number of a query
     std::vector<NpyField> inside;
     field.type = "of fields", field.kind = 'V';
     field.bytes = read_fields(entry.items[1], inside);
@@ -137,7 +137,7 @@ NpyHeader header_of(const PythonValue& value) {
   return header;
 }
 
-// Before version 3.0 a header is in Latin-1, whose characters are those of the same numbers in UTF-8.
+// Before version 3.0 a header is in Latin-1, whose characters have the same numbers in Unicode.
 std::string utf8_of_latin1(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -150,7 +150,7 @@ std::string utf8_of_latin1(const std::string& text) {
   return out;
 }
 
-// The text of the header, behind the magic bytes, the version and its length.
+// The text of the header, which follows the magic bytes, the version and its length.
 std::string header_text(InputFile& file) {
   char front[12] = {};
   const std::size_t there = file.read_all(front, 8);

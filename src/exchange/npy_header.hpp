@@ -1,4 +1,4 @@
-// What a .npy file says of itself: NumPy's format 1.0, 2.0 and 3.0. Private to the formats.
+// The header of a .npy file: NumPy's formats 1.0, 2.0 and 3.0. Private to the formats.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ namespace lorentz {
 struct NpyField {
   std::string name;       ///< empty: the array has no names
   std::string type;       ///< as it is written: "<f8"
-  char kind = '\0';       ///< 'f', 'i', 'u'; another letter is of another type
+  char kind = '\0';       ///< 'f', 'i', 'u'; other letters are other types
   std::size_t bytes = 0;  ///< of one number
   bool big_endian = false;
   std::vector<std::size_t> shape;  ///< of a small array
   std::size_t offset = 0;          ///< in the row
 
-  std::size_t count() const;  ///< of its numbers
+  std::size_t count() const;  ///< the number of its numbers
 };
 
 struct NpyHeader {
@@ -32,10 +32,10 @@ struct NpyHeader {
   std::string description;     ///< type and shape for messages: "'<f8' of shape (7, 4)"
 };
 
-/// Reads it, and leaves the file at the first element. Throws InputError, with the file's name.
+/// Reads the header, and leaves the file at the first element. Throws InputError, with the file's name.
 NpyHeader read_npy_header(InputFile& file);
 
-/// The header of a file, padded as NumPy does: `description` and `shape` are literals of Python.
+/// The header of a file, padded as in NumPy. `description` and `shape` are literals of Python.
 std::string npy_header(std::string_view description, std::string_view shape);
 
 }  // namespace lorentz

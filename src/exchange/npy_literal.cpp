@@ -82,7 +82,7 @@ class Parser {
 
   static bool is_quote(char c) { return c == '\'' || c == '"'; }
 
-  // Escapes stand for themselves: names that matter have none.
+  // An escaped character stands for itself; names that matter have none.
   void read_string(PythonValue& value) {
     value.kind = PythonValue::Kind::string;
     const char quote = text_[place_++];
@@ -100,10 +100,10 @@ class Parser {
     const auto [end, status] = std::from_chars(begin, text_.data() + text_.size(), value.number);
     if (status != std::errc{}) fail();
     place_ += static_cast<std::size_t>(end - begin);
-    take_word("L");  // Python 2 wrote it behind some
+    take_word("L");  // Python 2 wrote it after some
   }
 
-  // What stands in parentheses is a tuple only with a comma.
+  // Parentheses make a tuple only with a comma.
   void read_items(PythonValue& value, PythonValue::Kind kind, char end, int depth) {
     value.kind = kind;
     ++place_;  // the opening one

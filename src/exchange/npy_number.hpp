@@ -18,7 +18,7 @@ Bits swapped(Bits bits) {
   return other;
 }
 
-// The number that stands there; Bits is of its size.
+// The number at `bytes`; Bits has its size.
 template <class Number, class Bits>
 Number number_in(const char* bytes, bool swap) {
   Bits bits;
@@ -30,7 +30,7 @@ inline bool must_swap(const NpyField& field) {
   return field.big_endian != (std::endian::native == std::endian::big);
 }
 
-// An integer of any type of NumPy's; beyond the range of int64 nothing.
+// An integer of any integer type of NumPy; nothing beyond the range of int64.
 inline std::optional<std::int64_t> integer_at(const NpyField& field, const char* bytes) {
   const bool swap = must_swap(field), is_signed = field.kind == 'i';
   switch (field.bytes) {

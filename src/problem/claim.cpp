@@ -10,7 +10,7 @@
 namespace lorentz {
 namespace {
 
-// Of a query or a scene, constant or not.
+// Calls visit(number) for each number of a query or a scene, constant or not.
 template <class Q, class Visit>
 requires std::same_as<std::remove_const_t<Q>, Query>
 void for_each_number(Q& query, const Visit& visit) {

@@ -1,4 +1,4 @@
-// Are all components numbers? Private to src/problem.
+// Whether all components of a vector are finite. Private to src/problem.
 #pragma once
 
 #include <cmath>

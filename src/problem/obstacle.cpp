@@ -13,7 +13,7 @@ std::optional<Integer> Integer::from_decimal(std::string_view text) {
   const bool negative = !text.empty() && text.front() == '-';
   std::string_view digits = text.substr(negative ? 1 : 0);
   if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
-  digits.remove_prefix(digits.find_first_not_of('0'));  // there is one that is not: 64 bits do not hold it
+  digits.remove_prefix(digits.find_first_not_of('0'));  // 64 bits do not hold it, so one digit is not 0
   result.value_ = 0;
   result.digits_ = std::make_unique<const std::string>((negative ? "-" : "") + std::string(digits));
   return result;

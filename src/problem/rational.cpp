@@ -63,7 +63,7 @@ std::optional<Rational> decimal(std::string_view text, bool negative) {
   return fraction_of(std::move(digits), std::move(denominator), negative);
 }
 
-// Of so few digits that nothing is rounded.
+// Rejects numbers with so many digits that a binary64 might have to round them.
 std::optional<Rational> hexadecimal(std::string_view text, bool negative) {
   const auto digits = static_cast<std::size_t>(std::count_if(
       text.begin(), std::find_if(text.begin(), text.end(), [](char c) { return c == 'p' || c == 'P'; }),
@@ -111,8 +111,9 @@ bool is_positive(const Rational& number) {
 
 namespace {
 
-// -1, 0, 1; what is not finite, and a fraction without a denominator above zero, is no number. Whether a scene or a start
-// has a flaw depends on signs alone, so these are asked of ones in binary64.
+// The sign of a number: -1, 0 or 1. For a number that is not finite, or a fraction whose denominator is not
+// above zero, the result is not finite. Whether a scene or a start is valid depends on signs alone, so the
+// scene or the query made of the signs, in binary64, is checked.
 double sign_of(const Rational& number) {
   if (const double* value = std::get_if<double>(&number))
     return std::isfinite(*value) ? (*value > 0) - (*value < 0) : *value;
@@ -141,7 +142,7 @@ Scene signs_of(const RationalScene& scene) {
   return signs;
 }
 
-// 0, not 0, or no number.
+// Zero, a finite number other than zero, or, if a part is not finite, a number that is not.
 double sign_of(const Surd& number) {
   const double root = number.root ? sign_of(*number.root) : 0, part = root * sign_of(number.scale);
   return part == 0 ? sign_of(number.shift) : part + 0 * sign_of(number.shift);

@@ -5,7 +5,7 @@
 
 namespace lorentz {
 
-/// The same outcome and, of `hit` and `inside`, the same obstacle and time.
+/// True if the outcomes are equal and, for `hit` and `inside`, also the obstacles and the times.
 inline bool same_answer(const Answer& a, const Answer& b) {
   if (a.outcome != b.outcome) return false;
   const bool names_obstacle = a.outcome == Outcome::hit || a.outcome == Outcome::inside;

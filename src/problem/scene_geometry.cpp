@@ -11,8 +11,8 @@ namespace lorentz {
 
 using std::numbers::pi;
 
-// One-sided Jacobi (Hestenes 1958): columns are turned in pairs until all are perpendicular; their lengths
-// are the singular values then.
+// One-sided Jacobi (Hestenes 1958): rotates pairs of columns until all are perpendicular. Their lengths are
+// then the singular values.
 std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension) {
   std::array<Vec, 3> a = semiaxes_of(atom, dimension);
   constexpr int kSweeps = 60;
@@ -50,8 +50,8 @@ double volume_of(const Atom& atom, int dimension) {
   return dimension == 2 ? pi * a * b : 4 * pi / 3 * a * b * c;
 }
 
-// Carlson's duplication (1995): each step brings the three a factor of 4 nearer to each other, until a few
-// terms of a series give the rest to 1e-16.
+// Carlson's duplication (1995): each step brings the three arguments closer to each other by a factor of 4,
+// until a few terms of a series give the rest to 1e-16.
 double carlson_rf(double x, double y, double z) {
   for (;;) {
     const double mean = (x + y + z) / 3;
@@ -86,8 +86,8 @@ double carlson_rd(double x, double y, double z) {
 }
 
 // An ellipse has the perimeter 4 a E(e). An ellipsoid has the surface 4 pi RG(a^2 b^2, a^2 c^2, b^2 c^2)
-// (DLMF 19.33.1), and with z between x and y every term of 2 RG = z RF - (x - z)(y - z) RD / 3 + sqrt(x y /
-// z) (19.21.10) is positive.
+// (DLMF 19.33.1). In 2 RG = z RF - (x - z)(y - z) RD / 3 + sqrt(x y / z) (19.21.10) every term is positive if
+// z is between x and y.
 double surface_of(const Atom& atom, int dimension) {
   const auto [a, b, c] = principal_semiaxes(atom, dimension);
   if (dimension == 2) return 4 * a * std::comp_ellint_2(std::sqrt((1 - b / a) * (1 + b / a)));
@@ -100,7 +100,8 @@ double surface_of(const Atom& atom, int dimension) {
 
 namespace {
 
-// A power of two of about the cell's size, by the exponents alone: the cell's volume may be beyond binary64.
+// The exponent of a power of two of about the cell's size. It is computed from exponents alone, because the
+// cell's volume may be outside the range of binary64.
 int size_exponent(const Lattice& lattice, int dimension) {
   int sum = 0;
   for (int i = 0; i < dimension; ++i) {

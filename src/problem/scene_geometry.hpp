@@ -10,8 +10,8 @@
 
 namespace lorentz {
 
-/// Lengths of an obstacle's principal semiaxes, the longest first (a 2D one has the third zero): the singular
-/// values of its matrix.
+/// The lengths of an obstacle's principal semiaxes, longest first: the singular values of its matrix. In 2D
+/// the third is zero.
 std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension);
 
 double cell_volume(const Lattice& lattice, int dimension);
@@ -22,8 +22,9 @@ double surface_of(const Atom& atom, int dimension);
 double carlson_rf(double x, double y, double z);
 double carlson_rd(double x, double y, double z);
 
-/// Of each atom, lattice by lattice: the share of space that its obstacles take, were there no overlaps, and
-/// their surface per volume, times `unit`: a power of two, of about the size of the first lattice's cell.
+/// For each atom, lattice by lattice: the fraction of space that its obstacles fill, if there are no
+/// overlaps, and their surface per volume, times `unit`. `unit` is a power of two of about the size of the
+/// first lattice's cell.
 struct AtomShares {
   struct AtomShare {
     double fraction = 0, surface = 0;
@@ -32,18 +33,18 @@ struct AtomShares {
   std::vector<AtomShare> atoms;
 };
 
-/// Nothing if a lattice repeats in fewer directions, or an obstacle is so large, small or slender that it is
-/// beyond the range of binary64.
+/// Nothing if a lattice has fewer vectors than dimensions, or if an obstacle is so large, small or slender
+/// that it is outside the range of binary64.
 std::optional<AtomShares> shares_of(const Scene& scene);
 
-/// Of a scene without overlaps: the share of space that the obstacles take, their surface per volume, and the
-/// mean free path between hits by Santalo's formula, which follows from these: pi (1 - filling) / surface in
-/// 2D, 4 (1 - filling) / surface in 3D.
+/// For a scene without overlaps: the fraction of space that the obstacles fill, their surface per volume, and
+/// the mean free path between hits. Santalo's formula gives the last from the first two:
+/// pi (1 - fraction) / surface in 2D, 4 (1 - fraction) / surface in 3D.
 struct Filling {
   double fraction = 0, surface = 0, mean_free_path = 0;
 };
 
-/// Nothing if it is beyond the range of binary64.
+/// Nothing where shares_of gives nothing, or if a result is outside the range of binary64.
 std::optional<Filling> filling_of(const Scene& scene);
 
 }  // namespace lorentz

@@ -1,4 +1,4 @@
-// What cannot be written: where, why, and what can be done about it.
+// Errors of files that cannot be written: where, why, and what can be done about it.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace lorentz {
 
-/// "PLACE: No space left on device; free some, or write to another disk", of an errno.
+/// The error for an errno, such as "PLACE: No space left on device; free some, or write to another disk".
 FileError write_error(const std::string& place, int error_number);
 
 }  // namespace lorentz

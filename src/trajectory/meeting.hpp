@@ -1,32 +1,34 @@
-// One line and one obstacle: where the line enters it, and how it is reflected. Private to src/trajectory.
+// One line and one obstacle: where the line enters the obstacle, and how the velocity is reflected there.
+// Private to src/trajectory.
 #pragma once
 
 #include "src/trajectory/real.hpp"
 
 namespace lorentz {
 
-/// The obstacle A y, |y| < 1, around its centre.
+/// The obstacle { A y : |y| < 1 }, relative to its centre.
 template <class Real>
 struct MeetingShape {
   bool ball = true;
-  Real radius = 0;                  ///< of a ball
-  std::array<Point<Real>, 3> axes;  ///< of an ellipsoid: the columns of A,
+  Real radius = 0;                  ///< for a ball
+  std::array<Point<Real>, 3> axes;  ///< for an ellipsoid: the columns of A,
   std::array<Point<Real>, 3> dual;  ///< and the rows of A^-1
-  double inverse_size = 0;          ///< a bound of |A^-1|
+  double inverse_size = 0;          ///< an upper bound on |A^-1|
 };
 
 template <class Real>
 struct LineMeeting {
   Real time;                ///< from now
   Point<Real> offset;       ///< from the centre, on the surface
-  Point<Real> velocity;     ///< after the reflection, not yet brought to the first speed
+  Point<Real> velocity;     ///< after the reflection, not yet rescaled to the initial speed
   Point<Real> normal;       ///< outward, of any length
-  bool on_the_line = true;  ///< false: the obstacle is not there, beyond all rounding
+  bool on_the_line = true;  ///< false: beyond all rounding, the obstacle is not ahead on the line
 };
 
-/// Where the line w + t u enters the sphere around 0. Its moment w x u tells the point p of the line that is
-/// nearest to 0 without cancellation, and what is left of the radius leads from there to the sphere: the
-/// point is on it by construction, however long the flight. A line that passes by less than `slack` grazes.
+/// Where the line w + t u enters the sphere of radius `radius` around 0. The moment w x u gives, without
+/// cancellation, the point p of the line that is nearest to 0. From there sqrt(radius^2 - p^2) leads to the
+/// sphere, so the point of entry is on it by construction, however long the flight. A line that misses the
+/// sphere by less than `slack` counts as grazing it.
 template <class Real>
 struct MeetingEntry {
   Real time;
@@ -51,7 +53,8 @@ struct MeetingEntry {
   static Wide root_of(Wide x) { return sqrt(x); }
 };
 
-/// The line w + t v from the obstacle's centre; `far`: the largest number that went into w as it was asked.
+/// The line is w + t v relative to the obstacle's centre. `far` is the largest number that went into w when
+/// the engine was asked.
 template <class Real>
 LineMeeting<Real> meeting_of(const MeetingShape<Real>& shape, const Point<Real>& w, const Point<Real>& v,
                              double far) {

@@ -10,7 +10,7 @@ Point<Real> exact_point(const Vec& a) {
   return joined<Real>(a, Vec{});
 }
 
-// dual_of in any numbers.
+// dual_of, for both kinds of numbers.
 template <class Real>
 std::array<Point<Real>, 3> inverse_of(const std::array<Point<Real>, 3>& axes) {
   const Real volume = inner(axes[0], outer(axes[1], axes[2]));
@@ -32,7 +32,7 @@ MeetingShape<Real> shape_of(const Atom& atom, int dimension) {
   return shape;
 }
 
-// No flight within sight: a binary64 is no longer every integer.
+// True beyond 2^53, where binary64 no longer holds every integer.
 bool is_far(std::int64_t n) {
   constexpr std::int64_t kFar = std::int64_t{1} << 53;
   return n > kFar || n < -kFar;
@@ -52,7 +52,7 @@ Wide time_left(const Particle& particle, double until) {
   return (Wide(until) - Wide(particle.time)) - Wide(particle.time_low);
 }
 
-// Never back.
+// Moves the particle to the time `until`, but never back in time.
 template <class Real>
 void move(Particle& particle, double until) {
   const Wide left = time_left(particle, until);
@@ -63,7 +63,7 @@ void move(Particle& particle, double until) {
   particle.time = until, particle.time_low = 0;
 }
 
-// One step of Newton's iteration: the speed is off by some ulps only.
+// One Newton step is enough, because the speed is off by only a few ulps.
 template <class Real>
 Point<Real> at_first_speed(const Point<Real>& v, const Particle& particle) {
   const Real square = joined<Real>(particle.speed_squared, particle.speed_squared_low);
@@ -105,7 +105,7 @@ Inquiry Motion<Real>::asked(const Particle& particle) const {
   return {high_part(place), particle.velocity, particle.cell};
 }
 
-// From the centre of the obstacle that the offset counts from to that of the one named.
+// The vector from the centre of the obstacle from which the offset counts to the centre of the named one.
 template <class Real>
 Point<Real> Motion<Real>::step_at_home(const Particle& particle, const Named& named) const {
   const MotionRows& rows = lattices_[0];

@@ -1,5 +1,5 @@
-// What a particle's motion in one scene is made of: the query of its next flight, and what comes of the
-// obstacle that an engine names. Private to src/trajectory.
+// The motion of a particle in one scene: the query for its next flight, and the collision with the obstacle
+// that an engine names. Private to src/trajectory.
 #pragma once
 
 #include <vector>
@@ -9,20 +9,21 @@
 
 namespace lorentz {
 
-/// An obstacle as an engine names it: its cell is in the frame in which the query was asked.
+/// An obstacle as an engine names it. Its cell is in the frame in which the query was asked.
 struct Named {
   std::int32_t lattice, atom;
   std::array<std::int64_t, 3> cell;
 };
 
-/// Where a flight starts, as an engine is asked, and the cell of the obstacle that is left.
+/// The start of a flight as the engine is asked about it, and the cell of the obstacle that the particle
+/// leaves.
 struct Inquiry {
   Vec x, v;
   std::array<std::int64_t, 3> cell;
 };
 
-/// What an engine is told of the time that is left: a little more, so that rounding hides no collision within
-/// it.
+/// The time limit for the engine: a little more than the time left, so that rounding hides no collision
+/// within it.
 inline double flight_limit(const Particle& particle, double until) {
   return until < HUGE_VAL ? std::fmax(0, until - particle.time) * (1 + 0x1p-30) + 0x1p-1000 : HUGE_VAL;
 }
@@ -35,7 +36,7 @@ class Places {
 
   const Scene& scene() const { return scene_; }
   Particle at(const Query& start, Precision precision) const;
-  /// Throws InputError for what is no particle in this scene.
+  /// Throws InputError if the particle's state is not valid in this scene.
   void check(const Particle& particle) const;
   Point<Wide> centre(std::int32_t lattice, std::int32_t atom, const std::array<std::int64_t, 3>& cell) const;
   Point<Wide> place(const Particle& particle) const;
@@ -46,7 +47,7 @@ class Places {
   Scene scene_;
 };
 
-/// Motion with states in double or Wide. Const: any number of threads may share one.
+/// Motion with states in double or Wide. It is const, so any number of threads may share one.
 template <class Real>
 class Motion {
  public:
@@ -56,11 +57,13 @@ class Motion {
 
   Inquiry asked(const Particle& particle) const;
 
-  /// The collision with the obstacle that was named; or, if it comes after the time `until`, the way there.
+  /// Makes the collision with the named obstacle. If that comes after the time `until`, moves the particle to
+  /// its position at `until` instead.
   Stop meet(Particle& particle, const Inquiry& asked, const Named& named, double until,
             Collision& collision) const;
 
-  /// Nothing is met: on to the time `until`, or if that is no time, `otherwise`.
+  /// Where nothing is met: moves the particle to the time `until`, or returns `otherwise` if `until` is
+  /// infinite.
   Stop fly_on(Particle& particle, double until, Stop otherwise) const;
 
  private:

@@ -44,7 +44,7 @@ Places::Places(const Scene& scene) : scene_(scene) {
     throw UnsupportedError("trajectories are for scenes whose lengths lie between 2^-100 and 2^100");
 }
 
-// The obstacle that is left, or one near the start.
+// Sets the obstacle from which the offset counts: the one that is left, or one near the start.
 void Places::set_home(const Query& start, Particle& particle) const {
   if (start.from) {
     particle.leaves = true;

@@ -1,5 +1,5 @@
-// The two kinds of numbers that states are kept in, and vectors of them. What is computed with either is
-// written once. Private to src/trajectory.
+// The two kinds of numbers in which states are kept, and vectors of them. Code for both kinds is written
+// once. Private to src/trajectory.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@ namespace lorentz {
 
 struct Trajectory::Inside {
   AskFirstHit ask;
-  const Reduction* reduction = nullptr;  ///< in its place
+  const Reduction* reduction = nullptr;  ///< if set, used instead of `ask`
   std::variant<Motion<double>, Motion<Wide>> motion;
   Query query;
   Answer answer;
@@ -37,14 +37,14 @@ void set(const Particle& particle, const Inquiry& asked, Query& query) {
   for (int i = 0; i < 3; ++i) query.from->cell[i] = asked.cell[i];
 }
 
-// What was heard of a flight.
+// What the engine answered about a flight.
 struct Heard {
   Outcome outcome = Outcome::error;
   Named named{};
   bool overflow = false;
 };
 
-// Negative numbers become very large ones.
+// A negative index becomes a very large one, which is not in the scene, either.
 bool has(const Scene& scene, const ObstacleId& obstacle) {
   const auto lattice = static_cast<std::size_t>(obstacle.lattice),
              atom = static_cast<std::size_t>(obstacle.atom);
@@ -68,7 +68,7 @@ Heard heard(const Answer& answer, const Scene& scene) {
 
 }  // namespace
 
-// ---- the flight, and what becomes of it
+// ---- The flight and its outcome
 
 Trajectory::Trajectory(const Engine& engine, const Scene& scene, const Query& start, Precision precision)
     : Trajectory([&engine](const Query& query, double max_time,

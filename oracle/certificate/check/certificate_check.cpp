@@ -1,7 +1,8 @@
 // Checks proofs of answers in integers alone. Notation as in docs/certificates.md: a line x + t v, an
-// obstacle's centre w = c - x relative to the start, s = v.w along, h = v x w across. Every atom has
-// coordinates of its own, in which it is a ball. All numbers are in the largest power of two that they are
-// multiples of: integers from here on, the same as in other checkers, so that these count the same steps.
+// obstacle's centre w = c - x relative to the start, s = v.w along and h = v x w across. Each atom has its
+// own coordinates, in which it is a ball. The unit of all numbers is the largest power of two of which they
+// are multiples, so they are integers from here on. Other checkers use the same integers, so all of them
+// count the same steps.
 #include <lorentz/certificate_check.hpp>
 
 #include <tuple>
@@ -19,7 +20,7 @@ struct TimeRange {
   Z lo, hi;
 
   bool empty() const { return lo > hi; }
-  Z size() const { return hi - lo + 1; }  ///< of one that is not empty
+  Z size() const { return hi - lo + 1; }  ///< of a range that is not empty
   bool contains(const Z& a) const { return lo <= a && a <= hi; }
 };
 
@@ -27,7 +28,7 @@ TimeRange intersection(const TimeRange& a, const TimeRange& b) {
   return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
 }
 
-/// The range that factor * a + offset, +- slack, lies in for a in a non-empty range.
+/// The range that factor * a + offset +- slack covers for a in a non-empty range.
 TimeRange image(const Z& factor, const TimeRange& a, const Z& offset, const Z& slack) {
   const Z one = factor * a.lo, other = factor * a.hi;
   return {Z(std::min(one, other) + offset - slack), Z(std::max(one, other) + offset + slack)};
@@ -40,7 +41,7 @@ TimeRange quotients(const TimeRange& a, const Z& offset, const Z& divisor) {
   return {ceil_div(high, divisor), floor_div(low, divisor)};
 }
 
-/// The k with a k^2 + 2 b k + c < 0, for a > 0: times a this is (a k + b)^2 < b^2 - a c.
+/// The k with a k^2 + 2 b k + c < 0, for a > 0. Multiplied by a, this is (a k + b)^2 < b^2 - a c.
 TimeRange below_zero(const Z& a, const Z& b, const Z& c) {
   const Z square = b * b - a * c;
   if (square <= 0) return {1, 0};
@@ -48,10 +49,10 @@ TimeRange below_zero(const Z& a, const Z& b, const Z& c) {
   return {ceil_div(-b - root, a), floor_div(root - b, a)};
 }
 
-/// Thrown where a proof takes more steps than are allowed, right or not.
+/// Thrown if a proof, right or not, takes more steps than are allowed.
 struct TooLong : Refuted {};
 
-/// The steps (docs/certificates.md) that may still be spent on a certificate.
+/// The steps (docs/certificates.md) that are left for a certificate.
 class Budget {
  public:
   Budget(long most, std::size_t pieces) : most_(most), left_(most) {
@@ -78,17 +79,18 @@ struct Obstacle {
   }
 };
 
-/// What is claimed: `hit` at a time, `inside`, or `never`.
+/// The claim: `hit` at a time, `inside`, or `never`.
 struct Conclusion {
   Outcome outcome;
   Obstacle obstacle{};
   std::optional<Obstacle> from{};
-  ProofTime time{};  // of `inside`: 0
+  ProofTime time{};  // 0 for `inside`
 
   bool is_from(const Obstacle& other) const { return from && from->key() == other.key(); }
 
-  /// Refutes if an obstacle that is met, with d = r^2 v^2 - |h|^2 > 0, contradicts the claim. It contains x
-  /// iff v^2 w^2 = s^2 + |h|^2 < r^2 v^2, that is s^2 < d; else the ray enters it iff s > 0.
+  /// Refutes the claim if an obstacle that the line meets, with d = r^2 v^2 - |h|^2 > 0, contradicts it. The
+  /// obstacle contains x iff v^2 w^2 = s^2 + |h|^2 < r^2 v^2, that is s^2 < d. Otherwise the ray enters it
+  /// iff s > 0.
   template <class CellOf>
   void hold_against(const CertificateView& view, const Z& s, const Z& d, const CellOf& cell_of) const {
     const bool contains_x = s * s < d, hit = outcome == Outcome::hit;
@@ -112,13 +114,13 @@ struct Conclusion {
 
 // ---- Windows
 
-/// The s of a window, which may have no end.
+/// The s of a window, which may have no upper end.
 struct WindowRange {
   Z lo;
   std::optional<Z> hi;
 
   bool contains(const Z& s) const { return lo <= s && (!hi || s <= *hi); }
-  /// The k of a range with k * divisor + offset in it, divisor != 0.
+  /// The k in the range for which k * divisor + offset is in the window, divisor != 0.
   TimeRange of(TimeRange k, const Z& offset, const Z& divisor) const {
     if (hi) return intersection(k, quotients({lo, *hi}, offset, divisor));
     if (divisor > 0)
@@ -129,9 +131,9 @@ struct WindowRange {
   }
 };
 
-/// All obstacles w = w_0 + k_1 b_1 + k_2 b_2 + k_3 b_3, of which the first `rank` k are free, that are met:
-/// those with |h|^2 <= H = r^2 v^2 - 1 and s in the window. Calls met(s, d, n()) for each, d =
-/// r^2 v^2 - |h|^2.
+/// Finds all obstacles w = w_0 + k_1 b_1 + k_2 b_2 + k_3 b_3, with the first `rank` of the k free, that are
+/// met: those with |h|^2 <= H = r^2 v^2 - 1 and s in the window. Calls met(s, d, n()) for each, with
+/// d = r^2 v^2 - |h|^2.
 template <class Met>
 class Search {
  public:
@@ -161,7 +163,7 @@ class Search {
   }
 
  private:
-  /// The window's ends, for what has no bound but these.
+  /// The ends of the window, for k that have no other bound.
   TimeRange ends() const {
     if (!window_.hi) refute("has no end, and endless obstacles");
     return {window_.lo, *window_.hi};
@@ -173,7 +175,8 @@ class Search {
   ///   e.w' = e.w + k_1 (e.b_1) + k_2 (e.b_2),  s' = s + k_1 (v.b_1) + k_2 (v.b_2)
   /// have the determinant (e.b_1)(v.b_2) - (e.b_2)(v.b_1) = (e x v).N = e^2, so by Cramer's rule
   ///   e^2 k_2 = (e.b_1)(s' - s) - (v.b_1)(e.w' - e.w), here times v^2.
-  /// And (h_1.w')^2 v^2 <= h_1^2 H, for h_1.v = 0; h_1.b_1 = 0 and h_1.b_2 = N.v. Not both of e and N.v are 0.
+  /// A second bound is (h_1.w')^2 v^2 <= h_1^2 H, which holds because h_1.v = 0; h_1.b_1 = 0 and
+  /// h_1.b_2 = N.v. At least one of e and N.v is not 0.
   TimeRange rows_in_plane(const ZVec3& w, const ZVec3& normal, const ZVec3& e) const {
     const Z along = dot(normal, view_.v), e2 = dot(e, e);
     std::optional<TimeRange> k2;
@@ -203,7 +206,7 @@ class Search {
       search_row(s0 + k * s2_, h01 + k * h12_, c0 + k * (2 * h02 + k * h22_), k, k3);
   }
 
-  /// The obstacles at w + k_1 b_1, with s0 = v.w, b = h.h_1 and c = |h|^2 - r^2 v^2, which are met iff
+  /// The obstacles at w + k_1 b_1, with s0 = v.w, b = h.h_1 and c = |h|^2 - r^2 v^2. They are met iff
   /// h_1^2 k_1^2 + 2 b k_1 + c < 0.
   void search_row(const Z& s0, const Z& b, const Z& c, const Z& k2, const Z& k3) {
     const TimeRange k = obstacles_in_row(s0, b, c);
@@ -213,7 +216,8 @@ class Search {
       met_(s0 + k1 * s1_, Z(-c - k1 * (2 * b + k1 * h11_)), [&] { return combination({k1, k2, k3}, n_); });
   }
 
-  /// If b_1 is parallel to v then h_1 = 0 and b = 0, and all or none are met. h_1 and s_1 are not both 0.
+  /// If b_1 is parallel to v, then h_1 = 0 and b = 0, and all are met or none. At least one of h_1 and s_1 is
+  /// not 0.
   TimeRange obstacles_in_row(const Z& s0, const Z& b, const Z& c) const {
     const TimeRange none{1, 0};
     if (view_.rank == 0) return c < 0 && window_.contains(s0) ? TimeRange{0, 0} : none;
@@ -244,7 +248,7 @@ struct End {
     constexpr long kMost = WindowEnd::kMostExponent;
     if (end.exponent > kMost || end.exponent < -kMost)
       refute("an end has an exponent beyond " + std::to_string(kMost));
-    constexpr std::size_t kDecimals = kLongestText * 5 / 4;  // of as many hexadecimal digits
+    constexpr std::size_t kDecimals = kLongestText * 5 / 4;  // for as many hexadecimal digits
     n = shifted_left(read_integer(end.mantissa, kDecimals),
                      static_cast<unsigned long>(std::max(end.exponent, 0L)));
     bits = static_cast<unsigned long>(std::max(-end.exponent, 0L));
@@ -255,7 +259,7 @@ struct End {
   }
 };
 
-/// How far an atom's windows, in the order in which they are listed, leave no gap.
+/// How far an atom's windows, in the order in which they are listed, cover the flight without a gap.
 class Coverage {
  public:
   /// T = n / 2^bits <= -r/|v| iff n v^2 <= -2^bits r |v|.
@@ -269,14 +273,14 @@ class Coverage {
     if (to && (!reached_ || *to > *reached_)) reached_ = to;
   }
 
-  /// Rows stand alone: no windows beside them.
+  /// Rows cover the flight by themselves; no windows may stand beside them.
   void add_rows() {
     if (endless_ || reached_) refute("the atom has other rows, or windows");
     endless_ = true;
   }
 
-  /// T >= t + r/|v| for the time t = (s - sqrt(d)) / q, times q: n v^2 q >= 2^bits (v^2 (s - sqrt(d)) + q r
-  /// |v|).
+  /// T >= t + r/|v| for the time t = (s - sqrt(d)) / q. Multiplied by q this is
+  ///   n v^2 q >= 2^bits (v^2 (s - sqrt(d)) + q r |v|).
   bool reaches(const CertificateView& view, const ProofTime& time) const {
     if (endless_ || !reached_) return endless_;
     const Z unit = shifted_left(1, reached_->bits), factor = unit * view.v2, other = unit * time.q;
@@ -338,7 +342,7 @@ class Check {
   }
 
  private:
-  /// A query in integers: as each atom sees it.
+  /// A query in integers, as each atom sees it.
   using Flight = std::vector<std::vector<CertificateView>>;
 
   Flight flight_of(const Query& query) const;
@@ -407,7 +411,8 @@ Obstacle Check::read_obstacle(const ObstacleId& id) const {
   }
 }
 
-/// The claim about the answer's obstacle itself: it is no `from`, and is entered at this time, or contains x.
+/// Reads the claim, and checks it for the answer's obstacle itself: the obstacle is not `from`, and it is
+/// entered at this time or contains x.
 Conclusion Check::claim_of(const Query& query, const Answer& answer, const Flight& flight) const {
   Conclusion claim{answer.outcome};
   if (query.from) claim.from = read_obstacle(*query.from);
@@ -450,7 +455,7 @@ void Check::check_window(const Conclusion& claim, const CertificateView& view, c
   }).run();
 }
 
-/// Of a row along v that is met, obstacles b_1 apart are: one has 0 <= s <= |s_1|.
+/// In a row along v the obstacles are b_1 apart, so if the row is met, one of them has 0 <= s <= |s_1|.
 void Check::check_rows(const CertificateView& view, const Rows& rows, Coverage& coverage, Budget& budget) {
   coverage.add_rows();
   const Basis basis = read_basis(rows.basis, view);
@@ -461,7 +466,7 @@ void Check::check_rows(const CertificateView& view, const Rows& rows, Coverage& 
   }).run();
 }
 
-/// All that could contradict the claim has been looked at.
+/// True if every obstacle that could contradict the claim has been looked at.
 bool Check::covered(const Conclusion& claim, const CertificateView& view, const Coverage& coverage) {
   if (claim.outcome == Outcome::never) return coverage.endless();
   return coverage.reaches(view, claim.time) ||
@@ -473,7 +478,7 @@ bool Check::covered(const Conclusion& claim, const CertificateView& view, const 
 
 struct CertificateCheck::Impl {
   Scene scene;
-  std::string flaw;  // of the scene: then there is no check
+  std::string flaw;  // of the scene; if there is one, there is no check
   std::optional<Check> check;
 };
 

@@ -12,7 +12,7 @@ namespace lorentz::oracle::certificate {
 
 int sign_of(const Z& a, const Z& c, const Z& b) {
   if (a < 0 && a * a > c) return -1;  // a + sqrt(c) < 0 <= sqrt(b)
-  // a + sqrt(c) >= 0, so the sign is that of (a + sqrt(c))^2 - b = p + 2 a sqrt(c):
+  // Here a + sqrt(c) >= 0, so the sign is that of (a + sqrt(c))^2 - b = p + 2 a sqrt(c).
   const Z p = a * a + c - b;
   const int first = sgn(p), second = sgn(a) * sgn(c);
   if (first == 0) return second;
@@ -20,12 +20,12 @@ int sign_of(const Z& a, const Z& c, const Z& b) {
   return first * sgn(Z(p * p - 4 * a * a * c));  // the larger of the two decides
 }
 
-// Times q_a q_b: (q_b s_a - q_a s_b) + sqrt(q_a^2 d_b) - sqrt(q_b^2 d_a).
+// Multiplied by q_a q_b: (q_b s_a - q_a s_b) + sqrt(q_a^2 d_b) - sqrt(q_b^2 d_a).
 int compare(const ProofTime& a, const ProofTime& b) {
   return sign_of(b.q * a.s - a.q * b.s, a.q * a.q * b.d, b.q * b.q * a.d);
 }
 
-// Times q m: 2^e m (s - sqrt(d)) - n q, and for e < 0 times 2^-e besides.
+// Multiplied by q m: 2^e m (s - sqrt(d)) - n q; for e < 0 multiplied by 2^-e as well.
 int ScaledTime::compare(const Z& n, const Z& m) const {
   const Z factor = shifted_left(m, static_cast<unsigned long>(std::max(exponent, 0L)));
   const Z other = shifted_left(n * time.q, static_cast<unsigned long>(std::max(-exponent, 0L)));
@@ -43,13 +43,14 @@ Z power_of_ten(unsigned long exponent) {
   return power(10, exponent);
 }
 
-/// digits 10^exponent as written: all digits but leading zeros count.
+/// digits 10^exponent as written: all digits except leading zeros are significant.
 struct Decimal {
   std::string digits;
   long exponent = 0;
 };
 
-/// Reads digits, perhaps a point and digits, perhaps e, a sign, and up to four digits; nothing else.
+/// Reads digits, an optional point with digits, and an optional e with a sign and up to four digits; nothing
+/// else.
 std::optional<Decimal> read_decimal(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789";
   if (text.size() > kLongestText) return std::nullopt;
@@ -83,10 +84,11 @@ std::optional<Decimal> read_decimal(std::string_view text) {
 
 }  // namespace
 
-// A binary64 is m 2^e with e >= -1074, and 2^52 <= m < 2^53 if e > -1074. What rounds to it lies between the
-// middles (2m +- 1) 2^(e-1) on the ways to its neighbours; but below m = 2^52 these lie twice as close,
-// unless e = -1074. The middles belong to it iff m is even. An infinity reads as 2^52 2^972, the next after
-// the largest number, and this is how it rounds: everything from its lower middle on.
+// A binary64 is m 2^e with e >= -1074, and 2^52 <= m < 2^53 if e > -1074. The times that round to it lie
+// between the midpoints (2m +- 1) 2^(e-1) to its neighbours. Below m = 2^52 the neighbour, and so the
+// midpoint, is twice as close, unless e = -1074. The midpoints belong to it iff m is even. An infinity reads
+// as 2^52 2^972, the next number after the largest one, and it rounds accordingly: every time from its lower
+// midpoint on belongs to it.
 bool rounds_to(const ScaledTime& exact, double given) {
   if (std::isnan(given) || std::signbit(given)) return false;
   const auto bits = std::bit_cast<std::uint64_t>(given);
@@ -100,8 +102,8 @@ bool rounds_to(const ScaledTime& exact, double given) {
   return std::isinf(given) || exact.compare_dyadic(2 * m + 1, e - 1) <= -tie;
 }
 
-// As above, with tens for twos:
-// below 100..0 the numbers of as many digits lie ten times as close, and the last of them, 99..9, is odd.
+// As above, with powers of ten. Below 100..0 the numbers of as many digits are ten times as close, and the
+// last of them, 99..9, is odd.
 bool rounds_to(const ScaledTime& exact, const std::string& text) {
   if (text == "0") return exact.compare(0, 1) == 0;
   const std::optional<Decimal> given = read_decimal(text);

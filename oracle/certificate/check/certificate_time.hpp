@@ -1,5 +1,5 @@
-// Exact times of entries for certificate_check: compared, and held against rounded ones. Shares nothing with
-// quadratic.*. Private to oracle/.
+// Exact times of entries for certificate_check: compared with each other and with rounded times. Shares
+// nothing with quadratic.*. Private to oracle/.
 #pragma once
 
 #include <string>
@@ -30,11 +30,12 @@ struct ScaledTime {
   int compare_dyadic(const Z& n, long k) const;
 };
 
-/// Does the exact time, which is not negative, round to this, to nearest, ties to even, beyond the largest to
-/// infinity?
+/// True if the exact time, which must not be negative, rounds to `given`: to nearest, ties to even, and
+/// beyond the largest binary64 to infinity.
 bool rounds_to(const ScaledTime& exact, double given);
 
-/// Are these the first significant digits of the exact time, which is not negative, rounded half to even?
+/// True if these are the first significant digits of the exact time, which must not be negative, rounded half
+/// to even.
 bool rounds_to(const ScaledTime& exact, const std::string& given);
 
 }  // namespace lorentz::oracle::certificate

@@ -1,4 +1,4 @@
-// The problem of a certificate in integers: flights as each atom sees them. Private to certificate_check.
+// The problem of a certificate in integers: a flight as each atom sees it. Private to certificate_check.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace lorentz::oracle::certificate {
 
-/// Thrown by whatever finds the proof wanting; the callers put in front where that was.
+/// Thrown by every function that finds a fault in the proof; the callers put its place in front.
 struct Refuted {
   std::string why;
 };
@@ -33,8 +33,8 @@ inline std::string name_of(int lattice, int atom, std::span<const Z> n) {
   return "obstacle (" + name_of(lattice, atom) + ", cell [" + cell + "])";
 }
 
-// ---- Integers. A planar scene is the plane z = 0 of a spatial one, its discs the equators of balls. A lattice
-// of k vectors is one of three, of whose coordinates n the first k are used.
+// ---- Integers. A planar scene is the plane z = 0 of a spatial one, and its discs are the equators of balls.
+// A lattice of k vectors is one of three vectors that uses the first k coordinates n.
 
 using ZVec3 = ZVec<3>;
 using ZMatrix = std::array<ZVec3, 3>;  // rows
@@ -43,7 +43,7 @@ inline Z determinant(const ZMatrix& m) {
   return dot(m[0], cross(m[1], m[2]));
 }
 
-/// Are the first k rows, k <= 3, linearly independent?
+/// True if the first k rows, k <= 3, are linearly independent.
 inline bool independent(const ZMatrix& m, int k) {
   if (k == 0) return true;
   if (k == 3) return determinant(m) != 0;
@@ -75,7 +75,7 @@ inline ZVec3 shifted(ZVec3 a, unsigned long bits) {
 
 // ---- The problem in integers
 
-/// Times 2^-exponent.
+/// The vector times 2^-exponent.
 inline ZVec3 scaled_vec(const Vec& a, long exponent) {
   return {scaled(a[0], exponent), scaled(a[1], exponent), scaled(a[2], exponent)};
 }
@@ -84,9 +84,9 @@ inline void see(CommonExponent& exponent, const Vec& a) {
   for (const double component : a) exponent.see(component);
 }
 
-/// An atom and its lattice in the atom's own coordinates, lengths in units of 2^exponent. For an ellipsoid {
-/// p + A y : |y| < 1 } these are multiplied by adj(A), which makes a ball of the radius |det(A)| of it; A in
-/// units of 2^axes, and in the plane with (0, 0, 1) as the third semiaxis.
+/// An atom and its lattice in the atom's own coordinates, with lengths in units of 2^exponent. For an
+/// ellipsoid { p + A y : |y| < 1 } they are multiplied by adj(A), which maps it to a ball of radius |det(A)|.
+/// A is in units of 2^axes, and in the plane its third semiaxis is (0, 0, 1).
 struct Body {
   int rank;
   std::optional<ZMatrix> to_ball;
@@ -118,8 +118,8 @@ struct Body {
 
   ZVec3 in_own_coordinates(const ZVec3& a) const { return to_ball ? *to_ball * a : a; }
 
-  /// What in_own_coordinates has to be multiplied with, and r, where all numbers are in units of 2^unit, in
-  /// bits.
+  /// Numbers of bits by which in_own_coordinates and r must be shifted left if all numbers are in units of
+  /// 2^unit.
   unsigned long bits_of_coordinates(long unit) const {
     return to_ball ? (dimension_ - 1) * static_cast<unsigned long>(axes - unit) : 0;
   }
@@ -134,8 +134,8 @@ struct Body {
 /// A flight as an atom sees it.
 struct CertificateView {
   int lattice, atom, rank;
-  ZMatrix u;  // the lattice
-  ZVec3 w0;   // the obstacle of cell 0, seen from the start
+  ZMatrix u;  // vectors of the lattice
+  ZVec3 w0;   // the obstacle of cell 0, relative to the start
   ZVec3 v;
   Z v2, rho2;  // v^2, r^2 v^2
 
@@ -145,7 +145,7 @@ struct CertificateView {
   }
 };
 
-/// A certificate's basis: the rows in coordinates n, and as they stand in the atom's coordinates.
+/// A certificate's basis: its rows in coordinates n, and in the atom's coordinates.
 struct Basis {
   ZMatrix n, b;
 };
@@ -156,7 +156,7 @@ inline Z read_integer(const Integer& a, std::size_t longest = kLongestText) {
   return to_z(a);
 }
 
-/// `rank` coordinates.
+/// Reads `rank` coordinates.
 inline ZVec3 read_cell(const Cell& cell, int rank) {
   ZVec3 n;
   for (int i = 0; i < 3; ++i) {
@@ -167,7 +167,7 @@ inline ZVec3 read_cell(const Cell& cell, int rank) {
   return n;
 }
 
-/// Its first `rank` rows, completed.
+/// Reads the first `rank` rows and completes them.
 inline Basis read_basis(const CertificateBasis& given, const CertificateView& view) {
   Basis basis{{ZVec3{1, 0, 0}, ZVec3{0, 1, 0}, ZVec3{0, 0, 1}}, {}};
   for (int i = 0; i < 3; ++i)

@@ -31,7 +31,8 @@ Vec gradient(const Atom& atom, int dimension, const Vec& a) {
   return sum;
 }
 
-// The length of a vector of any size. Standard libraries' hypot differ in the last bit; this is GCC's.
+// The length of a vector of any size. The hypot of standard libraries differs in the last bit; this one is
+// GCC's.
 double length_of_any(const Vec& a) {
   const double largest = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
   return largest > 0 ? largest * length({a[0] / largest, a[1] / largest, a[2] / largest}) : largest;

@@ -1,6 +1,6 @@
-// Numbers of twice the precision of a binary64, unevaluated sums hi + lo with |lo| <= ulp(hi)/2: one, or one
-// in each lane. The text of double_double.hpp, and of the batch engine once for each set of instructions:
-// Arch has the numbers, and the error of their product.
+// Numbers with twice the precision of binary64: unevaluated sums hi + lo with |lo| <= ulp(hi)/2, one number
+// or one per lane. Included by double_double.hpp, and by the batch engine once for each set of instructions.
+// Arch supplies the number type and the error of a product.
 //
 // The algorithms and their bounds are those of Joldes, Muller, Popescu, "Tight and rigorous error bounds for
 // basic building blocks of double-word arithmetic", ACM TOMS 44 (2017), and, for the square root, of Lefevre,
@@ -11,12 +11,12 @@ struct DoubleDouble {
   using Number = typename Arch::Number;
   using Mask = typename Arch::Mask;
 
-  Number hi, lo;  // like a double, not set unless said so
+  Number hi, lo;  // not initialised by default, like a double
 
   DoubleDouble() = default;
   LORENTZ_INLINE DoubleDouble(Number value) : hi(value), lo(all(0)) {}
   LORENTZ_INLINE DoubleDouble(Number high, Number low) : hi(high), lo(low) {}
-  /// The same in every lane.
+  /// The same number in every lane.
   template <class Other>
   LORENTZ_INLINE explicit DoubleDouble(const lorentz::DoubleDouble<Other>& same)
       : hi(all(same.hi)), lo(all(same.lo)) {}
@@ -69,7 +69,7 @@ struct DoubleDouble {
     return ordered_sum(quotient, ((x.hi - r.hi) + (x.lo - r.lo)) / y.hi);
   }
 
-  /// Of a number >= 0; 0 of others. Relative error at most 25/8 u^2.
+  /// The square root of a number >= 0; 0 for other numbers. Relative error at most 25/8 u^2.
   friend LORENTZ_INLINE DoubleDouble sqrt(DoubleDouble x) {
     const Mask above = x.hi > all(0);
     if (nowhere(above)) return all(0);
@@ -85,8 +85,8 @@ struct DoubleDouble {
   LORENTZ_INLINE Number value() const { return hi + lo; }
 };
 
-/// sum + a b, with a and b exact or with small low parts: in fewer operations than the operators, with an
-/// absolute error of at most 4 u^2 (|sum| + |a b|).
+/// sum + a b, where a and b are exact or have small low parts: in fewer operations than the operators take,
+/// with an absolute error of at most 4 u^2 (|sum| + |a b|).
 template <class Arch>
 LORENTZ_INLINE DoubleDouble<Arch> add_product(DoubleDouble<Arch> sum, DoubleDouble<Arch> a,
                                               typename Arch::Number b) {
@@ -95,7 +95,7 @@ LORENTZ_INLINE DoubleDouble<Arch> add_product(DoubleDouble<Arch> sum, DoubleDoub
   return DD::ordered_sum(s.hi, s.lo + (sum.lo + (p.lo + a.lo * b)));
 }
 
-/// a b alone: what add_product makes of a sum of zero.
+/// a b: the result of add_product for a sum of zero.
 template <class Arch>
 LORENTZ_INLINE DoubleDouble<Arch> first_product(DoubleDouble<Arch> a, typename Arch::Number b) {
   using DD = DoubleDouble<Arch>;

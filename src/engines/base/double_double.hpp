@@ -1,4 +1,4 @@
-// Numbers of twice the precision of a binary64, one at a time.
+// Numbers with twice the precision of binary64, one at a time.
 #pragma once
 
 #include "src/engines/base/numbers.hpp"
@@ -9,7 +9,7 @@ namespace lorentz {
 #include "src/engines/base/double_double-inl.hpp"
 #undef LORENTZ_INLINE
 
-/// For what need not be fast.
+/// For code that need not be fast.
 using Wide = DoubleDouble<SplitProduct>;
 
 }  // namespace lorentz

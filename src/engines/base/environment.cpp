@@ -8,9 +8,9 @@
 
 namespace lorentz {
 
-// A vector, turned: GCC's vectorizer makes fused operations of such pairs of a difference and a sum, whatever
-// -ffp-contract says. (Not in a nameless namespace: there it would see what comes in, and leave vectors
-// alone.)
+// Rotates a vector. GCC's vectorizer turns such pairs of a difference and a sum into fused operations,
+// whatever -ffp-contract says. (Not in an unnamed namespace: there the compiler would see the arguments, and
+// would not vectorize.)
 namespace environment {
 [[gnu::noinline]] Vec turned(double cosine, double sine, const Vec& a) {
   return {cosine * a[0] - sine * a[1], cosine * a[1] + sine * a[0], 0};
@@ -19,11 +19,12 @@ namespace environment {
 
 namespace {
 
-// What only the running program may know: through these the compiler computes nothing beforehand, nor in
-// another mode than is set.
+// Values that only the running program may know, so that the compiler computes nothing in advance, nor in
+// another mode than the one that is set.
 using Number = volatile double;
 
-// By what sums come to: what is set is not what counts. Of 1 + 2^-54 and the like the nearest is 1.
+// Tells the mode from the results of sums, because the setting itself is not what counts. Rounded to nearest,
+// 1 + 2^-54 and the like give 1.
 std::string rounding_found() {
   Number one = 1, little = 0x1p-54;
   const double above = one + little, minus_above = -one - little, below = one - little / 2;
@@ -52,7 +53,8 @@ ArithmeticCheck subnormal_operands() {
   return {"subnormal operands", kept, kept ? "kept" : "taken for zero", "kept"};
 }
 
-// The same sum, rounded on its way through memory: in a wider register it would keep more.
+// Compares a sum with the same sum rounded on its way through memory. In a wider register the first keeps
+// more digits.
 ArithmeticCheck excess_precision() {
   Number large = 0x1p53, one = 1, sum = large + one;
   const bool none = (large + one) - large == sum - large && FLT_EVAL_METHOD == 0;

@@ -1,6 +1,6 @@
-// The error of a product, exactly: by one fused multiply-add where the processor has it, by splitting the
-// factors where it has not. Both give the same bits, so code written against either gives the same answers;
-// it is compiled once for each (reduction/kernels_*.cpp) and chosen when the program starts.
+// The exact error of a product: by one fused multiply-add if the processor has the instruction, otherwise by
+// splitting the factors. Both give the same bits, so code written against either gives the same answers. It
+// is compiled once for each (reduction/kernels_*.cpp), and the version is chosen when an engine is made.
 #pragma once
 
 #include <cfloat>
@@ -11,16 +11,16 @@
     "lorentz computes in plain binary64: compile it without -ffast-math, and for 32-bit x86 with -msse2 -mfpmath=sse"
 #endif
 
-// A function that is inlined as a whole into one for one kind of processor, so that an fma is one instruction
-// or none. (Not under the sanitizers, whose checks make such a function a matter of minutes to compile.)
+// Inlines everything that a function calls into it, for one kind of processor, so that an fma is one
+// instruction or none. (Not under the sanitizers, whose checks make such a function take minutes to compile.)
 #if defined(__SANITIZE_ADDRESS__)
 #define LORENTZ_FLATTEN
 #else
 #define LORENTZ_FLATTEN gnu::flatten
 #endif
 
-// The one for processors that have it: x86 has to be told; others have it or not as long as they are
-// themselves.
+// Marks a function for processors with the instruction. x86 has to be told; on other processors the
+// compiler's target already says whether the instruction exists.
 #if defined(__x86_64__)
 #define LORENTZ_WITH_FMA gnu::target("fma"), LORENTZ_FLATTEN
 #else
@@ -31,7 +31,8 @@ namespace lorentz {
 
 struct SplitProduct;
 
-/// What an Arch computes with, here one flight's numbers (src/engines/batch/lanes-inl.hpp has those of many).
+/// The types with which an Arch computes: here the numbers of one flight. src/engines/batch/lanes-inl.hpp has
+/// those of many.
 struct OneNumber {
   using Number = double;
   using Mask = bool;
@@ -39,12 +40,12 @@ struct OneNumber {
   static constexpr bool kOne = true;
 };
 
-/// a * b = p + product_error(a, b, p) exactly, where p is the rounded product; required of the caller is that
-/// nothing overflows and that |p| >= 2^-960 or p = 0, so that the error is a binary64.
+/// a * b = p + product_error(a, b, p) exactly, where p is the rounded product. Requires that nothing
+/// overflows and that |p| >= 2^-960 or p = 0, so that the error is a binary64.
 struct HardwareFma : OneNumber {
   static double product_error(double a, double b, double p) { return __builtin_fma(a, b, -p); }
 
-  /// a - k b, required to be a binary64: then it is exact.
+  /// a - k b, exactly. Requires that the result is a binary64.
   static double remainder(double a, double k, double b) { return __builtin_fma(-k, b, a); }
 };
 

@@ -1,5 +1,5 @@
-// The words in which the text that serves one flight and many is written (files *-inl.hpp), for one: a number
-// is a double, a mask a bool. src/engines/batch/lanes-inl.hpp has them for the lanes of a vector.
+// The operations in terms of which the shared code (files *-inl.hpp) is written, for one flight: a number is
+// a double, a mask a bool. src/engines/batch/lanes-inl.hpp has them for the lanes of a vector.
 #pragma once
 
 #include <bit>
@@ -34,7 +34,8 @@ inline double where(bool m, double a) {  ///< a, or zero
 inline void exchange(bool m, double& a, double& b) {
   if (m) std::swap(a, b);
 }
-/// The root, or up to 1.07 times it, by halving the exponent: for bounds, without the time that a root takes.
+/// The square root, or up to 1.07 times it, by halving the exponent. For bounds, where the time of a root is
+/// not worth it.
 inline double root_above(double a) {
   const auto bits = std::bit_cast<std::uint64_t>(a);
   return a < HUGE_VAL ? std::bit_cast<double>((bits >> 1) + (std::uint64_t{1023} << 51)) : a;

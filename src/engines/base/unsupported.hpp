@@ -1,4 +1,4 @@
-// The engine of a scene that is beyond the one that was asked for.
+// The engine for a scene that the requested engine does not support.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace lorentz {
 
-/// Answers every valid query with `unsupported`, and why.
+/// Answers every valid query with `unsupported` and the reason.
 class Unsupported final : public Engine {
  public:
   Unsupported(const Scene& scene, std::string why) : Engine(scene), why_(std::move(why)) {}

@@ -1,5 +1,5 @@
-// Short bases of a 3D lattice as seen along the velocities, in lanes: src/engines/reduction/reduce_3d.hpp,
-// basis_3d.hpp, direction_3d.hpp. Private to the batch engine.
+// Short bases of a 3D lattice as seen along the velocities, in lanes, as in
+// src/engines/reduction/reduce_3d.hpp, basis_3d.hpp and direction_3d.hpp. Private to the batch engine.
 #if defined(LORENTZ_BATCH_BASIS_3D_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_BASIS_3D_INL_HPP
 #undef LORENTZ_BATCH_BASIS_3D_INL_HPP
@@ -17,14 +17,14 @@ namespace {
 using Arm3 = ArmOf3<LaneFma>;
 using Basis3 = BasisOf3<LaneFma>;
 
-/// But for what is computed anew after any exchange.
+/// Exchanges everything except what is computed anew after any exchange.
 HWY_INLINE void exchange(M m, Arm3& a, Arm3& b) {
   for (int i = 0; i < 3; ++i) exchange(m, a.n[i], b.n[i]);
   exchange(m, a.p[0], b.p[0]), exchange(m, a.p[1], b.p[1]), exchange(m, a.z, b.z);
 }
 
-/// GreedyReduction: Lagrange's step for the two shorter vectors, then the longest by the nearest point of
-/// their plane; lanes that are done wait.
+/// GreedyReduction of reduce_3d.hpp, in lanes: the two shorter vectors by Lagrange's step, then the longest
+/// by the nearest point of their plane. Lanes that are done wait for the others.
 class GreedyReduction {
  public:
   HWY_INLINE explicit GreedyReduction(const Basis3& basis)
@@ -52,7 +52,7 @@ class GreedyReduction {
   }
 
  private:
-  // Lanes that come to an end, of `todo`; the others need coordinates that are computed anew.
+  // Returns the lanes of `todo` that finish; the others need coordinates that are computed anew.
   HWY_INLINE M pass(M todo, M& fresh, double limit) {
     const V zero = none(), quotient = all(kRunningQuotient);
     for (int i = 0; i < 3; ++i) size_[i] = product(b_[i], b_[i]);
@@ -108,8 +108,8 @@ class GreedyReduction {
   V size_[3], largest_;
 };
 
-/// Short vectors, then once more from exact coefficients, in the lanes that are wanted; those in which it comes
-/// to that.
+/// Reduces the basis in the wanted lanes to short vectors, then once more from exact coefficients. Returns
+/// the lanes in which this succeeds.
 template <class Arch, class Frame>
 HWY_INLINE M reduce_basis(const Frame& frame, Basis3& basis, M wanted) {
   GreedyReduction reduction(basis);

@@ -21,7 +21,7 @@ StretchKernels kernels_named(std::string_view instructions) {
   throw UnsupportedError("this processor has no vector instructions " + std::string(instructions));
 }
 
-// Lengths beyond are scaled in steps, which lanes do not do.
+// Beyond this exponent lengths are scaled in several steps, which lanes do not do.
 constexpr int kMaxLaneExponent = 400;
 
 }  // namespace
@@ -38,7 +38,7 @@ struct Batch::Inside {
     if (std::abs(prepared.exponent) > kMaxLaneExponent) kernel = nullptr;
   }
 
-  /// Returns how many were left to single flights.
+  /// Returns the number of queries left to single flights.
   std::size_t fly(const QueryColumns& queries, const FlightColumns& flights, Time time) const;
 
  private:
@@ -53,7 +53,8 @@ bool Batch::Inside::has_atom(int lattice, int atom) const {
          atom < static_cast<int>(scene.lattices[lattice].atoms.size());
 }
 
-// The caller's columns, if they are of whole vectors; else copies, whose ends are of no query.
+// Takes the caller's columns if they consist of whole vectors; otherwise copies, whose ends belong to no
+// query.
 void Batch::Inside::ask(const QueryColumns& queries, StretchBuffer& buffer, Stretch& stretch) const {
   const std::size_t n = queries.size();
   const bool whole = n % kMaxLanes == 0;
@@ -73,8 +74,8 @@ void Batch::Inside::ask(const QueryColumns& queries, StretchBuffer& buffer, Stre
   stretch.from_atom = column(queries.from_atom, buffer.from_atom);
 }
 
-// The caller's columns, if they are there and of whole vectors; else those of the buffer, to be copied by
-// `tell`.
+// Takes the caller's columns if they exist and consist of whole vectors; otherwise those of the buffer, which
+// `tell` copies to the caller's.
 void set_told(const FlightColumns& flights, std::size_t n, StretchBuffer& buffer, Stretch& stretch) {
   const bool whole = n % kMaxLanes == 0;
   const auto column = [&](const auto& given, auto* own) {
@@ -146,7 +147,7 @@ std::size_t Batch::Inside::fly(const QueryColumns& queries, const FlightColumns&
     tell(buffer, told, stretch);
     for (std::size_t i = 0; i < stretch.left_count; ++i) fly_single(asked, stretch.left_over[i], told, time);
     left += stretch.left_count;
-    // Lanes do not see that an obstacle which is left is of no atom.
+    // Lanes do not check that the obstacle that is left belongs to an atom of the scene.
     for (std::size_t i = 0; i < asked.from_lattice.size(); ++i)
       if (asked.from_lattice[i] >= 0 && !has_atom(asked.from_lattice[i], asked.from_atom[i]))
         fly_single(asked, i, told, time);
@@ -166,7 +167,7 @@ const Reduction& Batch::one_at_a_time() const {
 
 std::size_t Batch::fly(const QueryColumns& queries, const FlightColumns& flights, Time time, int jobs) const {
   if (const auto flaw = flaw_of(queries, flights, inside_->scene.dimension)) throw InputError(*flaw);
-  // Each free thread takes the next piece, which has its place in the columns, so that the order is kept.
+  // Each free thread takes the next piece. The piece has its place in the columns, so the order is kept.
   constexpr std::size_t kPiece = 16 * kStretch;
   const std::size_t pieces = (queries.size() + kPiece - 1) / kPiece;
   std::atomic<std::size_t> next = 0, left = 0;

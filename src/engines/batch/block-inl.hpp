@@ -1,4 +1,4 @@
-// One vector of queries from start to end, in lanes: src/engines/reduction/scene_flight.hpp and
+// One vector of queries from start to end, in lanes, as in src/engines/reduction/scene_flight.hpp and
 // flight_kernel.hpp. Private to the batch engine.
 #if defined(LORENTZ_BATCH_BLOCK_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_BLOCK_INL_HPP
@@ -32,8 +32,8 @@ class Block {
   using AtomStart = Start<D, kUnit, kBall>;
   static constexpr bool kTurned = kUnit && kBall;
   static constexpr std::size_t kKept = kUnit || kSingle ? 1 : 6;
-  // Of discs on the unit lattice a copy, which stays in registers: a reference costs 4 %. Elsewhere copies cost
-  // more, up to a third.
+  // For discs on the unit lattice a copy, which stays in registers: a reference costs 4 %. Elsewhere copies
+  // cost more, up to a third.
   static constexpr bool kCopied = kUnit && D == 2;
   using StartOrReference = std::conditional_t<kCopied, AtomStart, const AtomStart&>;
 
@@ -61,7 +61,7 @@ class Block {
   }
 
  private:
-  // The obstacles that contain starts: the smallest.
+  // Finds the smallest obstacle that contains each start.
   HWY_INLINE void look_inside() {
     for (std::size_t a = 0; a < scene_.atoms.size(); ++a) {
       AtomStart made;
@@ -158,7 +158,7 @@ class Block {
       lanes_.leave_unless(to.basis.usable);
   }
 
-  // As it is kept, or made again.
+  // The start as it was kept, or made again.
   HWY_INLINE StartOrReference start_of(std::size_t a, AtomStart& made) {
     if (kUnit) return starts_[0];
     if (a < kKept) return starts_[a];
@@ -166,7 +166,7 @@ class Block {
     return made;
   }
 
-  // What is left of an atom's obstacles, or null.
+  // The obstacle of this atom that each lane leaves; null if no lane leaves one.
   HWY_INLINE const Leaving<D>* find_leaving(const AtomStart& start, Leaving<D>& leaving) const {
     if (!stretch_.from_lattice) return nullptr;
     const AtomStart copy = start;
@@ -190,7 +190,7 @@ class Block {
     return leaving;
   }
 
-  // False if it is beyond what any lane names.
+  // False if the cell is beyond any that a lane can name.
   static HWY_INLINE bool set_leaving(const Stretch& stretch, const Bravais& lattice,
                                      const double (&home)[D][kMaxLanes], std::size_t lane, std::size_t q,
                                      double (&n)[D][kMaxLanes]) {
@@ -223,22 +223,22 @@ class Block {
     for (int k = 0; k < D; ++k) leaving.n[k] = there[k];
   }
 
-  // The cell in the scene's own axes.
+  // Turns the cell back to the scene's own axes.
   HWY_INLINE void set_cell(LaneEntry<D, kBall>& entry) const {
     V here[D];
     turn_.undo(entry.n, here);
     for (int k = 0; k < D; ++k) entry.n[k] = here[k];
   }
 
-  // A time limit, in the place of a hit at that time.
+  // A time limit, in place of a hit at that time.
   struct TimeLimit {
     V time;
 
     HWY_INLINE V rough_time(V& error) const { return error = none(), time; }
   };
 
-  // Lanes of `next` in which one comes before the other, a hit or a limit; those in which that is not certain
-  // are left over.
+  // Returns the lanes of `next` in which `one` comes before `other`, which is a hit or a limit. Lanes in
+  // which that is not certain are left over.
   template <class Other>
   HWY_INLINE M sooner(const LaneEntry<D, kBall>& one, const Other& other, M next) {
     const M both = And(next, found_);
@@ -250,7 +250,7 @@ class Block {
     return And(next, Or(Not(found_), yes));
   }
 
-  // Cell and time of what is found, an obstacle of atom a.
+  // Sets the cell and the time of the obstacle found, one of atom a.
   HWY_INLINE void finish(M here, std::size_t a, const LaneEntry<D, kBall>& entry) {
     AtomStart made;
     StartOrReference start = start_of(a, made);
@@ -290,8 +290,8 @@ class Block {
     return times.close(here);
   }
 
-  // Names an obstacle of atom a by its cell in the scene's primitive vectors, from its cell in the short
-  // basis.
+  // Names an obstacle of atom a by its cell in the scene's primitive vectors, computed from its cell in the
+  // short basis.
   HWY_INLINE void name(M here, std::size_t a, const AtomStart& start, const V (&n)[D]) {
     atom_ = select(here, all(static_cast<double>(a)), atom_);
     if constexpr (kSingle) return;  // there is only the cell 0
@@ -344,7 +344,7 @@ class Block {
     return all(static_cast<double>(name));
   }
 
-  // A byte a lane: one, two, or none.
+  // Stores one byte per lane: 1, 2 or 0.
   template <class T>
   static HWY_INLINE void store_twos(M one, M two, T* to) {
     static_assert(sizeof(T) == 1);
@@ -355,7 +355,7 @@ class Block {
     }
   }
 
-  // The first eight bits, each in a byte of its own.
+  // The first eight bits, each in its own byte.
   static HWY_INLINE std::uint64_t bytes_of(unsigned bits) {
     constexpr std::uint64_t kOnes = 0x0101010101010101, kEach = 0x8040201008040201;
     return ((bits & 0xff) * kOnes & kEach) + 0x7f7f7f7f7f7f7f7f >> 7 & kOnes;

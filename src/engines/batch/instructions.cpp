@@ -1,4 +1,4 @@
-// Which sets of vector instructions there are.
+// The sets of vector instructions that the program can use.
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 

@@ -1,6 +1,7 @@
-// The kernels of one kind of scenes, LORENTZ_FLY, once for each set of instructions that has a fused multiply-add, and
-// LORENTZ_KERNELS, which lists them. (Without one an exact product takes many operations: there lanes gain nothing, and
-// single flights are asked.) Each kind is a source of its own, so that none takes long to compile.
+// The kernels for one kind of scene: LORENTZ_FLY, compiled once for each set of instructions that has a fused
+// multiply-add, and LORENTZ_KERNELS, which lists them. (Without a fused multiply-add an exact product takes
+// many operations, so lanes gain nothing, and single flights are used.) Each kind is a source file of its
+// own, so that none takes long to compile.
 #include "src/engines/batch/stretch.hpp"
 
 #include <hwy/foreach_target.h>

@@ -1,4 +1,4 @@
-// The kernels of scenes of balls in plane.
+// The kernels for scenes of balls in the plane.
 #define LORENTZ_KERNELS kernels_of_balls_in_plane
 #define LORENTZ_FLY fly_any<2, true>
 #undef HWY_TARGET_INCLUDE

@@ -1,4 +1,4 @@
-// The kernels of scenes of balls in space.
+// The kernels for scenes of balls in space.
 #define LORENTZ_KERNELS kernels_of_balls_in_space
 #define LORENTZ_FLY fly_any<3, true>
 #undef HWY_TARGET_INCLUDE

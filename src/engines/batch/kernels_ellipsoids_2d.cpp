@@ -1,4 +1,4 @@
-// The kernels of scenes of ellipsoids in plane.
+// The kernels for scenes of ellipsoids in the plane.
 #define LORENTZ_KERNELS kernels_of_ellipsoids_in_plane
 #define LORENTZ_FLY fly_any<2, false>
 #undef HWY_TARGET_INCLUDE

@@ -1,4 +1,4 @@
-// The kernels of scenes of ellipsoids in space.
+// The kernels for scenes of ellipsoids in space.
 #define LORENTZ_KERNELS kernels_of_ellipsoids_in_space
 #define LORENTZ_FLY fly_any<3, false>
 #undef HWY_TARGET_INCLUDE

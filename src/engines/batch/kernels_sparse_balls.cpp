@@ -1,4 +1,4 @@
-// The kernels of scenes of balls in lattices of fewer vectors than dimensions.
+// The kernels for scenes of balls in lattices with fewer vectors than dimensions.
 #define LORENTZ_KERNELS kernels_of_sparse_balls
 #define LORENTZ_FLY fly_sparse
 #undef HWY_TARGET_INCLUDE

@@ -1,12 +1,13 @@
-// A number in each lane of a vector (V), yes or no (M), and pairs of twice the precision. Included once for
-// each set of instructions (Google Highway's foreach_target). Private to the batch engine.
+// Vectors with a number in each lane (V), masks with yes or no in each lane (M), and pairs of twice the
+// precision. Included once for each set of instructions (Google Highway's foreach_target). Private to the
+// batch engine.
 //
-// What is rarely called is a function of its own (HWY_NOINLINE), and is given copies of its arguments: the
-// compiler keeps in registers only what no function has the address of.
+// Code that rarely runs is a function of its own (HWY_NOINLINE) and gets copies of its arguments, because the
+// compiler keeps in registers only objects whose address no function has.
 //
-// The engine for one flight (src/engines/reduction) and this one share their text, files *-inl.hpp there. What
-// stands in this folder alone does, lane by lane, the operations of a single flight, one by one and in their
-// order: then the bounds of bounds.hpp hold, and both give the same bits. A branch there is a mask here.
+// The engine for one flight (src/engines/reduction) and this one share code: the files *-inl.hpp there. Code
+// that exists only in this folder does, lane by lane, the operations of a single flight, one by one and in
+// their order. So the bounds of bounds.hpp hold, and both give the same bits. A branch there is a mask here.
 #if defined(LORENTZ_BATCH_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_LANES_INL_HPP
 #undef LORENTZ_BATCH_LANES_INL_HPP
@@ -53,7 +54,7 @@ HWY_INLINE V operator-(V a) {
 HWY_INLINE V sqrt(V a) {
   return Sqrt(a);
 }
-// A constant on the left, as in the text for one flight.
+// A constant on the left, as in the code for one flight.
 HWY_INLINE V operator*(double a, V b) {
   return all(a) * b;
 }
@@ -77,7 +78,7 @@ HWY_INLINE void exchange(M m, V& a, V& b) {
   a = select(m, b, a), b = select(m, before, b);
 }
 
-/// AxesOf of src/engines/reduction/frame_3d.hpp.
+/// AxesOf of src/engines/reduction/frame_3d.hpp, in lanes.
 template <class, bool kTurned>
 class AxesOf {
  public:
@@ -106,7 +107,7 @@ class AxesOf {
   M is_c_[3];
 };
 
-/// How exact products are made here: fma.hpp.
+/// How exact products are made in lanes; fma.hpp has this for one flight.
 struct LaneFma {
   using Number = V;
   using Mask = M;
@@ -120,7 +121,7 @@ struct LaneFma {
 #define LORENTZ_INLINE HWY_INLINE
 #define LORENTZ_RARE HWY_INLINE
 #define LORENTZ_NOINLINE HWY_NOINLINE
-// Each needs those before it.
+// Each file needs those before it.
 #include "src/engines/base/double_double-inl.hpp"
 
 #include "src/engines/reduction/formulas-inl.hpp"
@@ -143,8 +144,8 @@ struct LaneFma {
 
 using Pair = DoubleDouble<LaneFma>;
 
-/// The lanes that are still flying. What is beyond lanes is left to the engine for one flight; what that would not
-/// decide either is undecided.
+/// The lanes that are still flying. Flights that lanes cannot decide are left to the engine for one flight;
+/// flights that it could not decide either are undecided.
 struct Lanes {
   M active, undecided;
 

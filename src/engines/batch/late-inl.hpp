@@ -1,4 +1,4 @@
-// Times that take long are found at the end of a stretch, when there are enough of them to fill the lanes.
+// Times that take long are computed at the end of a stretch, when there are enough of them to fill the lanes.
 // Private to the batch engine.
 #if defined(LORENTZ_BATCH_LATE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_LATE_INL_HPP
@@ -16,7 +16,8 @@ namespace lorentz {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Hits in a scene with one atom: of balls that are grazed, or whose time is not soon rounded.
+/// Hits in a scene with one atom whose time is computed late: grazed balls, and times that `soon_rounded`
+/// could not round.
 template <int D, bool kUnit, bool kBall>
 class LateTimes {
  public:

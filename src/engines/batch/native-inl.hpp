@@ -1,5 +1,5 @@
-// One of the processor's vectors, as far as the batch engine knows it. Included once for each set of
-// instructions. Private to the batch engine.
+// One of the processor's vectors, with the operations that the batch engine needs. Included once for each set
+// of instructions. Private to the batch engine.
 #if defined(LORENTZ_BATCH_NATIVE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_NATIVE_INL_HPP
 #undef LORENTZ_BATCH_NATIVE_INL_HPP
@@ -30,8 +30,8 @@ constexpr Tag kTag{};
 constexpr IntegerTag kIntegerTag{};
 constexpr std::size_t kNativeLanes = MaxLanes(Tag{});
 
-// Highway's own for AVX-512 are instructions on mask registers, one for each; as integers the compiler keeps
-// masks where they are used, and whole expressions of them cost less.
+// For AVX-512 Highway's own versions are instructions on mask registers, one for each operation. As integers,
+// masks stay where the compiler uses them, and whole expressions of them cost less.
 #if HWY_TARGET == HWY_AVX3
 HWY_INLINE NM And(NM x, NM y) {
   return {static_cast<std::uint8_t>(x.raw & y.raw)};
@@ -57,7 +57,7 @@ HWY_INLINE void store(N a, double* to) {
   StoreU(a, kTag, to);
 }
 
-/// Integers below 2^51.
+/// Requires integers below 2^51.
 HWY_INLINE void store_integers(N a, std::int64_t* to) {
   const N magic = Set(kTag, 0x1.8p52);
   StoreU(BitCast(kIntegerTag, a + magic) - BitCast(kIntegerTag, magic), kIntegerTag, to);
@@ -66,12 +66,13 @@ HWY_INLINE void store_small_integers(N a, std::int32_t* to) {
   StoreU(DemoteTo(SmallTag{}, a), SmallTag{}, to);
 }
 
-/// The lanes of m, one after the other, and what is behind them is overwritten; returns how many.
+/// Stores the lanes of m one after the other, and overwrites the memory behind them. Returns how many lanes
+/// were stored.
 HWY_INLINE std::size_t store_some(N a, NM m, double* to) {
   return CompressStore(a, m, kTag, to);
 }
 
-/// A bit a lane.
+/// One bit per lane.
 HWY_INLINE unsigned bits_of(NM m) {
   std::uint8_t bytes[8] = {};
   StoreMaskBits(kTag, m, bytes);
@@ -82,14 +83,14 @@ HWY_INLINE NM first_native(std::size_t count) {
   return FirstN(kTag, count);
 }
 
-/// numbers.hpp.
+/// As in numbers.hpp.
 HWY_INLINE N root_above(N a) {
   constexpr RebindToUnsigned<Tag> kBits{};
   const auto halved = ShiftRight<1>(BitCast(kBits, a)) + Set(kBits, std::uint64_t{1023} << 51);
   return IfThenElse(a < Set(kTag, HUGE_VAL), BitCast(kTag, halved), a);
 }
 
-/// 2^-e of a normal number of exponent e.
+/// 2^-e for a normal number of exponent e.
 HWY_INLINE N inverse_power_of(N a) {
   return BitCast(kTag, ShiftLeft<52>(Set(kIntegerTag, 2046) - ShiftRight<52>(BitCast(kIntegerTag, a))));
 }

@@ -1,5 +1,5 @@
-// The search for the first obstacles in 2D, in lanes: src/engines/reduction/search_2d.hpp. Private to the
-// batch engine.
+// The search for the first obstacles in 2D, in lanes, as in src/engines/reduction/search_2d.hpp. Private to
+// the batch engine.
 #if defined(LORENTZ_BATCH_SEARCH_2D_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_SEARCH_2D_INL_HPP
 #undef LORENTZ_BATCH_SEARCH_2D_INL_HPP
@@ -14,7 +14,7 @@ namespace lorentz {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// The first obstacles of one atom, one start a lane.
+/// The first obstacles of one atom, with one start per lane.
 template <bool kUnit, bool kBall>
 class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
   using Rows = RowsOf2<LaneFma, LaneFma, kUnit, kBall>;
@@ -24,15 +24,16 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
  public:
   using Direction = Direction2<LaneFma, kUnit, kBall>;
 
-  /// `start` and `leaving`, which may be null: turned as the direction is.
+  /// `start` and `leaving` are turned as the direction is; `leaving` may be null.
   HWY_INLINE Search2(const Direction& to, const Bravais& lattice, const Offset<LaneFma, 2>& start,
                      const Leaving<2>* leaving, V s_limit)
       : Rows(to, lattice, start), leaving_(leaving), s_limit_(s_limit) {}
 
-  LaneEntry<2, kBall> found;  ///< of the lanes in which something is met: found.s is finite
+  LaneEntry<2, kBall> found;  ///< for the lanes that meet an obstacle: there found.s is finite
   M stage2;                   ///< the lanes in which double-double decided something
 
-  /// Of the lanes that are active. Row by row, and in a row ball by ball: each turn looks at one ball a lane.
+  /// Searches in the active lanes, row by row and in each row ball by ball. Each turn looks at one ball per
+  /// lane.
   HWY_INLINE void run(Lanes& lanes) {
     lanes.active = this->set_anchor(lanes.active);
     stage2 = no_lane();
@@ -47,7 +48,7 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
   }
 
  private:
-  // So that in no row more balls are looked at than a single flight looks at.
+  // The limit of a single flight, so that no row is searched for more balls.
   static constexpr int kMaxTurns = kMaxCandidatesInRow;
 
   HWY_INLINE void start_rows(Lanes& lanes) {
@@ -66,7 +67,7 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
     in_order_ = this->are_in_order();
   }
 
-  // The lanes of `next` begin row n_, at the m at which it enters the strip.
+  // The lanes of `next` begin row n_, at the m where the row enters the strip.
   HWY_INLINE void begin_rows(Lanes& lanes, M& scanning, M next) {
     const V last = select(to_.rises, last_ + Min(found.s, s_limit_) * slope_, last_);
     scanning = AndNot(And(next, Not(n_ <= last)), scanning);
@@ -83,7 +84,7 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
     scanning = AndNot(unknown, scanning), next = AndNot(unknown, next);
   }
 
-  // Copies, for what binary64 cannot tell.
+  // Copies, for decisions that binary64 cannot make.
   struct Rare {
     Direction to;
     Offset<LaneFma, 2> start;
@@ -111,7 +112,7 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
     return Search2(rare.to, lattice, rare.start, nullptr, none()).look_closely(N);
   }
 
-  // The ball at n_ R + m_ L: look_at. What is taken or beyond ends the row.
+  // Looks at the ball n_ R + m_ L, as look_at does. A ball that is taken or beyond ends the row.
   HWY_INLINE void look(Lanes& lanes, M& scanning, M& next) {
     const V rho = to_.rho, zero = none();
     const auto ball = this->ball_at(n_, m_);
@@ -155,7 +156,7 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
     found.slack = select(take, slack, found.slack);
     found.slack_error = select(take, slack_error, found.slack_error);
     if constexpr (!kBall) found.across = select(take, to_.sigma * h * to_.shape.skew, found.across);
-    // Before the strip, behind the start, or left: on in the row.
+    // Before the strip, behind the start, or the one that is left: the row goes on.
     const M before = And(scanning, Or(left, Or(AndNot(passed, no), AndNot(no, behind))));
     m_ = m_ + all(1);
     next = AndNot(before, scanning);

@@ -1,5 +1,5 @@
-// The search for the first obstacles in 3D, in lanes: src/engines/reduction/search_3d.hpp, planes_3d.hpp,
-// lines_3d.hpp, candidates_3d.hpp. Private to the batch engine.
+// The search for the first obstacles in 3D, in lanes, as in src/engines/reduction/search_3d.hpp,
+// planes_3d.hpp, lines_3d.hpp and candidates_3d.hpp. Private to the batch engine.
 #if defined(LORENTZ_BATCH_SEARCH_3D_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_SEARCH_3D_INL_HPP
 #undef LORENTZ_BATCH_SEARCH_3D_INL_HPP
@@ -23,7 +23,7 @@ HWY_INLINE void take(M m, const Point3& other, Point3& point) {
   point.size = select(m, other.size, point.size), point.extent = select(m, other.extent, point.extent);
 }
 
-/// A stretch of the flights, and the lattice points near their middles from which all others are counted.
+/// A stretch of each flight, and the lattice point near its middle from which all others are counted.
 template <bool kUnit, bool kBall>
 class Window3 : public WindowOf3<LaneFma, LaneFma, kUnit, kBall> {
   using Base = WindowOf3<LaneFma, LaneFma, kUnit, kBall>;
@@ -43,7 +43,7 @@ class Window3 : public WindowOf3<LaneFma, LaneFma, kUnit, kBall> {
     lanes.leave_unless(this->set_errors(anchor));
   }
 
-  /// The window from here on, by a basis that suits its length.
+  /// Makes the window longer from here on, with a basis that suits its length.
   HWY_INLINE void lengthen(Lanes& lanes) {
     Base::lengthen(select(lanes.active, all(kLonger), all(1)), lanes.active);
     lanes.leave_unless(basis->usable);
@@ -83,8 +83,8 @@ class Window3 : public WindowOf3<LaneFma, LaneFma, kUnit, kBall> {
     if (any(wide)) move_exactly(k, before, wide, lanes);
   }
 
-  // Large terms that cancel, among tiny balls; of what does not cancel a single flight keeps the low parts
-  // too.
+  // For large terms that cancel, among tiny balls. Lanes in which they do not cancel are left over; there a
+  // single flight keeps the low parts, too.
   HWY_INLINE void move_exactly(const V (&k)[3], const V (&before)[3], M wide, Lanes& lanes) {
     for (int j = 0; j < 3; ++j) {
       Pair sum = Pair(before[j]);
@@ -101,14 +101,14 @@ class Search3 {
  public:
   using Direction = Direction3<kUnit, kBall>;
 
-  /// As of Search2.
+  /// Parameters as for Search2.
   HWY_INLINE Search3(const Direction& to, const Bravais& lattice, const Offset<LaneFma, 3>& start,
                      const Leaving<3>* leaving, V s_limit)
       : to_(to), window_(lattice, to, start), leaving_(leaving), s_limit_(s_limit) {}
 
-  LaneEntry<3, kBall> found;  ///< of the lanes in which something is met: found.s is finite
+  LaneEntry<3, kBall> found;  ///< for the lanes that meet an obstacle: there found.s is finite
 
-  /// Of the lanes that are active.
+  /// Searches in the active lanes.
   HWY_INLINE void run(Lanes& lanes) {
     found.s = infinite();
     found.s_error = found.slack = found.slack_error = none();
@@ -134,10 +134,10 @@ class Search3 {
   }
 
  private:
-  // From here on few lanes are left with something to find.
+  // After this number of windows few lanes still have something to find.
   static constexpr int kMaxWindowsInLanes = 4;
 
-  // The planes that meet the window, and their lines; each turn looks at one line a lane.
+  // Scans the planes that meet the window, and their lines. Each turn looks at one line per lane.
   HWY_INLINE void scan_window(Lanes& lanes) {
     const V zero = none(), one = all(1);
     V low, high;
@@ -166,7 +166,7 @@ class Search3 {
     }
   }
 
-  // The next plane of these lanes: which of its lines meet the flight's cylinder.
+  // Begins the next plane of these lanes: finds which of its lines meet the flight's cylinder.
   HWY_INLINE void begin_plane(M next, Lanes& lanes) {
     const V one = all(1);
     const Point3 point = window_.anchor_point.step(plane_k_, window_.basis->b[2]);
@@ -185,7 +185,7 @@ class Search3 {
     take(met, point, plane_);
   }
 
-  // Line line_k_ of the plane.
+  // Scans line line_k_ of the plane.
   HWY_INLINE void scan_line(M line_is_wanted, Lanes& lanes) {
     const V one = all(1);
     const Arm3& arm = window_.basis->b[0];
@@ -209,7 +209,7 @@ class Search3 {
     }
   }
 
-  // Is this ball met, and the first so far? Lanes for which nothing more on its line is wanted.
+  // Is this ball met, and is it the first so far? Returns the lanes that need nothing more on this line.
   HWY_INLINE M look_at(const Point3& point, M looking, Lanes& lanes) {
     V margin, spread, s, s_error;
     window_.set_across(point, margin, spread);
@@ -239,8 +239,8 @@ class Search3 {
     return Or(beyond, take);
   }
 
-  // Lanes that are at the end, with nothing found. On the lines of some lattices what is met repeats itself,
-  // which a single flight knows.
+  // Returns the lanes that are at the end with nothing found. Where a lattice vector is parallel to the
+  // flight, the obstacles on the line repeat; such lanes are left over, because a single flight can tell.
   HWY_INLINE M ends(Lanes& lanes) const {
     const M at_end = And(window_.begin > s_limit_, lanes.active);
     M beyond = Not(window_.begin < all(kFarthest));

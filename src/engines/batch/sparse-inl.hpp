@@ -1,4 +1,4 @@
-// Balls of lattices with fewer vectors than dimensions on the lines of flight, in lanes:
+// The search for balls of lattices with fewer vectors than dimensions, in lanes, as in
 // src/engines/reduction/sparse_search.hpp. Private to the batch engine.
 #if defined(LORENTZ_BATCH_SPARSE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_SPARSE_INL_HPP
@@ -25,28 +25,28 @@ struct LaneDirection {
   }
 };
 
-/// A ball in double-double: what is rare gets copies.
+/// Looks at a ball in double-double. Rare code gets copies of its arguments.
 template <int D>
 HWY_NOINLINE CloseLook<LaneFma> look_at_close(LaneDirection<D> to, const Bravais& ball,
                                               Offset<LaneFma, D> at) {
   return CloseLook<LaneFma>(StableMeeting<LaneFma, D, true>(to.v, at.d, at.error, ball));
 }
 
-/// As Search2 and Search3: in binary64, and in double-double where that is not certain. kSingle: no lattice has
-/// a vector.
+/// Like Search2 and Search3: in binary64, and in double-double where binary64 is not certain. kSingle: no
+/// lattice has a vector.
 template <int D, bool kSingle>
 class SparseSearch {
  public:
   using Direction = LaneDirection<D>;
 
-  LaneEntry<D, true> found;  ///< of the lanes in which it is met: found.s is finite
+  LaneEntry<D, true> found;  ///< for the lanes that meet a ball: there found.s is finite
   M stage2;
 
   HWY_INLINE SparseSearch(const Direction& to, const Bravais& balls, const Offset<LaneFma, D>& start,
                           const Leaving<D>* leaving, V)
       : to_(to), balls_(balls), start_(start), leaving_(leaving) {}
 
-  /// Of the lanes that are active.
+  /// Searches in the active lanes.
   HWY_INLINE void run(Lanes& lanes) {
     stage2 = no_lane();
     found.v2 = to_.v2;
@@ -76,7 +76,8 @@ class SparseSearch {
     }
   }
 
-  // Rows parallel to the line, and more rows than a few, are left to single flights.
+  // Rows parallel to the line are left to single flights, and so are layers with more than a few rows near
+  // the line.
   HWY_INLINE void scan(Lanes& lanes) {
     if constexpr (D == 3)
       if (balls_.rank == 2) shorten_across<LaneFma>(to_.v, rows_);
@@ -95,7 +96,7 @@ class SparseSearch {
     }
   }
 
-  // The first ball of row k that is met ahead, if it comes before the best so far.
+  // Takes the first ball of row k that is met ahead, if it comes before the best so far.
   HWY_INLINE void scan_row(const Row& along, V k, M wanted, Lanes& lanes) {
     Vector start = start_seen_;
     start.add(k, rows_[1].seen);
@@ -117,7 +118,7 @@ class SparseSearch {
     lanes.leave(going);
   }
 
-  // The ball n of row k.
+  // Looks at ball n of row k.
   HWY_INLINE M look_at(V n, V k, M wanted, Lanes& lanes) {
     V N[D];
     for (int i = 0; i < D; ++i) N[i] = none();
@@ -131,7 +132,8 @@ class SparseSearch {
     return look(N, d, error, And(wanted, lanes.active), lanes);
   }
 
-  // The ball of cell N, at d: where it is met ahead. It is taken if it comes before the best so far.
+  // Looks at the ball of cell N, at d. Returns the lanes that meet it ahead. It is taken where it comes
+  // before the best so far.
   HWY_INLINE M look(const V (&N)[D], const Pair (&d)[D], V error, M wanted, Lanes& lanes) {
     M asked = wanted;
     if (leaving_ != nullptr) {

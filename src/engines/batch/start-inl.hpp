@@ -1,4 +1,4 @@
-// Where one atom's lattice lies as seen from the starts, in lanes: src/engines/reduction/offset.hpp and
+// Where one atom's lattice lies as seen from the starts, in lanes, as in src/engines/reduction/offset.hpp and
 // atom_start.hpp. Private to the batch engine.
 #if defined(LORENTZ_BATCH_START_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_START_INL_HPP
@@ -14,21 +14,21 @@ namespace lorentz {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// An obstacle's cell, from the home cell in the short basis, of the lanes that leave one.
+/// The cell of the obstacle that each lane of `any` leaves, relative to the home cell, in the short basis.
 template <int D>
 struct Leaving {
   M any;
   V n[D];
 };
 
-/// A start as one atom's lattice sees it.
+/// A start relative to one atom's lattice.
 template <int D, bool kUnit, bool kBall>
 struct Start : Offset<LaneFma, D> {
   using Offset<LaneFma, D>::d, Offset<LaneFma, D>::home, Offset<LaneFma, D>::error;
 
   const Bravais* lattice;
 
-  /// Of starts in the scene's own lengths.
+  /// Sets it for starts x in the scene's own lengths.
   HWY_INLINE void set(const PreparedScene& scene, const Bravais& of_lattice, const V (&x)[D], Lanes& lanes) {
     lattice = &of_lattice;
     V scaled[D];
@@ -36,9 +36,9 @@ struct Start : Offset<LaneFma, D> {
     lanes.active = set_offset<LaneFma, kUnit>(of_lattice, scaled, lanes.active, offset());
   }
 
-  /// Lanes whose start lies in the obstacle of the home cell. Left over are those for which that is not
-  /// certain, and those that may lie in an obstacle of another cell. `leaving` is ignored; if that takes a
-  /// decision which is not certain, `stage2` has it.
+  /// Returns the lanes whose start lies in the obstacle of the home cell. Lanes in which that is not certain
+  /// are left over, and so are lanes whose start may lie in an obstacle of another cell. `leaving` is
+  /// ignored; where that settles a decision that is not certain, `stage2` has it.
   HWY_INLINE M inside(const Leaving<D>* leaving, Lanes& lanes, M& stage2) const {
     if constexpr (!(kUnit && kBall))
       if (lattice->reaches_out) lanes.leave(may_be_in_others(leaving, lanes.active));
@@ -56,8 +56,8 @@ struct Start : Offset<LaneFma, D> {
     return And(AndNot(home_is_left, yes), lanes.active);
   }
 
-  /// The obstacle of the cell n, from the home cell in the short basis, as seen from x; returns the error of
-  /// each component.
+  /// The place, relative to x, of the obstacle of cell n, which is counted from the home cell in the short
+  /// basis. Returns the error of each component.
   HWY_INLINE V place(const V (&n)[D], Pair (&there)[D]) const {
     return place_of<kUnit>(*lattice, offset(), n, there);
   }
@@ -66,8 +66,9 @@ struct Start : Offset<LaneFma, D> {
   HWY_INLINE Offset<LaneFma, D>& offset() { return *this; }
   HWY_INLINE const Offset<LaneFma, D>& offset() const { return *this; }
 
-  // Lanes in which an obstacle of another cell contains x, for all that binary64 knows: up to one step along
-  // each basis vector. Where one is left, all that are near one: such starts are rare.
+  // Returns the lanes in which, as far as binary64 knows, an obstacle of another cell may contain x: up to
+  // one step along each basis vector. If any lane leaves an obstacle, returns all lanes that are near one of
+  // another cell, because such starts are rare.
   HWY_INLINE M may_be_in_others(const Leaving<D>* leaving, M asked) const {
     M near[D], any_near = no_lane(), inside = no_lane();
     V other[D];

@@ -1,4 +1,4 @@
-// A stretch of queries on its way through the lanes. Private to the batch engine.
+// A stretch of queries that passes through the lanes together. Private to the batch engine.
 #pragma once
 
 #include <cstddef>
@@ -10,35 +10,35 @@
 
 namespace lorentz {
 
-/// As many queries as leave a stretch in the first cache. Lanes take kMaxLanes at most at a time.
+/// kStretch queries fit the first-level cache. Lanes take at most kMaxLanes at a time.
 inline constexpr std::size_t kStretch = 128, kMaxLanes = 16;
 
-/// What a kernel reads and writes: columns, the caller's own or those of a StretchBuffer, that are `count`
-/// long, rounded up to whole vectors.
+/// What a kernel reads and writes: columns of length `count`, rounded up to whole vectors. They are the
+/// caller's own or those of a StretchBuffer.
 struct Stretch {
   std::size_t count = 0;
 
-  // Asked. `from_cell` is in the scene's primitive vectors.
+  // Input. `from_cell` is in the scene's primitive vectors.
   const double *x[3], *v[3];
   const double* max_time;                        ///< null: no limits
-  const std::int32_t *from_lattice, *from_atom;  ///< null: nothing is left
+  const std::int32_t *from_lattice, *from_atom;  ///< null: no query leaves an obstacle
   const std::int64_t* from_cell[3];
   bool rounded = false;  ///< which times are wanted: Reduction::Time
 
-  // Told.
+  // Output.
   double* time;
   std::int64_t* cell[3];
-  std::int32_t* atom;  ///< number in the prepared scene; of scenes with several
+  std::int32_t* atom;  ///< number in the prepared scene; for scenes with several
   Outcome* outcome;
   Stage* stage;
   bool* time_is_rounded;
 
-  /// The queries that are left to single flights; of these nothing is told.
+  /// The queries that are left to single flights. Their output has no meaning.
   int left_over[kStretch];
   std::size_t left_count = 0;
 };
 
-/// Columns for what the caller does not have, or not in whole vectors.
+/// Columns in place of those that the caller does not have, or does not have in whole vectors.
 struct StretchBuffer {
   template <class T>
   using Column = T[kStretch + kMaxLanes];
@@ -53,7 +53,7 @@ struct StretchBuffer {
 
 using StretchKernel = void (*)(const PreparedScene&, Stretch&);
 
-/// The kernels of one set of instructions; null: none, single flights are asked.
+/// The kernels for one set of instructions. Null: there is no kernel, and single flights are used.
 struct StretchKernels {
   const char* instructions;
   StretchKernel balls[2], ellipsoids[2];  ///< in the plane, in space
@@ -67,12 +67,12 @@ struct StretchKernels {
   }
 };
 
-/// Those that this processor can run, best first; the last has none.
+/// The kernels that this processor can run, best first. The last entry has none.
 std::vector<StretchKernels> stretch_kernels();
 
-/// Those of one kind of scenes, in the order of instructions: kernels-inl.hpp.
+/// The kernels for one kind of scene, in the order of the sets of instructions (kernels-inl.hpp).
 struct BuiltKernel {
-  std::int64_t target;  ///< of Highway
+  std::int64_t target;  ///< Highway's number for the set
   StretchKernel kernel;
 };
 std::vector<BuiltKernel> kernels_of_balls_in_plane(), kernels_of_balls_in_space(),

@@ -1,4 +1,4 @@
-// Columns: parts of them, and columns of one's own.
+// Parts of columns, and tables that own their columns.
 #include <lorentz/batch.hpp>
 
 namespace lorentz {
@@ -9,7 +9,7 @@ std::span<T> part_of(std::span<T> column, std::size_t begin, std::size_t length 
   return column.empty() ? column : column.subspan(begin, length);
 }
 
-// Looks at one column after the other.
+// Checks one column after the other, and keeps the first flaw.
 class ColumnCheck {
  public:
   explicit ColumnCheck(std::size_t size) : size_(size) {}

@@ -1,4 +1,4 @@
-// When the obstacles that were found are entered, in lanes: src/engines/reduction/entry_time.hpp and
+// When the obstacles found are entered, in lanes, as in src/engines/reduction/entry_time.hpp and
 // stable_meeting.hpp. Private to the batch engine.
 #if defined(LORENTZ_BATCH_TIME_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_TIME_INL_HPP
@@ -14,7 +14,8 @@ namespace lorentz {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// What a search leaves for the time, and the obstacle's cell from the home cell in the short basis.
+/// The results of a search from which the time is computed, and the obstacle's cell relative to the home
+/// cell, in the short basis.
 template <int D, bool kBall>
 struct LaneEntry : Entry<LaneFma, D, kBall> {
   V n[D];
@@ -45,7 +46,7 @@ class Times : public CloseTime<Times<D, kUnit, kBall>, LaneFma, LaneFma, D, kUni
   HWY_INLINE Times(const Start<D, kUnit, kBall>& start, const LaneEntry<D, kBall>& entry, const V (&v)[D])
       : Base(*start.lattice, start, entry.n, entry, v), start_(start), n_(entry.n) {}
 
-  /// Of balls that are not grazed: CloseTime::close with one division for what is near and what is not.
+  /// For balls that are not grazed: CloseTime::close, with one division for near and distant balls alike.
   HWY_INLINE V plain_or_near() const {
     const V q = Sqrt(entry_.slack);
     const M near = is_near(q);
@@ -60,10 +61,10 @@ class Times : public CloseTime<Times<D, kUnit, kBall>, LaneFma, LaneFma, D, kUni
     return select(near, gap_of_ball(d), s - q) / select(near, s + q, v2);
   }
   HWY_INLINE M is_grazed() const { return this->is_grazing(Sqrt(entry_.slack)); }
-  /// In double-double, for what is grazed, and whatever else is rare.
+  /// In double-double, for grazed obstacles and other rare cases.
   HWY_INLINE V rare_time() const { return rare_of(asked()); }
 
-  /// Correctly rounded, in the lanes of is_rounded: in double-double, and the bound of its error.
+  /// The time from double-double and the bound of its error, correctly rounded in the lanes of is_rounded.
   HWY_INLINE V rounded(M& is_rounded) const {
     const Wide wide = wide_of(asked());
     const V time = wide.time.hi + (wide.time.lo + wide.error);
@@ -71,9 +72,9 @@ class Times : public CloseTime<Times<D, kUnit, kBall>, LaneFma, LaneFma, D, kUni
     return time;
   }
 
-  /// The same in few operations, among small balls, in most lanes; in the others is_rounded may be true of
-  /// `rounded`. (q is computed in binary64: it errs by some of its roundoffs, which are few of those of s - q
-  /// if the obstacle is far. docs/bounds.md)
+  /// The same in few operations, for small balls. It succeeds in most lanes; in the others `rounded` may
+  /// still set is_rounded. (q is computed in binary64. It errs by a few of its own roundoffs, which are few
+  /// of those of s - q if the obstacle is far. docs/bounds.md)
   HWY_INLINE V soon_rounded(M& is_rounded) const {
     const double reach = 4 * lattice_.radius;  // rho is less
     Pair d[D];
@@ -98,7 +99,7 @@ class Times : public CloseTime<Times<D, kUnit, kBall>, LaneFma, LaneFma, D, kUni
     return time;
   }
 
-  /// Are the obstacles so small that it pays?
+  /// Are the obstacles so small that soon_rounded pays?
   HWY_INLINE bool are_soon_rounded() const { return kBall && lattice_.radius < kSoonRadius; }
 
  private:
@@ -109,7 +110,7 @@ class Times : public CloseTime<Times<D, kUnit, kBall>, LaneFma, LaneFma, D, kUni
     return none();
   }
 
-  // a . b, but for some squares of the roundoff.
+  // a . b, up to a few squares of the roundoff.
   static HWY_INLINE Pair soon_product(const V (&a)[D], const V (&b)[D]) {
     Pair sum = Pair::product(a[0], b[0]);
     for (int k = 1; k < D; ++k) {
@@ -119,7 +120,8 @@ class Times : public CloseTime<Times<D, kUnit, kBall>, LaneFma, LaneFma, D, kUni
     return sum;
   }
 
-  // In the plane from v x d, by Kahan's difference of products: the search's has the errors of large heights.
+  // In the plane the slack is computed from v x d, by Kahan's difference of products, because the slack of
+  // the search has the errors of large heights.
   HWY_INLINE V soon_slack(const Pair (&d)[D], V v2, V& error) const {
     if constexpr (D == 3) {
       error = entry_.slack_error;
@@ -151,7 +153,7 @@ class Times : public CloseTime<Times<D, kUnit, kBall>, LaneFma, LaneFma, D, kUni
 
   static HWY_NOINLINE Wide wide_of(const Asked& asked) { return measured(asked); }
 
-  // The same without the bound, which is not computed then.
+  // The same without the bound, which is then not computed.
   static HWY_NOINLINE V rare_of(const Asked& asked) { return measured(asked).time.value(); }
 
   static HWY_INLINE Wide measured(const Asked& asked) {

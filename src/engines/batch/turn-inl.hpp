@@ -42,7 +42,7 @@ struct Turn<2, true> {
 
 template <>
 struct Turn<3, true> {
-  M first[3], last[3];  ///< axis k comes first, last; else in the middle
+  M first[3], last[3];  ///< axis k comes first, or last; otherwise in the middle
   V sign[3];
 
   HWY_INLINE explicit Turn(const V (&v)[3]) : sign{sign_of(v[0]), sign_of(v[1]), sign_of(v[2])} {

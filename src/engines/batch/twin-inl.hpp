@@ -1,5 +1,5 @@
-// Two vectors as one, so that the processor works on one while the other waits for a division or a mask. Included
-// once for each set of instructions. Private to the batch engine.
+// Two vectors as one, so that the processor works on one while the other waits for a division or a mask.
+// Included once for each set of instructions. Private to the batch engine.
 #if defined(LORENTZ_BATCH_TWIN_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_TWIN_INL_HPP
 #undef LORENTZ_BATCH_TWIN_INL_HPP

@@ -1,4 +1,4 @@
-// Velocities in lanes: ScaledVelocity of engine_base.hpp. Private to the batch engine.
+// Velocities in lanes, as ScaledVelocity of engine_base.hpp for one flight. Private to the batch engine.
 #if defined(LORENTZ_BATCH_VELOCITY_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef LORENTZ_BATCH_VELOCITY_INL_HPP
 #undef LORENTZ_BATCH_VELOCITY_INL_HPP
@@ -14,8 +14,8 @@ namespace lorentz {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Velocities scaled by powers of two, so that their largest components lie in [1, 2). Far from 1, or with
-/// tiny components, they are left over.
+/// Velocities scaled by powers of two so that their largest components lie in [1, 2). Lanes whose velocity is
+/// far from 1, or has tiny components, are left over.
 template <int D>
 struct Velocity {
   V scaled[D], factor;
@@ -32,16 +32,16 @@ struct Velocity {
     }
   }
 
-  /// A time in the scaled units, in those of the query. Without rounding: lanes know no times but 0 and those from
-  /// 2^-100 (they tell a start from its obstacle's surface to 2^-52 of a radius of 2^-40 or more) to 2^63, exponents
-  /// are at most 400, and the factor is within 2^-490 and 2^490.
+  /// Converts a time from the scaled units to those of the query. Nothing is rounded: times in lanes are 0,
+  /// or between 2^-100 and 2^63 (lanes tell a start from its obstacle's surface to 2^-52 of a radius of 2^-40
+  /// or more), exponents are at most 400, and the factor is between 2^-490 and 2^490.
   template <bool kUnit>
   HWY_INLINE V time_of(V time, const PreparedScene& scene) const {
     if constexpr (!kUnit) time = time * all(scene.unit);
     return time * factor;
   }
 
-  /// A limit of the query, in the scaled units.
+  /// Converts a limit of the query to the scaled units.
   template <bool kUnit>
   HWY_INLINE V limit_of(V limit, const PreparedScene& scene) const {
     limit = limit * inverse_power_of(factor);

@@ -12,9 +12,10 @@
 namespace lorentz {
 namespace {
 
-// In units of the cell. An entry this little behind the wall still counts: rounded once more in the next cell
-// it might lie before that one's beginning. The lists reach farther than that, so that whatever is entered
-// there is compared; and cells are no flatter than that rounding errors stay below.
+// In units of the cell. An entry at most kBehindWall behind the wall still counts: rounded once more in the
+// next cell, it might lie before that cell's beginning. The lists reach farther than that (kListMargin), so
+// every obstacle that is entered there is compared. Flatter cells than kFlattest are refused, so that
+// rounding errors stay below these margins.
 constexpr double kBehindWall = 1e-9, kListMargin = 1e-6, kFlattest = 1e6;
 constexpr int kLargestExponent = 500;
 constexpr double kSmallest = 0x1p-500;  // of an obstacle, in units of the longest component of the cell
@@ -27,17 +28,17 @@ bool all_finite(const Vec& a) {
   return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
 }
 
-// The obstacle's own coordinates, in which it is the unit ball: A^-1 a. Balls need none.
+// The obstacle's own coordinates, in which it is the unit ball: A^-1 a. Not used for balls.
 using OwnCoordinates = std::array<Vec, 3>;
 
 struct Obstacle {
   Vec centre;
   double radius;
-  const OwnCoordinates* own;  // or null: a ball
+  const OwnCoordinates* own;  // null for a ball
   int atom;
   CellIndex n;  // its cell, counted from the one it reaches into
 
-  // The time at which the line enters it; before the start counts as never.
+  // The time at which the line enters it; nothing if the obstacle lies behind.
   std::optional<double> entry(const Vec& x, const Vec& v) const {
     const Vec arm = minus(x, centre);
     if (!own) {
@@ -55,7 +56,7 @@ struct Obstacle {
   }
 };
 
-// The obstacle that a query leaves, if it is of this lattice.
+// The obstacle that a query leaves, if it belongs to this lattice.
 struct From {
   int atom = -1;
   CellIndex n{};
@@ -63,7 +64,7 @@ struct From {
   From(const ObstacleId* from, int lattice) {
     if (!from || from->lattice != lattice) return;
     for (int i = 0; i < 3; ++i) {
-      if (!from->cell[i].fits_int64()) return;  // farther off than any walk
+      if (!from->cell[i].fits_int64()) return;  // farther away than any walk
       n[i] = from->cell[i].int64();
     }
     atom = from->atom;
@@ -77,7 +78,7 @@ struct From {
   }
 };
 
-// A place: from the lattice point of its cell.
+// A place, relative to the lattice point of its cell.
 struct CellPlace {
   Vec x;
   CellIndex n{};
@@ -85,7 +86,7 @@ struct CellPlace {
 
 struct Walked {
   enum class CellWalkEnd { entered, nothing, gave_up } end;
-  double time = 0;  // of the entry, or how far it got
+  double time = 0;  // of the entry, or of the end of the walk
   ObstacleId obstacle;
 };
 
@@ -101,7 +102,7 @@ struct CellWalk::CellLattice {
   CellLattice(const Scene& scene, int l);
   std::optional<std::string> beyond() const;
 
-  // How an atom's obstacle lies about: for each axis the cells of those that reach into the cell.
+  // The obstacles of an atom that reach into the cell: for each axis the range of their cells.
   struct CellRange {
     CellIndex first{}, last{};
     double count = 1;
@@ -135,7 +136,7 @@ std::optional<std::string> CellWalk::CellLattice::beyond() const {
   if (std::abs(exponent) > kLargestExponent) return "does lattice vectors between 2^-500 and 2^500 only";
   for (int i = 0; i < dimension; ++i) {
     if (!all_finite(dual[i])) return kTooFlat;
-    double sum = 0;  // what a coordinate within the cell may be a sum of
+    double sum = 0;  // the size of the terms of a coordinate within the cell
     for (int k = 0; k < dimension; ++k)
       for (int j = 0; j < dimension; ++j) sum += std::fabs(dual[i][k] * vectors[j][k]);
     if (!(sum < kFlattest)) return kTooFlat;
@@ -149,8 +150,8 @@ std::array<Vec, 3> CellWalk::CellLattice::scaled_axes(const Atom& atom) const {
   return axes;
 }
 
-// Of n in |y_i(position) + n_i| <= 1/2 + reach_i; the reach along dual_i is the obstacle's support |A^T
-// dual_i|.
+// The range of n in |y_i(position) + n_i| <= 1/2 + reach_i. The reach along dual_i is the obstacle's support
+// |A^T dual_i|.
 std::optional<std::string> CellWalk::CellLattice::range_of(const Atom& atom, CellRange& range) const {
   const std::array<Vec, 3> axes = scaled_axes(atom);
   const OwnCoordinates own = atom.is_ball() ? OwnCoordinates{} : dual_of(axes, dimension);
@@ -210,7 +211,7 @@ void CellWalk::CellLattice::list(const std::vector<Atom>& atoms) {
   }
 }
 
-// x - n_1 u_1 - ... - n_d u_d, with one rounding: a start far off loses nothing that it has.
+// x - n_1 u_1 - ... - n_d u_d, rounded once, so that a distant start loses none of its digits.
 Vec CellWalk::CellLattice::relative(const Vec& x, const Vec& n) const {
   Vec rest{};
   for (int k = 0; k < dimension; ++k) {
@@ -221,7 +222,8 @@ Vec CellWalk::CellLattice::relative(const Vec& x, const Vec& n) const {
   return rest;
 }
 
-// The cell that holds x, whose walls belong to the next one; nothing if that is too far from the origin.
+// The cell that contains x; its upper walls belong to the next cells. Nothing if it is too far from the
+// origin.
 std::optional<CellPlace> CellWalk::CellLattice::home_of(const Vec& x) const {
   Vec rest = x, n{};
   for (int pass = 0; pass < 3; ++pass) {  // far off, the first coordinates may be wrong by a few cells
@@ -236,7 +238,7 @@ std::optional<CellPlace> CellWalk::CellLattice::home_of(const Vec& x) const {
   return place;
 }
 
-// The first in the order of (atom, n) that contains the place.
+// The first obstacle, in the order of (atom, n), that contains the place.
 const Obstacle* CellWalk::CellLattice::around(const CellPlace& place, const From& from) const {
   for (const Obstacle& obstacle : obstacles)
     if (obstacle.contains(place.x) && !from.is(obstacle, place.n)) return &obstacle;
@@ -314,7 +316,7 @@ void CellWalk::first_hit_scaled(const Ray& ray, double max_time, Answer& answer)
     best = time;
     answer = Answer::hit(std::move(walked.obstacle), time);
   }
-  if (given_up < best) answer = Answer::undecided();  // nobody knows what comes in between
+  if (given_up < best) answer = Answer::undecided();  // an earlier hit may lie in between
 }
 
 }  // namespace lorentz

@@ -1,5 +1,5 @@
-// The classical algorithm where one obstacle a cell is not enough: any lattices, any motif, overlaps,
-// ellipsoids.
+// The classical algorithm for scenes with more than one obstacle in a cell: any lattices, any motif,
+// overlaps, ellipsoids.
 #pragma once
 
 #include <array>
@@ -13,11 +13,13 @@ namespace lorentz {
 using CellIndex = std::array<std::int64_t, 3>;
 
 /// Follows the particle through each lattice's own cells (the parallelepipeds centred at its points) in
-/// binary64: solves the quadratics of all obstacles that reach into the cell, which are listed once a scene,
-/// and takes the earliest that is not beyond the cell's wall; else moves to the nearest wall and starts there
-/// anew. The lattices are walked one after the other, each only as far as the best time so far. Costs are
-/// proportional to the free path times the obstacles in the list, and rounding errors add up with every cell.
-/// After kMaxCells or kMaxTests in a lattice it says `undecided`.
+/// binary64. In each cell it solves the quadratics of all obstacles that reach into the cell, which are
+/// listed once per scene, and takes the earliest hit that is not beyond the cell's wall. If there is none, it
+/// moves to the nearest wall and starts again there. The lattices are walked one after the other, each only
+/// as far as the best time so far.
+///
+/// The cost is proportional to the free path times the number of obstacles in the list, and rounding errors
+/// add up with every cell. After kMaxCells cells or kMaxTests tests in a lattice the answer is `undecided`.
 class CellWalk : public Engine {
  public:
   static constexpr long kMaxCells = 10'000'000;
@@ -28,7 +30,7 @@ class CellWalk : public Engine {
   explicit CellWalk(const Scene& scene);
   ~CellWalk() override;
 
-  /// Why the walker does not do a scene without flaws, or nothing. Lists nothing.
+  /// Why the walker does not support a valid scene, or nothing. Does not list the obstacles.
   static std::optional<std::string> beyond(const Scene& scene);
 
  private:

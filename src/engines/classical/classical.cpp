@@ -14,7 +14,7 @@ ObstacleId obstacle_of(const CellIndex& n) {
   return {0, 0, {Integer(n[0]), Integer(n[1]), Integer(n[2])}};
 }
 
-// The cell of the obstacle that is left; nothing if it is farther off than any walk.
+// The cell of the obstacle that is left; nothing if it is farther away than any walk.
 std::optional<CellIndex> cell_left(const Ray& ray) {
   if (!ray.from) return std::nullopt;
   CellIndex n;

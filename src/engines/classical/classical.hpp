@@ -1,15 +1,15 @@
-// The classical algorithm: from cell to cell, one obstacle in the middle of each (unit square or cubic
-// lattice).
+// The classical algorithm for the unit square and cubic lattice: from cell to cell, with one obstacle in the
+// middle of each.
 #pragma once
 
 #include <lorentz/engine.hpp>
 
 namespace lorentz {
 
-/// Follows the particle through the cells [-1/2, 1/2)^d in binary64: solves the quadratic for the obstacle of
-/// the cell, else moves to the nearest wall and resets the position there. Costs are proportional to the free
-/// path, and rounding errors add up with every cell. `never` is beyond it: after kMaxCells it says
-/// `undecided`.
+/// Follows the particle through the cells [-1/2, 1/2)^d in binary64. In each it solves the quadratic for the
+/// cell's obstacle; if there is no hit, it moves to the nearest wall and resets the position there. The cost
+/// is proportional to the free path, and rounding errors add up with every cell. It cannot establish `never`:
+/// after kMaxCells cells the answer is `undecided`.
 class Classical : public Engine {
  public:
   static constexpr long kMaxCells = 10'000'000;

@@ -33,7 +33,7 @@ Answer Published::first_hit_counted(const Query& query, double max_time, Proposa
   return answer;
 }
 
-// The earliest hit of the atoms, each of which flies alone.
+// The earliest hit among the atoms, each of which is searched alone.
 Answer Published::flight_of(const Ray& ray, double max_time, Proposals& proposals) const {
   if (atoms_.empty())
     return published_search::unit_flight<double>(ray, scene().dimension, scene().lattices[0].atoms[0].radius,

@@ -53,12 +53,12 @@ std::optional<std::string> PublishedBravais::beyond(const Scene& scene, int l, i
   return std::nullopt;
 }
 
-// In the square or cubic lattice: M_os (x - p).
+// x in the coordinates of the square or cubic lattice: M_os (x - p).
 Vec PublishedBravais::transformed_place(const Vec& x) const {
   return coordinates(dual_, minus(x, position_));
 }
 
-// x from the centre of the obstacle in cell n, in the scene.
+// x relative to the centre of the obstacle in cell n, in the scene's coordinates.
 Vec PublishedBravais::relative(const Vec& x, const Vec& n) const {
   Vec arm = minus(x, position_);
   for (int i = 0; i < dimension_; ++i)
@@ -76,7 +76,7 @@ ObstacleId PublishedBravais::obstacle_of(const Vec& n) const {
   return id;
 }
 
-// The circumscribed balls do not overlap, so x can be in the nearest obstacle only.
+// The circumscribed balls do not overlap, so only the nearest obstacle can contain x.
 std::optional<Answer> PublishedBravais::start(const Ray& ray) const {
   const Vec place = transformed_place(ray.x);
   for (const double component : place)
@@ -138,7 +138,7 @@ Answer PublishedBravais::flight_3d(const Ray& ray, double limit, Proposals& prop
     ++proposals.made;
     const bool meets_ball = entry_time(minus(x, n), v, circumscribed_).has_value();
     if (!meets_ball) ++proposals.false_tricylinder;
-    // The classical quadratic in the scene, from the place arrived at.
+    // The classical quadratic in the scene, from the place reached.
     const double now = elapsed / speed;
     Vec there{};
     for (int k = 0; k < 3; ++k) there[k] = ray.x[k] + now * ray.v[k];

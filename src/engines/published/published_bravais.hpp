@@ -1,5 +1,6 @@
-// The published algorithm for one ball on any Bravais lattice: in the square or cubic lattice that it is
-// transformed to, each obstacle, an ellipse there, in a circumscribed ball. Private to published*.cpp.
+// The published algorithm for one ball on any Bravais lattice. The lattice is transformed to the square or
+// cubic one. There each obstacle is an ellipse, and the search uses its circumscribed ball. Private to
+// published*.cpp.
 #pragma once
 
 #include "src/engines/published/published.hpp"
@@ -8,16 +9,17 @@ namespace lorentz {
 
 class PublishedBravais {
  public:
-  /// Atom a of lattice l, of a scene in which it is not beyond the algorithm.
+  /// Atom a of lattice l of the scene. Requires an atom that the algorithm supports (beyond).
   PublishedBravais(const Scene& scene, int l, int a);
 
-  /// Why the algorithm does not do this atom, or nothing.
+  /// Why the algorithm does not support this atom, or nothing.
   static std::optional<std::string> beyond(const Scene& scene, int l, int a);
 
-  /// `inside`, or why there is no flight from there, or nothing.
+  /// `inside`, or the reason why no flight can start there, or nothing.
   std::optional<Answer> start(const Ray& ray) const;
 
-  /// The flight among this atom's obstacles alone; nothing after `limit` is looked for, but may be found.
+  /// The flight among this atom's obstacles alone. Hits after `limit` are not searched for, but may be
+  /// returned.
   Answer flight_of(const Ray& ray, double limit, Proposals& proposals) const;
 
  private:

@@ -1,7 +1,7 @@
-// The search of the published algorithm in the square and the cubic lattice, as its authors' program has it,
-// faults included (docs/published.md): which disc, which sphere it comes up with. In any number type T that
-// has floor, round, fabs, copysign and sqrt, and in binary64 operation by operation what it always was.
-// Private to this room and to compare/precisions.
+// The search of the published algorithm in the square and the cubic lattice, as in its authors' program,
+// faults included (docs/published.md): which disc or sphere it proposes. It works in any number type T that
+// has floor, round, fabs, copysign and sqrt. In binary64 the parameter T changes no operation. Private to
+// this folder and to question/precisions.
 #pragma once
 
 #include <algorithm>
@@ -21,11 +21,11 @@ using std::copysign, std::fabs, std::floor, std::round, std::sqrt;  // and those
 template <class T>
 using Triple = std::array<T, 3>;
 
-// A lattice point, kept as integers of the number type as long as it is searched for.
+// A lattice point, kept as integers of the number type during the search.
 template <class T>
 using Disc = std::array<T, 2>;
 
-// What there is to know of a number type. Others than C++'s own have theirs in compare/precisions.
+// The properties of a number type. question/precisions has those of types that are not C++'s own.
 template <class T>
 struct NumberType {
   static constexpr int kDigits = std::numeric_limits<T>::digits;  // integers up to 2^kDigits are exact
@@ -33,7 +33,8 @@ struct NumberType {
   static Integer integer(const T& a) { return std::llround(a); }
 };
 
-// 2^51 and 2^52 of a binary64: places beyond have no digits left within a cell; columns are no more counted.
+// 2^51 and 2^52 in binary64. Places beyond the first have no digits left within a cell; columns beyond the
+// second are no longer counted.
 template <class T>
 T farthest_place() {
   return T(std::ldexp(1.0, NumberType<T>::kDigits - 2));
@@ -61,7 +62,8 @@ T distance_to_integers(const T& b) {
   return std::min<T>(b, 1 - b);
 }
 
-// The first convergent denominator q of m with |q m - p| <= tolerance, the expansion computed from its start.
+// The first convergent denominator q of m with |q m - p| <= tolerance. The expansion is computed from its
+// start.
 template <class T>
 T first_denominator(const T& m, const T& tolerance) {
   T x = m, p_before = 0, p = 1, q_before = 1, q = 0;
@@ -75,7 +77,8 @@ T first_denominator(const T& m, const T& tolerance) {
   return q;
 }
 
-// Step 3: from height b at a column, how many columns on the line comes within eps of an integer height.
+// Step 3: the number of columns from a column with height b to the one where the line comes within eps of an
+// integer height.
 template <class T>
 struct Columns {
   Proposed found;
@@ -103,7 +106,7 @@ Columns<T> columns_ahead(const T& m, T b, const T& eps, long& passes_left) {
   return {Proposed::disc, k};
 }
 
-// First octant, 0 < v2 <= v1, v of unit length.
+// The first disc for a direction in the first octant, 0 < v2 <= v1, with v of unit length.
 template <class T>
 PlaneResult<T> first_octant(T x1, T x2, const T& v1, const T& v2, const T& r, const Disc<T>* from,
                             long& passes_left) {
@@ -124,7 +127,7 @@ PlaneResult<T> first_octant(T x1, T x2, const T& v1, const T& v2, const T& r, co
   return {columns.found, {n1 + 1 + columns.k, n2 + round(b1 + m * columns.k)}};
 }
 
-// Any direction, by reflections and the exchange of the axes, undone at the end.
+// The first disc for any direction: by reflections and an exchange of the axes, which are undone at the end.
 template <class T>
 PlaneResult<T> first_disc(const Disc<T>& x, const Disc<T>& v, const T& r, const Disc<T>* from,
                           long& passes_left) {
@@ -152,7 +155,7 @@ PlaneResult<T> first_disc(const Disc<T>& x, const Disc<T>& v, const T& r, const 
 template <class T>
 bool cell_of(const ObstacleId& id, Triple<T>& n) {
   for (int i = 0; i < 3; ++i) {
-    if (!id.cell[i].fits_int64()) return false;  // no start is beside a disc farther off than that
+    if (!id.cell[i].fits_int64()) return false;  // no start is beside a disc that is farther away
     n[i] = static_cast<T>(id.cell[i].int64());
   }
   return true;
@@ -177,15 +180,15 @@ std::optional<T> entry_time(const Triple<T>& x, const Triple<T>& v, const T& r) 
   return -B - sqrt(discriminant);
 }
 
-// The time at which the line leaves the disc of radius r around the origin, or is closest to it if it misses
-// it.
+// The time at which the line leaves the disc of radius r around the origin. If the line misses the disc, the
+// time at which it is closest to it.
 template <class T>
 T exit_time(const Triple<T>& x, const Triple<T>& v, const T& r) {
   const T v2 = dot(v, v), B = dot(x, v) / v2, C = (dot(x, x) - r * r) / v2;
   return -B + sqrt(std::max<T>(B * B - C, T(0)));
 }
 
-// Why a search found no disc, as the answer that this makes; nothing if it found one.
+// The answer for a search that found no disc; nothing if it found one.
 inline std::optional<Answer> answer_for(Proposed found) {
   switch (found) {
     case Proposed::channel:
@@ -200,12 +203,12 @@ inline std::optional<Answer> answer_for(Proposed found) {
   return std::nullopt;
 }
 
-// The discs that the 2D algorithm finds in the coordinate planes xy, xz and yz.
+// The coordinate planes xy, xz and yz, in which the 2D algorithm finds discs.
 inline constexpr int kPlanes[3][2] = {{0, 1}, {0, 2}, {1, 2}};
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-// How far to go for the disc that is farthest off in its own plane; short of it by a tenth of the radius.
+// The distance to the disc that is farthest away in its own plane, less a tenth of the radius.
 template <class T>
 T advance_to_farthest(const Disc<T> (&disc)[3], const Triple<T>& x, const Triple<T>& v, const T& r) {
   T farthest(-kNoLimit);
@@ -218,14 +221,15 @@ T advance_to_farthest(const Disc<T> (&disc)[3], const Triple<T>& x, const Triple
   return farthest - T(0.1) * r;
 }
 
-// How many passes each search in a plane may take, or all of them together; and a count of those taken.
+// The largest number of passes, for each search in a plane or for all of them together, and the number of
+// passes taken.
 struct Passes {
   long most;
   bool is_total;
   long long& taken;
 };
 
-// The sphere that a 3D search ends with, and how far off it is hit; or why there is none.
+// The sphere that a 3D search ends with, and the distance to the hit; or the answer if there is no hit.
 template <class T>
 struct SpaceResult {
   std::optional<Answer> none;
@@ -233,8 +237,9 @@ struct SpaceResult {
   T distance = 0;
 };
 
-// The 3D procedure from x along the unit vector v, to the distance `limit`. `is_hit(centre, x, elapsed)`,
-// asked of each sphere that the planes agree on, gives the distance from x to the hit, or nothing.
+// The 3D procedure from x along the unit vector v, up to the distance `limit`. It calls
+// `is_hit(centre, x, elapsed)` for each sphere on which the planes agree; this returns the distance from x to
+// the hit, or nothing.
 template <class T, class IsHit>
 SpaceResult<T> first_sphere(Triple<T> x, const Triple<T>& v, const T& r, const Triple<T>* from, Passes passes,
                             const T& limit, const IsHit& is_hit) {
@@ -265,8 +270,8 @@ SpaceResult<T> first_sphere(Triple<T> x, const Triple<T>& v, const T& r, const T
     if (!agree) continue;
     const Triple<T> centre{disc[0][0], disc[0][1], disc[1][1]};
     if (const auto time = is_hit(centre, x, elapsed)) return {std::nullopt, centre, elapsed + *time};
-    // The fault behind the late spheres: from next to a sphere that was missed this can land inside another
-    // one.
+    // The fault behind the late spheres: from next to a sphere that was missed, this step can land inside
+    // another one.
     advance(1 - 2 * r);
   }
   return {Answer::undecided()};

@@ -1,5 +1,5 @@
 // The published algorithm for one ball at the origin of the unit square or cubic lattice, from a start to an
-// answer, in any number type (published_search.hpp). Private to this room and to compare/precisions.
+// answer, in any number type (published_search.hpp). Private to this folder and to question/precisions.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ ObstacleId obstacle_of(const Triple<T>& n) {
   return {0, 0, {NumberType<T>::integer(n[0]), NumberType<T>::integer(n[1]), NumberType<T>::integer(n[2])}};
 }
 
-// A ray in the number type: what of a binary64 it does not hold is rounded away.
+// A ray in the number type. Digits of a binary64 that the type does not hold are rounded away.
 template <class T>
 struct ColumnLine {
   Triple<T> x, v;
@@ -24,8 +24,8 @@ struct ColumnLine {
   }
 };
 
-// The collision with a disc or sphere that the search came up with; its closest approach if the line misses
-// it.
+// The collision with the disc or sphere that the search proposed. If the line misses it, its closest
+// approach.
 template <class T>
 Answer hit_on(const Triple<T>& centre, const ColumnLine<T>& line, const T& r) {
   const Triple<T> relative = minus(line.x, centre);
@@ -41,7 +41,8 @@ Answer published_2d(const ColumnLine<T>& line, const T& r, const Triple<T>* from
   long passes = Published::kMaxPasses;
   PlaneResult<T> result = first_disc<T>({x[0], x[1]}, direction, r, from ? &leaving : nullptr, passes);
   if (from && result.found == Proposed::disc && result.disc == leaving) {
-    // The paper has no `from`, and its search in columns may end there: it goes on where the line leaves it.
+    // The paper has no `from`, so its search in columns may end at that disc. It goes on where the line
+    // leaves the disc.
     const T there = exit_time(minus(x, *from), v, r);
     result = first_disc<T>({x[0] + there * v[0], x[1] + there * v[1]}, direction, r, &leaving, passes);
     if (result.found == Proposed::disc && result.disc == leaving) return Answer::undecided();

@@ -26,7 +26,7 @@ struct AtomDirection {
       direction.template set<Arch>(lattice, {turned[0], turned[1], turned[2]}, true);
   }
 
-  /// The same for the next atom along the same velocity, from that of the atom `before`.
+  /// Sets `to` for the next atom along the same velocity, starting from that of the atom `before`.
   template <class Arch>
   static void set(std::optional<AtomDirection>& to, Arch arch, const Bravais* before, const Bravais& lattice,
                   const Vec& v) {

@@ -1,5 +1,5 @@
-// A start as seen from one atom's lattice: does it lie in an obstacle, which cells do `from` and what is
-// found have? Private to the reduction engine.
+// A start relative to one atom's lattice: whether it lies in an obstacle, and the cells of `from` and of the
+// obstacle found. Private to the reduction engine.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ class AtomStart {
     return set_offset<Arch, kUnit>(of_lattice, x, true, offset);
   }
 
-  /// Does x lie in an obstacle (`from` excepted)? Then N is its cell.
+  /// Does x lie in an obstacle (`from` excepted)? If so, N is its cell.
   Decision inside(const ObstacleId* from, Wide (&N)[D], Stage& stage) const {
     for (Wide& n : N) n = Wide();
     double other[D]{};
@@ -50,10 +50,10 @@ class AtomStart {
     return Decision::no;
   }
 
-  /// The cell of `from`; false if it is of another atom, or farther away than any obstacle that the search
-  /// names (kMaxCell, and kMaxCoefficient more). In a skewed cell what is near may have coordinates of 84
-  /// bits: those of the search times a transform's 2^20, three of these. They times an inverse's 2^41, three
-  /// of these, are below 2^127.
+  /// Finds the cell of `from`. False if `from` belongs to another atom, or is farther away than any obstacle
+  /// that the search names (kMaxCell, and kMaxCoefficient more). In a skewed cell a near obstacle may have
+  /// coordinates of 84 bits: those of the search times a transform's 2^20, three of these. Such coordinates
+  /// times an inverse's 2^41, three of these, are below 2^127.
   [[gnu::noinline]] bool find_from(const ObstacleId* from, Wide (&here)[D]) const {
     if (!from || from->lattice != lattice->lattice || from->atom != lattice->atom) return false;
     constexpr WideInteger kFarthestCell = WideInteger{1} << kFarthestCellBits,
@@ -117,7 +117,7 @@ class AtomStart {
     return count;
   }
 
-  // The subset number `which` of these steps.
+  // Sets N to subset number `which` of these steps.
   static void choose(int which, const double (&other)[D], Wide (&N)[D]) {
     for (int i = 0, bit = 0; i < D; ++i) {
       N[i] = Wide();

@@ -1,15 +1,16 @@
-// Short bases of a 3D lattice as seen along a line, and what the enumeration of its planes and lines needs of
-// the dual basis. The text of basis_3d.hpp, and of the batch engine.
+// Short bases of a 3D lattice as seen along a line, and the parts of the dual basis that are needed to
+// enumerate its planes and lines. Included by basis_3d.hpp and by the batch engine.
 
-/// A lattice vector: integer coefficients in the lattice's short basis; across (units of r) and along. (Like
-/// a double, it is not set unless said so: so are the structures below.)
+/// A lattice vector: its integer coefficients in the lattice's short basis, and its components across the
+/// line (in units of r) and along it. (Like a double it is not initialised by default. The same holds for the
+/// structures below.)
 template <class Numbers>
 struct ArmOf3 {
   using Number = typename Numbers::Number;
 
   Number n[3];
   Number p[2], z;
-  Number cancellation;  ///< what the cancelling of large terms leaves of error, in units of the roundoff
+  Number cancellation;  ///< the error left when large terms cancel, in units of the roundoff
 
   LORENTZ_INLINE void subtract(Number k, const ArmOf3& other) {
     for (int i = 0; i < 3; ++i) n[i] = n[i] - k * other.n[i];
@@ -31,8 +32,7 @@ LORENTZ_INLINE typename Numbers::Number product(const ArmOf3<Numbers>& a, const 
   return a.p[0] * b.p[0] + a.p[1] * b.p[1] + a.z * b.z;
 }
 
-/// Three vectors, shortest first. Planes of the lattice are spanned by the first two; dual_2 is normal to
-/// them.
+/// Three vectors, shortest first. The first two span the planes of the lattice; dual_2 is normal to these.
 template <class Numbers>
 struct BasisOf3 {
   using Number = typename Numbers::Number;
@@ -41,16 +41,16 @@ struct BasisOf3 {
   ArmOf3<Numbers> b[3];
   Number length;                     ///< of a window, in units of s = v . d
   Number dual[3][3];                 ///< dual_i . b_j = delta_ij, in (p_0, p_1, z)
-  Number slope, inverse_slope;       ///< of dual_2 across the line: its length there
+  Number slope, inverse_slope;       ///< of dual_2 across the line: the length there
   Number normal[2];                  ///< and its direction
   Number dual1_normal, dual1_level;  ///< dual_1 across: along the normal, and perpendicular to it
   Number tilt_error;                 ///< of dual_2's component along the line
-  Mask usable;                       ///< integers below 2^53, and nearly orthogonal (kMaxDefect)
+  Mask usable;                       ///< the integers are below 2^53; nearly orthogonal (kMaxDefect)
 
   /// dual_2's component along the line.
   LORENTZ_INLINE Number tilt() const { return dual[2][2]; }
 
-  /// From the three vectors, which are turned to point forward.
+  /// Sets the rest from the three vectors, which are turned to point forward.
   LORENTZ_INLINE void set_dual() {
     for (ArmOf3<Numbers>& arm : b) arm.point_forward();
     const Number inverse_volume = set_dual_vectors();

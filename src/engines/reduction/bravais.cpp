@@ -23,18 +23,19 @@ Vec times(const Vec (&rows)[3], const Vec& a) {
   return {dot(rows[0], a), dot(rows[1], a), dot(rows[2], a)};
 }
 
-// What is short: in the metric of a shape, in which its ellipsoids are balls, or without one as usual.
+// The metric that says which vectors are short: that of a shape, in which its ellipsoids are balls, or
+// without a shape the usual one.
 struct Metric {
   const Shape* shape = nullptr;
 
   Vec operator()(const Vec& a) const { return shape ? times(shape->to_ball, a) : a; }
 
-  // Of a linear form: its largest value on the unit ball.
+  // The length of a linear form: its largest value on the unit ball.
   double length_of_form(const Vec& g) const {
     return shape ? length(times(shape->cofactor, g)) / shape->volume : length(g);
   }
 
-  // Of all forms g with |g| = 1.
+  // The largest such length of all forms g with |g| = 1.
   double length_of_longest_form() const { return shape ? shape->cofactor_size / shape->volume : 1; }
 };
 
@@ -90,7 +91,7 @@ struct Shortening {
 
   Vec seen(int i) const { return metric(rounded(B[i])); }
 
-  // B_i minus the nearest integer combination of the shorter ones; true if that shortens it.
+  // Subtracts from B_i the nearest integer combination of the shorter vectors; true if that shortens it.
   bool shorten(int i) {
     bool changed = false;
     for (int j = 0; j < rank; ++j) {
@@ -143,7 +144,7 @@ void set_dual(Bravais& bravais) {
   for (int i = bravais.rank; i < bravais.dimension; ++i) bravais.dual[i] = {};
 }
 
-// Of the coordinates of what lies within half a cell of a lattice point.
+// The error of the coordinates of points within half a cell of a lattice point.
 double home_error(const Bravais& bravais) {
   double size = 0;
   for (int i = 0; i < bravais.rank; ++i)
@@ -151,8 +152,8 @@ double home_error(const Bravais& bravais) {
   return kHomeCell * size * bravais.coordinate_error;
 }
 
-// The adjugate. Entries are below 2^20, or the scene is not done. False if the determinant is not 1 or -1:
-// then integers were rounded on the way.
+// Sets the inverse, by the adjugate. Entries of the transform are below 2^20, or the scene is unsupported.
+// False if the determinant is not 1 or -1, because then integers were rounded on the way.
 bool set_inverse(Bravais& bravais) {
   const auto& t = bravais.transform;
   const auto minor = [&](int i, int j) {
@@ -165,8 +166,8 @@ bool set_inverse(Bravais& bravais) {
   return determinant == 1 || determinant == -1;
 }
 
-// A lower bound of the shortest lattice vector: a vector with a coefficient of 2 or more in absolute value is
-// at least 2/|dual_i| long; the others are tried.
+// A lower bound on the length of the shortest lattice vector. A vector with a coefficient of 2 or more in
+// absolute value is at least 2/|dual_i| long; the others are tried.
 double shortest_vector(const Bravais& bravais, const Metric& metric) {
   const int second = bravais.rank >= 2, third = bravais.rank == 3;  // the coefficients that are tried
   double shortest = kInfinity;
@@ -191,7 +192,7 @@ bool is_too_skewed(const Shortening& shortening) {
   return false;
 }
 
-// Why this atom is beyond the engine, or nothing.
+// Why the engine does not support this atom; empty if it does.
 std::string beyond(const Bravais& bravais, const Metric& metric) {
   if (!(bravais.radius > 1 / kMaxSpacing && bravais.radius < kMaxSpacing))
     return "does obstacles and lattices only whose sizes are within 2^60 of each other";
@@ -240,7 +241,7 @@ class LatticePreparation {
     is_unit_ = lattice_.vectors == unit_scene(scene.dimension, 1).lattices[0].vectors && scale == 1;
   }
 
-  /// Adds the atoms; why it cannot, or nothing.
+  /// Adds the atoms. Returns why it cannot; empty if it can.
   std::string add_to(PreparedScene& prepared) {
     if (is_too_skewed(short_)) return kTooSkewed;
     for (int a = 0; a < static_cast<int>(lattice_.atoms.size()); ++a) {
@@ -271,7 +272,7 @@ class LatticePreparation {
     return set_basis(bravais, short_) ? finish(bravais, {}) : kTooSkewed;
   }
 
-  // A short basis in the metric of the shape; that of the atom before, if it has the same shape.
+  // Uses a short basis in the metric of the shape: that of the previous atom, if it has the same shape.
   std::string set_ellipsoid(Bravais& bravais) {
     const Atom& atom = lattice_.atoms[bravais.atom];
     std::vector<Vec> semiaxes = atom.semiaxes;
@@ -297,12 +298,13 @@ class LatticePreparation {
     return why;
   }
 
-  // Model::unit: one atom in all. Among several the axes would do harm: a vector that is long in the metric
-  // of the shape may point backward along a direction in it, for which only Model::unit has a step.
+  // SceneModel::unit is for one atom in all. With several atoms the axes would do harm: a vector that is long
+  // in the metric of the shape may point backward along a direction in that metric, and only SceneModel::unit
+  // has a step for that.
   bool is_alone() const { return scene_.lattices.size() == 1 && lattice_.atoms.size() == 1; }
 
-  // The unit lattice's own vectors, which are exact, instead of shorter ones: as long as no obstacle reaches
-  // so far that one step along each axis does not lead to all that can contain a point.
+  // Uses the unit lattice's own vectors, which are exact, instead of shorter ones, unless an obstacle reaches
+  // so far that one step along each axis does not lead to all obstacles that can contain a point.
   void use_axes(Bravais& bravais) const {
     Bravais axes = bravais;
     set_basis(axes, short_);
@@ -347,7 +349,8 @@ bool has_ellipsoids(const Scene& scene) {
   return false;
 }
 
-// What lengths are measured by: the first lattice's shortest vector, or the size of a single obstacle.
+// The length by which all others are measured: the first lattice's shortest vector, or the size of a single
+// obstacle.
 double first_length(const Scene& scene) {
   const Lattice& first = scene.lattices[0];
   if (first.rank(scene.dimension) == 0) return length(semiaxes_of(first.atoms[0], scene.dimension)[0]);

@@ -1,5 +1,5 @@
 // One atom of one lattice, prepared for the reduction engine: balls of one radius, or ellipsoids of one
-// shape, on a Bravais lattice, with a short basis of it. What is here is computed once a scene.
+// shape, on a Bravais lattice, with a short basis of it. All of this is computed once per scene.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@ using WideVec = std::array<Wide, 3>;
 
 struct Bravais {
   int dimension = 0;
-  int lattice = 0, atom = 0;  ///< which of the scene
-  std::int8_t rank = 0;       ///< how many vectors the lattice has
+  int lattice = 0, atom = 0;  ///< their numbers in the scene
+  std::int8_t rank = 0;       ///< the number of vectors of the lattice
   bool unit = false;  ///< square or cubic, spacing 1, an obstacle at the origin: all but the shape is exact
-  double radius = 0;  ///< of an ellipsoid: the shape's
+  double radius = 0;  ///< for an ellipsoid: the shape's
   Vec position{};
   WideVec basis
-      [3];  ///< a short basis B_i = sum_j transform[i][j] u_j; from the rank on vectors perpendicular to it
-            ///< (length 1), from the dimension on the axes
+      [3];  ///< a short basis B_i = sum_j transform[i][j] u_j; for i >= rank, vectors perpendicular to it
+            ///< (of length 1); for i >= dimension, the axes
   std::int64_t transform[3][3]{};
-  Vec dual[3];                   ///< dual_i . B_j = delta_ij, in plain binary64; from the rank on 0
+  Vec dual[3];                   ///< dual_i . B_j = delta_ij, in plain binary64; 0 for rank <= i < dimension
   double coordinate_error = 0;   ///< a coordinate dual_i . a errs by at most this times |a_1| + |a_2| + |a_3|
   Vec reach{};                   ///< an obstacle that contains x has coordinates within reach_i of those of x
   bool reaches_out = true;       ///< some reach is so large that x may lie in an obstacle of another cell
@@ -33,21 +33,21 @@ struct Bravais {
   double basis_error = 0;        ///< of each component of a basis vector, at most
   bool exact = false;            ///< the basis vectors are binary64, and those of the scene, without error
   std::int64_t inverse[3][3]{};  ///< of transform: u_i = sum_j inverse[i][j] B_j
-  Shape shape;                   ///< only in scenes that have ellipsoids, there of balls too
+  Shape shape;                   ///< only in scenes that have ellipsoids; there for balls, too
 };
 
-/// All lengths are scaled by 2^-exponent, so that the shortest lattice vector of the first lattice lies in
-/// [1, 2), or the radius of a single obstacle if the first is that; the unit lattices keep their own.
+/// All lengths are scaled by 2^-exponent so that the shortest vector of the first lattice lies in [1, 2). If
+/// the first lattice is a single obstacle, its radius does. The unit lattices keep their own lengths.
 struct PreparedScene {
   int exponent = 0;
   double unit = 1, inverse_unit = 1;  ///< 2^exponent, 2^-exponent
   std::vector<Bravais> atoms;         ///< in the order of (lattice, atom)
-  bool ellipsoids = false;            ///< there are some
+  bool ellipsoids = false;            ///< the scene has ellipsoids
   int least_rank = 3, most_rank = 0;  ///< of the lattices
-  std::string beyond;                 ///< why the reduction engine does not do the scene; empty if it does
+  std::string beyond;                 ///< why the engine does not support the scene; empty if it does
 };
 
-/// Throws InputError for a scene with a flaw.
+/// Throws InputError if the scene is invalid.
 PreparedScene prepare(const Scene& scene);
 
 }  // namespace lorentz

@@ -1,4 +1,4 @@
-// Is this ball met, and is it the first so far? The decisions of the search in 3D. Private to the reduction
+// The decisions of the search in 3D: is this ball met, and is it the first so far? Private to the reduction
 // engine.
 #pragma once
 
@@ -24,7 +24,7 @@ class Candidates3 {
 
   explicit Candidates3(const Window& window) : window_(window) {}
 
-  /// Where in the window nothing is wanted any more.
+  /// The place in the window beyond which nothing more is needed.
   double end() const { return window_.end_before(found.s); }
 
   Look look_at(const Point3& point) {

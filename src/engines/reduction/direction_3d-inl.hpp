@@ -1,10 +1,10 @@
-// A 3D Bravais lattice seen along a velocity: the text of direction_3d.hpp, and of the batch engine.
+// A 3D Bravais lattice seen along a velocity. Included by direction_3d.hpp and by the batch engine.
 //
-// Coordinates: across the line in units of r, along it in units of a length that grows while nothing is met.
-// In these the cylinder is of radius 1, a window of it of length 1, and a basis that is short in them has few
-// lattice planes and few lattice lines that meet the window. A line is solved by one quadratic.
+// Coordinates are measured across the line in units of r, and along it in units of a length that grows while
+// nothing is met. In these units the cylinder has radius 1 and a window of it has length 1, and if a basis is
+// short, few lattice planes and few lattice lines meet the window. A line is solved by one quadratic.
 
-/// All that does not depend on the start.
+/// Everything that does not depend on the start.
 template <class Numbers, bool kUnit, bool kBall>
 struct DirectionOf3 : FrameOf3<Numbers, kUnit, kBall> {
   using Frame = FrameOf3<Numbers, kUnit, kBall>;
@@ -14,7 +14,7 @@ struct DirectionOf3 : FrameOf3<Numbers, kUnit, kBall> {
 
   Basis basis;
 
-  /// `wanted`: other directions need not be good for anything. Velocities without tiny components.
+  /// Only the `wanted` directions need to be usable. Requires velocities without tiny components.
   template <class Arch>
   LORENTZ_INLINE void set(const Bravais& lattice, const Number (&velocity)[3], Mask wanted) {
     Frame::template set<Arch>(lattice, velocity);
@@ -31,8 +31,8 @@ struct DirectionOf3 : FrameOf3<Numbers, kUnit, kBall> {
     shorten<Arch>(basis, wanted);
   }
 
-  /// Another atom of the same lattice, with balls of another radius: only the scales differ, and the basis is
-  /// reduced on from where it is.
+  /// For another atom of the same lattice, with balls of another radius. Only the scales differ, and the
+  /// basis is reduced further from its present state.
   template <class Arch>
   LORENTZ_INLINE void retarget(const Bravais& lattice, Mask wanted) {
     const double before = this->inverse_r;
@@ -45,7 +45,7 @@ struct DirectionOf3 : FrameOf3<Numbers, kUnit, kBall> {
     shorten<Arch>(basis, wanted);
   }
 
-  /// A longer window: the basis is reduced on from where it is.
+  /// For a longer window. The basis is reduced further from its present state.
   template <class Arch>
   LORENTZ_INLINE void lengthen(Basis& longer, Number factor, Mask wanted) const {
     longer.length = longer.length * factor;
@@ -54,12 +54,12 @@ struct DirectionOf3 : FrameOf3<Numbers, kUnit, kBall> {
   }
 
  private:
-  // Of a window in which two balls are expected.
+  // The length of a window in which two balls are expected.
   LORENTZ_INLINE Number first_length(const Bravais& lattice) const {
     return all(kWindowCells * lattice.volume / (3.14 * lattice.radius * lattice.radius)) * sqrt(this->v2);
   }
 
-  // To a basis that is short in the window's metric.
+  // Reduces to a basis that is short in the window's metric.
   template <class Arch>
   LORENTZ_INLINE void shorten(Basis& to, Mask wanted) const {
     const Mask is_short = reduce_basis<Arch>(static_cast<const Frame&>(*this), to, wanted);

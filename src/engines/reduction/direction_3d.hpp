@@ -6,7 +6,8 @@
 
 namespace lorentz {
 
-/// Short vectors, then once more from exact coefficients. False if it does not come to that.
+/// Reduces the basis to short vectors, then once more from exact coefficients. False if this does not
+/// succeed.
 template <class Arch, class Frame>
 bool reduce_basis(const Frame& frame, Basis3& basis, bool) {
   GreedyReduction reduction(basis);

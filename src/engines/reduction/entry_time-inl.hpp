@@ -1,17 +1,18 @@
-// When an obstacle that was found is entered: roughly, and within a few ulps. The text of entry_time.hpp, and
-// of the batch engine; both have the rest, in double-double, by StableMeeting.
+// When an obstacle that was found is entered: roughly, and within a few ulps. Included by entry_time.hpp and
+// by the batch engine. Both get the rest, in double-double, from StableMeeting.
 
-/// What the search leaves for the time: s = v . d, and the slack, whose root is half the chord q.
+/// The results of the search from which the time is computed: s = v . d, and the slack, whose root q is half
+/// the chord.
 template <class Numbers, int D, bool kBall>
 struct Entry {
   using Number = typename Numbers::Number;
 
   Number s, s_error, slack, slack_error, v2;
-  // Of ellipsoids: in 2D v.v, h skew, and the relative error of v2; in 3D the form that s is.
+  // For ellipsoids: in 2D v.v, h skew, and the relative error of v2; in 3D the form whose value is s.
   Number euclidean_v2, across, v2_error;
   DoubleDouble<Numbers> along[kBall || D == 2 ? 1 : D];
 
-  /// The time in binary64 and the bound of its error.
+  /// The time in binary64, and a bound on its error.
   LORENTZ_INLINE Number rough_time(Number& error) const {
     const Number q = sqrt(slack);
     Number relative = all(kRoughTime * kRoundoff);
@@ -21,8 +22,8 @@ struct Entry {
   }
 };
 
-/// The time at which the obstacle of cell N is entered with velocity v. Self has rare(): in double-double, for
-/// where that is rarely asked. N: integers, or in double-double.
+/// The time at which the obstacle of cell N is entered with velocity v. Self has rare_time(), the time in
+/// double-double for rare cases. N: integers, in binary64 or in double-double.
 template <class Self, class Arch, class Numbers, int D, bool kUnit, bool kBall, class Coefficient,
           class Vector>
 class CloseTime {
@@ -36,7 +37,7 @@ class CloseTime {
       : lattice_(lattice), offset_(offset), N_(N), entry_(entry), v_(v) {}
 
  public:
-  /// Within a few ulps, for hits.
+  /// The time within a few ulps, for hits.
   LORENTZ_INLINE Number close(Mask hit) const {
     if constexpr (kBall)
       return close_of_ball(hit);
@@ -45,20 +46,21 @@ class CloseTime {
   }
 
  protected:
-  /// Of balls.
+  /// For balls.
   LORENTZ_INLINE Mask is_grazing(Number q) const {
     return entry_.slack_error > kGrazing * kRoundoff * q * entry_.s;
   }
   LORENTZ_INLINE Mask is_near(Number q) const { return Not(entry_.s > kNear * q); }
 
-  /// Of balls that are neither grazed nor near.
+  /// For balls that are neither grazed nor near.
   LORENTZ_INLINE Number plain(Number q) const {
     Number v2 = v_[0] * v_[0], s = v_[0] * distance(0);
     for (int k = 1; k < D; ++k) v2 = v2 + v_[k] * v_[k], s = s + v_[k] * distance(k);
     return (s - q) / v2;
   }
 
-  /// Nearby the difference would cancel: (s^2 - q^2) / (s + q), where s^2 - q^2 = v^2 (|d|^2 - r^2).
+  /// For near balls the difference s - q would cancel. It is (s^2 - q^2) / (s + q), where s^2 - q^2 = v^2
+  /// (|d|^2 - r^2).
   LORENTZ_INLINE Number near_ball(Number q) const {
     DD d[D];
     place_of<kUnit>(lattice_, offset_, N_, d);
@@ -77,7 +79,7 @@ class CloseTime {
     return Max(gap.value(), all(0));
   }
 
-  /// Component k of the obstacle's place seen from x, to some ulps of |d|.
+  /// Component k of the obstacle's place relative to x, within a few ulps of |d|.
   LORENTZ_INLINE Number distance(int k) const {
     if constexpr (kUnit) return high(N_[k]) + offset_.d[k].hi;
     Number d = offset_.d[k].hi;
@@ -114,16 +116,16 @@ class CloseTime {
     return time;
   }
 
-  // The terms of along . d are larger than their sum. In 2D it is ((v . d) v2 + h skew) / v.v, and h is
-  // known; in 3D it is computed in double-double. In 3D the bound of the slack is so large that what is near
-  // has gone to the second stage before.
+  // The terms of along . d are larger than their sum. In 2D the sum is ((v . d) v2 + h skew) / v.v, and h is
+  // known; in 3D it is computed in double-double. In 3D the error bound of the slack is so large that near
+  // obstacles have already gone to the second stage.
   LORENTZ_INLINE Number close_of_ellipsoid(Mask hit) const {
     const Number q = sqrt(entry_.slack);
     const double condition = lattice_.shape.condition;
-    // What the last bits of h do to the time of a slender one is more than some ulps.
+    // For a slender ellipsoid the last bits of h change the time by more than a few ulps.
     if (condition > kSlender) return Max(rare(), all(0));
     const double unsure =
-        (kGrazing + kGrazingOfShape * condition) * kRoundoff;  // bounds are larger by so much
+        (kGrazing + kGrazingOfShape * condition) * kRoundoff;  // the second term: the bounds are larger
     const Mask grazing = And(hit, entry_.slack_error > unsure * q * entry_.s);
     if (Arch::kOne && any(grazing)) return rare();
     Number time;
@@ -135,7 +137,7 @@ class CloseTime {
     return time;
   }
 
-  // Nearby s - q would cancel: then t = (d . G d - r^2) / (s + q).
+  // For near obstacles s - q would cancel; there t = (d . G d - r^2) / (s + q).
   LORENTZ_INLINE Number close_in_plane(Mask hit, Number q) const {
     const Number v2 = entry_.v2, euclidean_v2 = entry_.euclidean_v2, across = entry_.across,
                  along = v_[0] * distance(0) + v_[1] * distance(1);
@@ -166,8 +168,8 @@ class CloseTime {
     return Max((square.hi - limit.hi) + (square.lo - limit.lo), all(0));
   }
 
-  // The obstacle's place seen from x, to some squares of the roundoff of the terms: place_of in fewer
-  // operations.
+  // The obstacle's place relative to x, with an error of a few squares of the roundoff of its terms: place_of
+  // in fewer operations.
   LORENTZ_INLINE void place(DD (&d)[D]) const {
     for (int k = 0; k < D; ++k) {
       if constexpr (kUnit) {
@@ -185,7 +187,7 @@ class CloseTime {
     }
   }
 
-  // a . d, to some roundoffs of the result and some squares of the terms.
+  // a . d, with an error of a few roundoffs of the result and a few squares of the roundoff of the terms.
   static LORENTZ_INLINE DD close_product(const DD (&a)[D], const DD (&d)[D]) {
     DD sum = first_product(a[0], d[0].hi);
     Number low = a[0].hi * d[0].lo;

@@ -1,5 +1,5 @@
 // When an obstacle that was found is entered, for one flight: within a few ulps, or in double-double with a
-// bound of the error. Private to the reduction engine.
+// bound on the error. Private to the reduction engine.
 #pragma once
 
 #include <type_traits>
@@ -20,7 +20,8 @@ class EntryTime
             const Entry<SplitProduct, D, kBall>& entry, const Vec& v)
       : EntryTime::CloseTime(lattice, offset, N, entry, v) {}
 
-  /// In double-double, and the bound of its error; no part of its caller, whose registers it would take.
+  /// The time in double-double, and a bound on its error. Not inlined, because it would take its caller's
+  /// registers.
   Wide rare(double& error) const {
     if constexpr (std::is_same_v<Arch, HardwareFma>)
       return rare_with_fma(error);

@@ -1,5 +1,5 @@
-// One flight among one atom's obstacles: the inside test, the search, the cell and the time of what is found.
-// Private to the reduction engine, which compiles it twice, with and without the fused multiply-add.
+// One flight among one atom's obstacles: the inside test, the search, and the cell and time of the obstacle
+// found. Private to the reduction engine, which compiles it twice, with and without the fused multiply-add.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +49,8 @@ class AtomFlight {
       search<SearchInCrystal>(to, from, max_time);
   }
 
-  /// The cell of what is found, in the scene's own primitive vectors; false if 64 bits do not hold it.
+  /// Sets the cell of the obstacle found, in the scene's own primitive vectors; false if 64 bits do not hold
+  /// it.
   bool cell(std::array<std::int64_t, 3>& cell) const { return start_.set_cell(N_, cell); }
 
   double rough_time(double& error) const { return entry_.rough_time(error); }
@@ -96,7 +97,7 @@ class AtomFlight {
 
   AtomStart<D, kUnit, kBall> start_;
   Entry<SplitProduct, D, kBall> entry_;
-  Wide N_[D];  ///< the cell of what is found, or of the home cell, from the home cell, in the short basis
+  Wide N_[D];  ///< from the home cell to the obstacle found (zero until then), in the short basis
 };
 
 }  // namespace lorentz

@@ -8,16 +8,16 @@
 
 namespace lorentz {
 
-/// The nearest of the obstacles that were seen to be met, and the last stage that any decision needed.
+/// The nearest obstacle that was found to be met, and the last stage that any decision needed.
 template <int D>
 struct Found {
   static constexpr double kNothing = std::numeric_limits<double>::infinity();
 
   Stage stage = Stage::binary64;
-  Wide N[D];            ///< its cell from the home cell, in the short basis
+  Wide N[D];            ///< its cell, counted from the home cell, in the short basis
   double s = kNothing;  ///< v . d
   double slack = 0, s_error = 0, slack_error = 0;
-  double h = 0;  ///< v x d; in 2D, of ellipsoids only
+  double h = 0;  ///< v x d; only in 2D, for ellipsoids
 
   bool any() const { return s < kNothing; }
   void needs(Stage needed) {

@@ -1,29 +1,29 @@
 // Coordinates of a 3D lattice as seen along a velocity: two across the line, in units of r, and one along it.
-// The text of frame_3d.hpp, and of the batch engine.
+// Included by frame_3d.hpp and by the batch engine.
 
 template <class Numbers, bool kUnit, bool kBall>
 struct FrameOf3 {
   using Number = typename Numbers::Number;
   using Pair = DoubleDouble<Numbers>;
   static constexpr bool kTurned = kUnit && kBall;
-  /// Of unit lattices of balls: the third term of the first form, and the low parts of the first and the
-  /// last, are zero, and are left out.
+  /// For unit lattices of balls the third term of the first form, and the low parts of the first and the last
+  /// form, are zero. They are left out.
   static constexpr int kFirstTerms = kTurned ? 2 : 3;
   static constexpr bool kLowParts = !kTurned;
 
   Number v[3];                ///< turned
   Number v2, rho;             ///< in the metric of the shape: |v|^2, r |v|
-  Number s_rho;               ///< rho, by the name that it has in 2D
+  Number s_rho;               ///< rho, under its name in 2D
   Number scale[2];            ///< across = scale * (form . n)
-  Number across;              ///< of a ball's frame: the length of the first vector
-  double inverse_r;           ///< a vector of this size has an across of 1 at most, and its terms
-  double scale_error;         ///< of |across|^2, relative, from the scale
-  double along_size;          ///< a vector of size 1 has an s of 4 times this at most
+  Number across;              ///< for balls: the length of the frame's first vector
+  double inverse_r;           ///< a vector of size 1 has an across, and terms of it, of at most this
+  double scale_error;         ///< the relative error of |across|^2 from the scale
+  double along_size;          ///< a vector of size 1 has an s of at most 4 times this
   Pair along[kBall ? 1 : 3];  ///< s = along . d; not used for balls, whose s is v . d
-  Pair cartesian[3][3];       ///< across 0, across 1, along: of the axes
+  Pair cartesian[3][3];       ///< across 0, across 1 and along of the axes
   double size_of[3];          ///< the size of each vector of the short basis
 
-  /// Velocities without tiny components.
+  /// Requires velocities without tiny components.
   template <class Arch>
   LORENTZ_INLINE void set(const Bravais& lattice, const Number (&velocity)[3]) {
     for (int k = 0; k < 3; ++k) v[k] = velocity[k];
@@ -36,7 +36,7 @@ struct FrameOf3 {
     set_forms<Arch>(lattice);
   }
 
-  /// Across 0, across 1, along: of each vector of the short basis.
+  /// Across 0, across 1 and along of each vector of the short basis.
   LORENTZ_INLINE const Pair (&form() const)[3][3] {
     if constexpr (kUnit)
       return cartesian;
@@ -51,7 +51,7 @@ struct FrameOf3 {
     set_scale(lattice);
   }
 
-  /// A vector's across and along from its coefficients: the large terms cancel exactly.
+  /// Recomputes a vector's across and along from its coefficients. The large terms cancel exactly.
   template <class Arch>
   LORENTZ_INLINE void recompute(ArmOf3<Numbers>& arm, Number length) const {
     using DD = DoubleDouble<Arch>;
@@ -63,7 +63,7 @@ struct FrameOf3 {
     arm.cancellation = kAnchorTerms / kRoundoff * kForm * inverse_r * terms;
   }
 
-  /// Across (twice) and along of a Cartesian vector.
+  /// The two across components and the along component of a Cartesian vector.
   template <class Arch>
   LORENTZ_INLINE void forms_of(const Pair (&d)[3], Pair (&f)[3]) const {
     using DD = DoubleDouble<Arch>;
@@ -86,7 +86,7 @@ struct FrameOf3 {
   }
 
  private:
-  // Two vectors across the line, exactly perpendicular to it and to each other, and v itself.
+  // Sets two vectors across the line, exactly perpendicular to it and to each other, and v itself.
   template <class Arch>
   LORENTZ_INLINE void set_axes(const Bravais& lattice) {
     using DD = DoubleDouble<Arch>;
@@ -107,10 +107,10 @@ struct FrameOf3 {
     inverse_r = 1 / lattice.radius;
   }
 
-  // The same in the metric of a shape. With f_i orthonormal and perpendicular to w = N v, across is
-  //   f_i . C (v x d) / (r |w|) = ((C^T f_i) x v) . d / (r |w|),
-  // where f_i and C^T f_i need not be exact: whatever g = C^T f_i is rounded to, g x v is perpendicular to v,
-  // so that errors do not grow with the distance.
+  // The same in the metric of a shape. If the f_i are orthonormal and perpendicular to w = N v, across is
+  //   f_i . C (v x d) / (r |w|) = ((C^T f_i) x v) . d / (r |w|).
+  // Here f_i and C^T f_i need not be exact: whatever g = C^T f_i is rounded to, g x v is perpendicular to v,
+  // so errors do not grow with the distance.
   template <class Arch>
   LORENTZ_INLINE void set_axes_of_shape(const Bravais& lattice) {
     const Shape& shape = lattice.shape;
@@ -164,13 +164,13 @@ struct FrameOf3 {
   }
 
   static LORENTZ_INLINE Number low_part(const Pair& d, const Pair& c) {
-    if constexpr (kUnit)  // whose starts have no low parts
+    if constexpr (kUnit)  // where starts have no low parts
       return d.hi * c.lo;
     else
       return d.hi * c.lo + d.lo * c.hi;
   }
 
-  // What each vector of the short basis has across and along.
+  // Sets across and along of each vector of the short basis.
   template <class Arch>
   LORENTZ_INLINE void set_forms(const Bravais& lattice) {
     for (int i = 0; i < 3; ++i) {

@@ -7,8 +7,8 @@
 
 namespace lorentz {
 
-/// The axes in an order in which the smallest component of a vector is the last, c, and a and b come after it
-/// in turn; of the first octant as they are.
+/// The axes in an order in which the smallest component of a vector is the last, c, and a and b follow it in
+/// cyclic order. In the first octant the order stays.
 template <class Numbers, bool kTurned>
 class AxesOf {
  public:

@@ -1,4 +1,4 @@
-// The compiled forms of a flight: which there are, and the one that serves a scene. Private to the reduction
+// The compiled forms of a flight, and the choice of the one that serves a scene. Private to the reduction
 // engine.
 #pragma once
 
@@ -10,15 +10,15 @@
 
 namespace lorentz {
 
-/// What a kernel is asked.
+/// The input of a kernel.
 struct Task {
   const PreparedScene& scene;
   const Vec& x;  ///< in the scene's scaled lengths
-  const Vec& v;  ///< in [1, 2)
+  const Vec& v;  ///< its largest component lies in [1, 2)
   const ObstacleId* from;
   double max_time;
-  double search_time;                ///< what is entered after it need not be searched for: at least max_time
-  const AtomDirections* directions;  ///< of each atom, or null: then they are made here
+  double search_time;                ///< obstacles entered later need not be searched for; at least max_time
+  const AtomDirections* directions;  ///< for each atom; null: the kernel makes them
   Reduction::Time time;
 
   bool is_limited() const { return max_time < std::numeric_limits<double>::infinity(); }
@@ -27,14 +27,14 @@ struct Task {
 using FlightKernel = void (*)(const Task&, Flight&);
 using DirectionsKernel = std::shared_ptr<const AtomDirections> (*)(const PreparedScene&, const Vec&);
 
-/// What runs for a scene, on one kind of processor.
+/// The kernels for a scene, on one kind of processor.
 struct Kernels {
   FlightKernel fly = nullptr;
   DirectionsKernel directions = nullptr;
 };
 
-/// For processors with a fused multiply-add, and for all; the same bits. (Each is a file of its own, since
-/// there are a dozen kernels in it.)
+/// For processors with a fused multiply-add, and for all processors. Both give the same bits. (Each set is a
+/// source file of its own, because it contains a dozen kernels.)
 Kernels kernels_with_fma(const PreparedScene& scene);
 Kernels kernels_without_fma(const PreparedScene& scene);
 
@@ -43,13 +43,13 @@ inline void give_up(Flight& flight) {
   flight.stage = Stage::undecided;
 }
 
-/// The smallest model that serves a scene; each for balls, and for scenes with ellipsoids.
+/// The smallest model that covers a scene. Each model exists for balls, and for scenes with ellipsoids.
 enum class SceneModel {
   unit,      ///< one square or cubic lattice of spacing 1, an obstacle at the origin
   one_atom,  ///< one obstacle in any cell
   several,   ///< several atoms, in one lattice or several
   sparse,    ///< lattices of fewer vectors than dimensions: single obstacles, rows, layers
-  mixed      ///< crystals and such lattices
+  mixed      ///< both crystals and such lattices
 };
 
 inline SceneModel model_of(const PreparedScene& scene) {
@@ -60,7 +60,7 @@ inline SceneModel model_of(const PreparedScene& scene) {
   return scene.atoms[0].unit ? SceneModel::unit : SceneModel::one_atom;
 }
 
-/// make.operator()<dimension, model, are all obstacles balls>() for a scene.
+/// Calls make.operator()<dimension, model, are all obstacles balls>() for a scene.
 template <int D, bool kBall, class Make>
 auto for_model(const PreparedScene& scene, const Make& make) {
   switch (model_of(scene)) {

@@ -13,7 +13,7 @@ template <int D, SceneModel kModel, bool kBall>
 std::shared_ptr<const AtomDirections> directions_for(const PreparedScene& scene, const Vec& v) {
   using Item = typename AtomFlight<SplitProduct, D, kModel, kBall>::Direction;
   auto directions = std::make_shared<DirectionsOfModel<Item>>();
-  // As fly_several sets them, one from the one before: so that both decide alike, to the bit.
+  // Each is set from the one before, as in fly_several, so that both decide alike, to the bit.
   std::optional<Item> to;
   const Bravais* before = nullptr;
   for (const Bravais& lattice : scene.atoms) {

@@ -16,7 +16,7 @@ class Lines3 {
  public:
   Lines3(const Window& window, Candidates& candidates) : window_(window), candidates_(candidates) {}
 
-  /// The line through q with steps `arm`. False: undecided.
+  /// Scans the line through q with steps `arm`. False: undecided.
   bool scan(const Point3& q, const Arm3& arm, double z_first, double z_last) {
     LineOf3<SplitProduct> line;
     if (!line.set(q, arm, window_.line_error(q))) return true;
@@ -27,8 +27,8 @@ class Lines3 {
   }
 
  private:
-  // A line nearly parallel to the flight, where binary64 cannot tell at which k it enters the cylinder;
-  // `estimate` is about there.
+  // Scans a line nearly parallel to the flight, for which binary64 cannot tell at which k it enters the
+  // cylinder. `estimate` is near that k.
   [[gnu::noinline]] bool scan_closely(const Point3& q, const Arm3& arm, double z_first, double z_last,
                                       double estimate) {
     if (!(arm.z > 0)) return false;
@@ -45,7 +45,7 @@ class Lines3 {
     return refine_entry(q, arm, k) && scan_stretch(q, arm, std::max(k_first, k), k_last);
   }
 
-  // From k near the entry of a line into the cylinder to one just before it, by Newton's step in
+  // Moves k from near the entry of a line into the cylinder to just before it, by a Newton step in
   // double-double.
   bool refine_entry(const Point3& q, const Arm3& arm, double& k) {
     const Point3 there = q.step(k, arm);

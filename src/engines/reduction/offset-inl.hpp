@@ -1,7 +1,7 @@
-// Where a lattice lies as seen from a start x: the offset of the obstacle in x's home cell, and whether x lies
-// in an obstacle. The text of offset.hpp, and of the batch engine.
+// Where a lattice lies as seen from a start x: the offset of the obstacle in x's home cell, and whether x
+// lies in an obstacle. Included by offset.hpp and by the batch engine.
 
-/// The obstacle of the home cell, seen from x: d = B home + p - x.
+/// The obstacle of the home cell, relative to x: d = B home + p - x.
 template <class Numbers, int D>
 struct Offset {
   using Number = typename Numbers::Number;
@@ -11,7 +11,8 @@ struct Offset {
   Number error;  ///< of each component of d, at most
 };
 
-/// d, and its error, for a home cell that is chosen; `place` is x seen from the atom's origin, of this size.
+/// Sets d and its error for a given home cell. `place` is x relative to the atom's origin, and `size` is its
+/// size.
 template <class Arch, class Numbers, int D>
 LORENTZ_INLINE void set_offset_from_home(const Bravais& lattice, const DoubleDouble<Arch> (&place)[D],
                                          typename Arch::Number size, Offset<Numbers, D>& offset) {
@@ -33,7 +34,7 @@ LORENTZ_INLINE void set_offset_from_home(const Bravais& lattice, const DoubleDou
   offset.error = offset.error + kPlace * size;
 }
 
-/// The coordinate i of x, seen from the obstacle of the home cell.
+/// Coordinate i of x relative to the obstacle of the home cell.
 template <class Numbers, int D>
 LORENTZ_INLINE typename Numbers::Number coordinate_from_home(const Bravais& lattice,
                                                              const Offset<Numbers, D>& offset, int i) {
@@ -42,8 +43,9 @@ LORENTZ_INLINE typename Numbers::Number coordinate_from_home(const Bravais& latt
   return coordinate;
 }
 
-/// Far out a coordinate errs by so much of a cell that the home cell is a neighbour's, or farther off. What
-/// is left of x in it is small, and tells the rest of the way. Where that does not settle it says true.
+/// Far out a coordinate errs by so large a part of a cell that the home cell found is a neighbour of the
+/// right one, or even farther away. The rest of x in that cell is small, and tells the remaining steps.
+/// Returns true where this does not settle.
 template <class Arch, class Numbers, int D>
 LORENTZ_RARE typename Arch::Mask refine_home(const Bravais& lattice, const DoubleDouble<Arch> (&place)[D],
                                              typename Arch::Number size, typename Arch::Mask far,
@@ -62,10 +64,10 @@ LORENTZ_RARE typename Arch::Mask refine_home(const Bravais& lattice, const Doubl
   return far;
 }
 
-/// Reduces x to its home cell, whose coordinates are within 1/2 of those of x, and kMaxHomeError; of those
-/// wanted true where x is not too far away for that. On the unit lattices d is exact. (Beside a row or a layer
-/// x may be so far away that another cell is called its home: then it lies in no obstacle, and nothing else
-/// rests on it.)
+/// Reduces x to its home cell, whose coordinates differ from those of x by at most 1/2 and kMaxHomeError.
+/// Returns those of the `wanted` in which x is not too far away for that. On the unit lattices d is exact.
+/// (Beside a row or a layer x may be so far away that another cell is taken for its home. Then x lies in no
+/// obstacle, and nothing else depends on the home cell.)
 template <class Arch, bool kUnit, int D, class Vector, class Numbers>
 LORENTZ_INLINE typename Arch::Mask set_offset(const Bravais& lattice, const Vector& x,
                                               typename Arch::Mask wanted, Offset<Numbers, D>& offset) {
@@ -106,8 +108,8 @@ LORENTZ_INLINE typename Arch::Mask set_offset(const Bravais& lattice, const Vect
   }
 }
 
-/// The obstacle N cells on from the home cell, in the short basis, seen from x; returns the error of each
-/// component. N: integers, or in double-double.
+/// The place, relative to x, of the obstacle N cells from the home cell in the short basis. Returns the error
+/// of each component. N: integers, in binary64 or in double-double.
 template <bool kUnit, class Arch, class Numbers, int D, class Coefficient>
 LORENTZ_INLINE typename Arch::Number place_of(const Bravais& lattice, const Offset<Numbers, D>& offset,
                                               const Coefficient (&N)[D], DoubleDouble<Arch> (&d)[D]) {
@@ -145,7 +147,8 @@ LORENTZ_INLINE typename Arch::Number place_of(const Bravais& lattice, const Offs
   return error + kPlace * size;
 }
 
-/// Is the lattice vector n (in the short basis) exactly parallel to v? No also where binary64 cannot tell.
+/// Is the lattice vector n (in the short basis) exactly parallel to v? The answer is no also where binary64
+/// cannot tell.
 template <class Arch, int D, class Vector>
 LORENTZ_NOINLINE typename Arch::Mask is_parallel(const Bravais& lattice, const Vector& v,
                                                  const typename Arch::Number (&n)[D]) {
@@ -168,7 +171,7 @@ LORENTZ_NOINLINE typename Arch::Mask is_parallel(const Bravais& lattice, const V
   return yes;
 }
 
-/// r^2 - |d|^2, in the metric of the shape, and the bound of its error, in binary64.
+/// r^2 - |d|^2, in the metric of the shape, and a bound on its error, in binary64.
 template <bool kUnit, bool kBall, class Numbers, int D>
 LORENTZ_INLINE void set_gap(const Bravais& lattice, const DoubleDouble<Numbers> (&d)[D],
                             typename Numbers::Number error, typename Numbers::Number& gap,

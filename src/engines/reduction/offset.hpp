@@ -26,10 +26,10 @@ inline double flushed(double a) {
 #undef LORENTZ_NOINLINE
 #undef LORENTZ_INLINE
 
-/// The symmetry of the unit lattices of balls that brings a velocity into the first octant, v_0 >= v_1 >= v_2
-/// >= 0.
+/// The symmetry of the unit lattices of balls that brings a velocity into the first octant,
+/// v_0 >= v_1 >= v_2 >= 0.
 struct Octant {
-  int axis[3]{0, 1, 2};  ///< component i there is component axis[i] here, times sign[i]
+  int axis[3]{0, 1, 2};  ///< the turned component i is component axis[i] times sign[i]
   double sign[3]{1, 1, 1};
 
   Octant() = default;
@@ -37,7 +37,7 @@ struct Octant {
     if (dimension == 2) {
       axis[1] = std::fabs(v[0]) >= std::fabs(v[1]);
       axis[0] = 1 - axis[1];
-    } else {  // the number of components that come before each one: its place, without a branch
+    } else {  // the place of each is the number of components before it, found without a branch
       const double a = std::fabs(v[0]), b = std::fabs(v[1]), c = std::fabs(v[2]);
       axis[(a < b) + (a < c)] = 0;
       axis[(b <= a) + (b < c)] = 1;
@@ -46,8 +46,8 @@ struct Octant {
     for (int i = 0; i < dimension; ++i) sign[i] = std::copysign(1, v[axis[i]]);
   }
 
-  /// A velocity, without its tiny components. (Component by component: a copy as a whole would wait for
-  /// them.)
+  /// Turns a velocity and drops its tiny components. (Component by component, because a copy as a whole would
+  /// wait for them.)
   template <bool kTurned>
   void turn(const Vec& here, Vec& there) const {
     for (int i = 0; i < 3; ++i) there[i] = flushed(kTurned ? here[axis[i]] * sign[i] : here[i]);

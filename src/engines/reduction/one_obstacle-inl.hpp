@@ -1,7 +1,7 @@
-// A single ball on the line of flight: the text of one_obstacle.hpp, and of the batch engine.
+// A single ball on the line of flight. Included by one_obstacle.hpp and by the batch engine.
 
-/// Seen from x: the centre at d, s = v . d, slack = (r |v|)^2 - |v x d|^2, in binary64. Entries are at
-/// s - s_rho at the earliest.
+/// A ball with its centre at d relative to x: s = v . d and slack = (r |v|)^2 - |v x d|^2, in binary64. The
+/// earliest entry is at s - s_rho.
 template <class Numbers, int D>
 struct LoneBall {
   using Number = typename Numbers::Number;

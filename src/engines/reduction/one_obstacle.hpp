@@ -14,8 +14,8 @@ namespace lorentz {
 
 enum class Look { met, missed, behind, doubtful };
 
-/// Is the obstacle at d, whose components err by at most `error`, entered ahead? If so, or if it is doubtful,
-/// `found` has all but its cell.
+/// Is the obstacle at d, whose components err by at most `error`, entered ahead? If so, or if that is
+/// doubtful, `found` gets everything but its cell.
 template <int D>
 [[gnu::noinline]] Look look_closely_at(const Wide (&d)[D], double error, const Bravais& obstacle,
                                        bool is_ball, const Vec& v, Found<D>& found) {
@@ -33,7 +33,8 @@ template <int D>
   return decide(StableMeeting<SplitProduct, D, false>(v, d, error, obstacle));
 }
 
-/// The same: a ball in binary64 if that is certain; else, and an ellipsoid, in double-double. v2 = |v|^2.
+/// The same. A ball is decided in binary64 if that is certain; otherwise, and for an ellipsoid, in
+/// double-double. v2 = |v|^2.
 template <int D, bool kBall>
 inline Look look_at(const Wide (&d)[D], double error, const Bravais& obstacle, const Vec& v, double v2,
                     Found<D>& found) {

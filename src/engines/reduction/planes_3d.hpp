@@ -17,7 +17,7 @@ class Planes3 {
   Planes3(const Window& window, const Candidates& candidates, Lines& lines)
       : window_(window), candidates_(candidates), lines_(lines) {}
 
-  /// The plane of this point. False: undecided.
+  /// Scans the plane of this point. False: undecided.
   bool scan(const Point3& point, double kappa) {
     typename Window::Section section;
     if (!window_.set_section(point, kappa, candidates_.end(), section)) return true;

@@ -1,5 +1,5 @@
-// Decisions about a number whose error is bounded. What it is computed from: formulas.hpp; the bounds:
-// bounds.hpp.
+// Decisions about a number whose error is bounded. formulas.hpp has the formulas for such numbers, bounds.hpp
+// the bounds.
 #pragma once
 
 #include <cmath>

@@ -8,30 +8,30 @@
 
 namespace lorentz {
 
-/// Four numbers, of which three are used, in one register where the processor has such: what one does to a
-/// vector of the lattice then takes two operations, and none of the three leaves the registers. (An extension
-/// of GCC and Clang; without such registers it is compiled to others.)
+/// Four numbers, of which three are used, in one register if the processor has such registers. Then an
+/// operation on a lattice vector takes two instructions, and none of the three vectors leaves the registers.
+/// (An extension of GCC and Clang; without such registers it is compiled to others.)
 using FourNumbers [[gnu::vector_size(32)]] = double;
 
-/// Works on running coordinates, until these have to be computed anew from the coefficients.
+/// Works on running coordinates until these have to be computed anew from the coefficients.
 class GreedyReduction {
  public:
   explicit GreedyReduction(Basis3& basis) : basis_(basis) {}
 
-  /// Of the coefficients, ever; below 2^52 all steps were exact.
+  /// The largest coefficient that ever occurred. If it is below 2^52, all steps were exact.
   double largest() const { return largest_of(largest_); }
 
-  /// Are the coordinates those of the coefficients, or good enough?
+  /// Are the coordinates those of the coefficients, or accurate enough?
   bool is_accurate(double inverse_r) const { return fresh_ || largest() * inverse_r < kGoodRunning; }
 
-  /// The coordinates have been computed anew.
+  /// To be called when the coordinates have been computed anew.
   void refresh() {
     fresh_ = true;
     limit_ = kNoLimit;
   }
 
-  /// Leaves the coefficients of short vectors, the shortest first. False if it was interrupted, because the
-  /// coordinates have to be computed anew.
+  /// Reduces to the coefficients of short vectors, the shortest first. False if it was interrupted because
+  /// the coordinates have to be computed anew.
   bool run() {
     Vector a(basis_.b[0]), b(basis_.b[1]), c(basis_.b[2]);
     const bool done = reduce(a, b, c);
@@ -48,7 +48,8 @@ class GreedyReduction {
         : n{arm.n[0], arm.n[1], arm.n[2], 0}, place{arm.p[0], arm.p[1], arm.z, 0} {}
   };
 
-  // The two shorter vectors by Lagrange's step, then the longest by the nearest point of their plane.
+  // Shortens the two shorter vectors by Lagrange's step, then the longest by the nearest point of their
+  // plane.
   bool reduce(Vector& a, Vector& b, Vector& c) {
     double aa = product(a, a), bb = product(b, b), cc = product(c, c);
     if (bb < aa) exchange(a, b, aa, bb);

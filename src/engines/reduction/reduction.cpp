@@ -23,10 +23,11 @@ bool has_fma() {
 #endif
 }
 
-// Times in other units; a time that leaves the normal numbers is no longer known to be correctly rounded.
+// Converts times to other units. A time that leaves the normal numbers is no longer known to be correctly
+// rounded.
 void rescale(Flight& flight, int exponent) {
   if (exponent == 0 || flight.outcome != Outcome::hit) return;
-  const bool is_zero = flight.time == 0;  // and stays so; a time that becomes zero was not
+  const bool is_zero = flight.time == 0;  // and stays zero; a time that becomes zero was not
   flight.time = scaled_time(flight.time, exponent);
   if (!is_zero && !std::isnormal(flight.time)) flight.time_is_rounded = false;
 }
@@ -74,8 +75,8 @@ const char* Reduction::model() const {
   return "";
 }
 
-// A search that ends at a limit may meet what it cannot decide beyond the first hit, where one without a
-// limit never looks.
+// A search that ends at a limit may meet, beyond the first hit, an obstacle that it cannot decide. A search
+// without a limit never looks there, so it follows where the first one is undecided.
 inline void Reduction::fly_to_limit(Task task, Flight& flight) const {
   model_->kernels.fly(task, flight);
   if (flight.outcome != Outcome::undecided || !task.is_limited()) return;

@@ -1,4 +1,4 @@
-// A flight among all the atoms of a scene: among one, or the earliest among several. Private to the reduction
+// A flight among all atoms of a scene: one atom, or the earliest hit among several. Private to the reduction
 // engine, which compiles it for processors with the fused multiply-add and for those without.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace lorentz {
 
-/// A velocity as seen from each atom. What that is depends on the scene's model, which knows.
+/// A velocity as seen from each atom. The type depends on the scene's model (DirectionsOfModel).
 struct AtomDirections {};
 
 template <class Item>
@@ -37,7 +37,7 @@ inline void set_time(const AtomFlight& found, const Task& task, Flight& flight) 
   flight.time_is_rounded = flight.time == t.hi + (t.lo - error);
 }
 
-/// A time limit, in the place of a hit at that time.
+/// A time limit, in place of a hit at that time.
 struct TimeLimit {
   double time_;
 
@@ -46,7 +46,7 @@ struct TimeLimit {
   Wide rare(double& error) const { return error = 0, time_; }
 };
 
-// Is one hit before the other, or before a limit? Binary64, then double-double.
+// Is one hit before the other, or before a limit? Decided in binary64, then in double-double.
 template <class OneFlight, class Other>
 inline Decision is_sooner(const OneFlight& one, const Other& other, const Vec& v, Stage& stage) {
   double error, other_error;
@@ -58,8 +58,8 @@ inline Decision is_sooner(const OneFlight& one, const Other& other, const Vec& v
   return is_positive(close.hi, error + other_error + kStable * std::fabs(close.hi));
 }
 
-/// Is the hit before the limit? Else there is none. False: undecided. (No part of its caller, whose registers
-/// it would take.)
+/// If the hit is not before the limit, the outcome becomes `never`. False: undecided. (Not inlined, because
+/// it would take its caller's registers.)
 template <class AtomFlight>
 [[gnu::noinline]] bool keep_limit(const AtomFlight& found, const Task& task, Flight& flight) {
   // No time is below zero, whatever it errs by.
@@ -69,7 +69,7 @@ template <class AtomFlight>
   return sooner != Decision::doubtful;
 }
 
-/// One atom in the scene.
+/// A flight in a scene with one atom.
 template <class Arch, int D, bool kUnit, bool kBall>
 inline void fly_one(const Task& task, Flight& flight) {
   const Bravais& lattice = task.scene.atoms[0];
@@ -95,7 +95,7 @@ inline void fly_one(const Task& task, Flight& flight) {
   if (flight.outcome == Outcome::hit) set_time(atom, task, flight);
 }
 
-/// The flights of several atoms: those of the first few are kept from the inside tests for the searches.
+/// The flights of several atoms. Those of the first few are kept from the inside tests for the searches.
 template <class OneFlight>
 class AtomFlights {
  public:
@@ -104,7 +104,7 @@ class AtomFlights {
     OneFlight& flight = atom < kKept ? kept_[atom] : other_;
     return atom < started_ || flight.start(task.scene.atoms[atom], task.x) ? &flight : nullptr;
   }
-  /// From now on those that are kept need not be started again.
+  /// From now on the flights that are kept need not be started again.
   void keep() { started_ = kKept; }
 
  private:

@@ -48,7 +48,8 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
   }
 
  private:
-  // Never: nothing before s_limit; or the rows are exactly parallel to the line, and were all passed.
+  // `never`: nothing is entered before s_limit; or the rows are exactly parallel to the line, and all were
+  // passed.
   Outcome outcome() const { return found.any() ? Outcome::hit : Outcome::never; }
 
   Outcome give_up() {
@@ -56,7 +57,7 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
     return Outcome::undecided;
   }
 
-  // The first ball of row n that is met ahead, if it comes before the best so far. False: undecided.
+  // Takes the first ball of row n that is met ahead, if it comes before the best so far. False: undecided.
   bool look_in_row(double n) {
     double unsure;
     const double m = this->start_of_row(n, unsure);
@@ -64,7 +65,7 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
     return look_from(n, std::ceil(m - unsure));
   }
 
-  // The balls of row n from m on, until one is met or the row has left the strip.
+  // Looks at the balls of row n from m on, until one is met or the row has left the strip.
   bool look_from(double n, double m) {
     for (int step = 0; step < kMaxCandidatesInRow; ++step) {
       const Look2 look = look_at(n, m + step);
@@ -76,7 +77,7 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
 
   enum class Look2 { before, taken, beyond, doubtful };
 
-  // The ball at n R + m L: before the strip or behind the start, met, or beyond the strip.
+  // Looks at the ball n R + m L: is it before the strip or behind the start, met, or beyond the strip?
   Look2 look_at(double n, double m) {
     const auto ball = this->ball_at(n, m);
     const Decision meets = is_below(ball.h, to_.rho, ball.error, to_.rho_error());
@@ -111,7 +112,7 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
     return offer(N, ball.s, ball.s_error, ball.slack, ball.slack_error, h);
   }
 
-  // A row nearly parallel to the line, where binary64 cannot tell at which m it enters the strip.
+  // For a row nearly parallel to the line, for which binary64 cannot tell at which m it enters the strip.
   [[gnu::noinline]] bool look_closely_in_row(double n) {
     found.needs(Stage::double_double);
     double m;

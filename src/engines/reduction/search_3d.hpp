@@ -1,5 +1,5 @@
 // The search for the first ball along a prepared direction, in 3D (direction_3d.hpp says how): window by
-// window, each plane by plane. Private to the reduction engine.
+// window, and in each window plane by plane. Private to the reduction engine.
 #pragma once
 
 #include <algorithm>
@@ -53,7 +53,7 @@ class Search3 {
     return Outcome::undecided;
   }
 
-  // The planes k b_2 + (b_0, b_1) that meet the window.
+  // Scans the planes k b_2 + (b_0, b_1) that meet the window.
   bool scan_window() {
     double low, high;
     kappa_ = window_.plane_of(window_.anchor_point);
@@ -66,7 +66,8 @@ class Search3 {
     return true;
   }
 
-  // What lies on the line repeats after this: v . b of a lattice vector b that is exactly parallel to it.
+  // The obstacles on the line repeat after this s: v . b of a lattice vector b that is exactly parallel to
+  // the line.
   double period() const {
     for (const Arm3& arm : window_.basis->b)
       if (arm.p[0] == 0 && arm.p[1] == 0 &&

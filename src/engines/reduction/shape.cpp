@@ -24,8 +24,8 @@ void set_rounded(const WideMatrix& wide, Vec (&rounded)[3]) {
     for (int k = 0; k < 3; ++k) rounded[i][k] = wide[i][k].hi;
 }
 
-// Libraries' cube roots differ in the last bit, and every answer among ellipsoids with them: a step of Newton
-// in double-double makes one of them all.
+// The cube roots of standard libraries differ in the last bit, and every answer among ellipsoids would differ
+// with them. A Newton step in double-double makes them the same.
 double cube_root(double x) {
   const double guess = std::cbrt(x);
   const Wide square = Wide::product(guess, guess);
@@ -70,7 +70,7 @@ std::optional<Shape> shape_of(const std::vector<Vec>& semiaxes) {
   shape.condition = size * shape.cofactor_size / shape.volume * (1 + kAmple);
   shape.inverse_height_scale = 1 / std::fabs(shape.cofactor[2][2]);
   shape.along_error = kAlongOfShape * shape.condition * kRoundoff * size / r;
-  // So that in binary64 the metric's own error never counts.
+  // Ensures that in binary64 the metric's own error never counts.
   const double worst = shape.metric_error / shape.metric_size * shape.condition * shape.condition;
   if (!(shape.condition < kMaxCondition && worst < kMaxMetricError)) return std::nullopt;
   return shape;

@@ -18,7 +18,7 @@
 
 namespace lorentz {
 
-/// In 2D with a third semiaxis of length r at right angles to the plane.
+/// In 2D a third semiaxis of length r is added at right angles to the plane.
 struct Shape {
   Vec semiaxes[3];
   double radius = 0;  ///< r
@@ -38,8 +38,8 @@ struct Shape {
   }
 };
 
-/// The shape of d semiaxes (any ball: r times the axes), or nothing if they are too slender, or dependent.
-/// Lengths between 2^-100 and 2^100.
+/// The shape of d semiaxes (for a ball: r times the axes). Nothing if the ellipsoid is too slender, if the
+/// semiaxes are dependent, or if r is not between 2^-100 and 2^100.
 std::optional<Shape> shape_of(const std::vector<Vec>& semiaxes);
 
 }  // namespace lorentz

@@ -1,16 +1,16 @@
-// Which obstacles of a row, and which rows of a plane, a line can meet. The text of sparse_rows.hpp, and of the
-// batch engine.
+// Which obstacles of a row, and which rows of a plane, a line can meet. Included by sparse_rows.hpp and by
+// the batch engine.
 //
-// All vectors are seen in a frame in which the obstacles are balls of radius r. The row d + n b, seen along v,
-// has the heights v x d + n c across the line, c = v x b. The line passes the row at n = -(v x d).c / |c|^2 and
-// at the distance p = |d.c| / |c| (in the plane 0), so that it meets the balls within |v| sqrt(r^2 - p^2) / |c| of
-// that n. The rows d + k e of a plane have the distances (d.c + k e.c) / |c|: of these it meets what is within
-// r |c| / |e.c| of k = -d.c / e.c.
+// All vectors are seen in a frame in which the obstacles are balls of radius r. Seen along v, the row d + n b
+// has the heights v x d + n c across the line, where c = v x b. The line passes the row at
+// n = -(v x d).c / |c|^2 and at the distance p = |d.c| / |c| (in the plane 0), so it meets the balls within
+// |v| sqrt(r^2 - p^2) / |c| of that n. The rows d + k e of a plane have the distances (d.c + k e.c) / |c|;
+// the line meets those within r |c| / |e.c| of k = -d.c / e.c.
 //
-// Errors (docs/bounds.md): v, b, d and e err by at most kSparse u of their size; so c errs by at most gamma
-// |c|, where gamma = kSparse u |v| |b| / |c|.
+// Errors (docs/bounds.md): v, b, d and e err by at most kSparse u of their size. So c errs by at most
+// gamma |c|, where gamma = kSparse u |v| |b| / |c|.
 
-/// The integers that come into question: none outside [first, last] does, where that is known.
+/// A range of candidate integers: where `known`, no integer outside [first, last] is a candidate.
 template <class Numbers>
 struct SparseRange {
   using Number = typename Numbers::Number;
@@ -18,21 +18,21 @@ struct SparseRange {
   Number first, last;
   typename Numbers::Mask known;
 
-  /// `within` of the middle, where both together err by at most `unsure`.
+  /// The integers within `within` of `middle`, where the two together err by at most `unsure`.
   LORENTZ_INLINE SparseRange(Number middle, Number within, Number unsure)
       : first(Ceil(middle - within - unsure)),
         last(Floor(middle + within + unsure)),
         known(Abs(middle) + within + unsure < all(kMaxCoefficient)) {}
 };
 
-/// A vector, and what its terms come to: at least its length.
+/// A vector, and the size of its terms, which is at least its length.
 template <class Numbers, int D>
 struct SparseVector {
   using Number = typename Numbers::Number;
 
   Number a[D], size;
 
-  /// k times another one is added.
+  /// Adds k times another vector.
   LORENTZ_INLINE void add(Number k, const SparseVector& other) {
     for (int i = 0; i < D; ++i) a[i] = a[i] + k * other.a[i];
     size = size + Abs(k) * other.size;
@@ -47,7 +47,7 @@ class SparseRow {
   using Vector = SparseVector<Numbers, D>;
 
  public:
-  /// `unit`: kSparse u. `error`: of each component of a start d, besides that.
+  /// `unit`: kSparse u. `error`: the additional error of each component of a start d.
   LORENTZ_INLINE SparseRow(const Number (&v)[D], double unit, const Vector& b, double radius, Number error)
       : radius_(all(radius)), speed_(sqrt(square_of(v))), error_(2 * error) {
     for (int k = 0; k < D; ++k) v_[k] = v[k];
@@ -59,7 +59,7 @@ class SparseRow {
     gamma_ = s_error_ / length_;
   }
 
-  /// Is the row nearly parallel to the line, so that the rest is of no use?
+  /// Is the row nearly parallel to the line, so that the ranges below are of no use?
   LORENTZ_INLINE typename Numbers::Mask is_level() const { return Not(gamma_ < all(kMaxGamma)); }
 
   /// The balls that the line can meet.
@@ -83,7 +83,7 @@ class SparseRow {
     return range;
   }
 
-  /// The balls that are not behind the start, of a row that goes forward.
+  /// The balls that are not behind the start, for a row that points forward.
   LORENTZ_INLINE Range ahead(const Vector& d) const {
     const Number n = Neg(product_of(v_, d.a)) / s_;
     Range range(n, all(0), 2 * (of_unit_ * d.size + speed_ * error_ + Abs(n) * s_error_) / s_);
@@ -91,7 +91,7 @@ class SparseRow {
     return range;
   }
 
-  /// The rows d + k e of this kind that the line can meet. In space.
+  /// The rows d + k e, parallel to this one, that the line can meet. Only in space.
   LORENTZ_INLINE Range rows(const Vector& d, const Vector& e) const {
     const Number lift = product_of(e.a, c_), steep = Abs(lift), lift_error = 4 * gamma_ * e.size * length_;
     const Number middle = Neg(product_of(d.a, c_)) / lift, within = radius_ * length_ / steep;
@@ -126,8 +126,8 @@ LORENTZ_INLINE void exchange(typename Numbers::Mask m, SparseCombination<Numbers
   exchange(m, a.seen.size, b.seen.size);
 }
 
-/// Two vectors of a plane that are short across the line: few rows along the first one come near it. Any two that
-/// span it would do.
+/// Makes two vectors of a plane short across the line, so that few rows along the first one come near the
+/// line. Any two vectors that span the plane would be correct.
 template <class Numbers>
 LORENTZ_INLINE void shorten_across(const typename Numbers::Number (&v)[3],
                                    SparseCombination<Numbers, 3> (&rows)[2]) {
@@ -152,7 +152,7 @@ LORENTZ_INLINE void shorten_across(const typename Numbers::Number (&v)[3],
   }
 }
 
-/// The row turned so that it goes forward.
+/// Turns the row so that it points forward.
 template <class Numbers, int D>
 LORENTZ_INLINE void turn_forward(const typename Numbers::Number (&v)[D], SparseCombination<Numbers, D>& row) {
   const auto backward = product_of(v, row.seen.a) < all(0);

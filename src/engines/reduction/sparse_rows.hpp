@@ -1,5 +1,5 @@
-// Which obstacles of a row, and which rows of a plane, a line can meet, for one flight. Private to the reduction
-// engine.
+// Which obstacles of a row, and which rows of a plane, a line can meet, for one flight. Private to the
+// reduction engine.
 #pragma once
 
 #include "src/engines/base/fma.hpp"

@@ -1,5 +1,5 @@
-// The search for the first obstacle of a lattice that has fewer vectors than there are dimensions: a single
-// obstacle, a row, a plane of them. Private to the reduction engine.
+// The search for the first obstacle of a lattice with fewer vectors than dimensions: a single obstacle, a
+// row, or a layer. Private to the reduction engine.
 #pragma once
 
 #include <algorithm>
@@ -34,9 +34,8 @@ struct SparseDirection {
   }
 };
 
-/// As Search2 and Search3. What may be met is known roughly, in binary64 (sparse_rows.hpp), and each obstacle
-/// is looked at as a single one. Obstacles of one atom do not overlap, so that they are entered in the order
-/// of s.
+/// Like Search2 and Search3. Candidates are found roughly, in binary64 (sparse_rows.hpp), and each is decided
+/// as a single obstacle. Obstacles of one atom do not overlap, so they are entered in the order of s.
 template <int D, bool kBall>
 class SparseSearch {
  public:
@@ -63,7 +62,7 @@ class SparseSearch {
   // False: undecided.
   bool scan() { return lattice_.rank == 0 ? look_at_only() : scan_rows(); }
 
-  // (No part of its caller, whose registers it would take.)
+  // (Not inlined, because it would take its caller's registers.)
   [[gnu::noinline]] bool scan_rows() {
     see();
     if constexpr (D == 3)
@@ -81,14 +80,15 @@ class SparseSearch {
   }
 
   bool look_at_only() {
-    if (from_) return true;  // which can be no other
+    if (from_) return true;  // the only obstacle is the one that is left
     for (Wide& n : found.N) n = Wide();
     const Look seen = look_at<D, kBall>(offset_.d, offset_.error, lattice_, v_, v2_, found);
     if (seen != Look::met) found.s = Found<D>::kNothing;
     return seen != Look::doubtful;
   }
 
-  // Where obstacles are balls, all vectors err by so much of their sizes (bounds.hpp); and what a place errs by.
+  // In the frame in which obstacles are balls: the error of all vectors, relative to their sizes
+  // (bounds.hpp), and the error of a place.
   double unit() const {
     if constexpr (kBall) return kSparse * kRoundoff;
     return (kSparse + kSparseOfShape * lattice_.shape.condition) * kRoundoff;
@@ -98,7 +98,8 @@ class SparseSearch {
     return error * std::sqrt(lattice_.shape.metric_size);
   }
 
-  // The vectors as sparse_rows.hpp takes them: velocity, start, the row that is followed, the step to the next.
+  // Sets the vectors for sparse_rows.hpp: velocity, start, the row that is followed, and the step to the next
+  // row.
   void see() {
     const auto image = [&](const auto& a, double(&there)[D]) {
       for (int i = 0; i < D; ++i) {
@@ -122,7 +123,8 @@ class SparseSearch {
     }
   }
 
-  // The first obstacle of row k that is met ahead, if it comes before the best so far. False: undecided.
+  // Takes the first obstacle of row k that is met ahead, if it comes before the best so far. False:
+  // undecided.
   bool scan_row(const Row& along, double k) {
     Vector start = start_;
     start.add(k, rows_[1].seen);
@@ -141,8 +143,8 @@ class SparseSearch {
     return n > range.last;
   }
 
-  // A row nearly parallel to the line: if the next one is met, that is the first. If the row is exactly parallel,
-  // all are met, or none is.
+  // Scans a row nearly parallel to the line. If the next obstacle is met, it is the first. If the row is
+  // exactly parallel, all obstacles are met, or none.
   bool scan_level_row(const Row& along) {
     const Range ahead = along.ahead(start_);
     if (!ahead.known) return false;
@@ -156,8 +158,8 @@ class SparseSearch {
     return false;
   }
 
-  // Does the line begin outside of the slab of a layer of balls, and not come nearer? (Nothing is unsure of what is
-  // exactly zero, in a basis that is exact.)
+  // Does the line begin outside the slab of a layer of balls, and come no nearer? (In an exact basis,
+  // quantities that are exactly zero have no error.)
   bool stays_outside() const {
     if constexpr (!kBall) return false;
     const auto& b = lattice_.basis;
@@ -179,7 +181,7 @@ class SparseSearch {
            approach * std::copysign(1, depth) + approach_error <= 0;
   }
 
-  // The obstacle n of row k. The one that is left counts as behind.
+  // Looks at obstacle n of row k. The obstacle that is left counts as behind.
   Look look(double n, double k) {
     double N[D]{};
     for (int i = 0; i < lattice_.rank; ++i) {

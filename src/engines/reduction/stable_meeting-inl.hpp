@@ -1,5 +1,6 @@
-// One obstacle and the line, in double-double: along, across, and when it is entered. The second stage of
-// every decision about an obstacle, and the time. The text of stable_meeting.hpp, and of the batch engine.
+// One obstacle and the line, in double-double: along, across, and the time of entry. This is the second stage
+// of every decision about an obstacle, and gives the time. Included by stable_meeting.hpp and by the batch
+// engine.
 
 /// G a, by rows.
 template <class Arch, int D>
@@ -12,7 +13,7 @@ LORENTZ_INLINE void apply_metric(const Shape& shape, const DoubleDouble<Arch> (&
   }
 }
 
-/// The same of a binary64 vector, in fewer operations.
+/// The same for a binary64 vector, in fewer operations.
 template <class Arch, int D, class Vector>
 LORENTZ_INLINE void apply_metric(const Shape& shape, const Vector& a, DoubleDouble<Arch> (&image)[D]) {
   using DD = DoubleDouble<Arch>;
@@ -22,7 +23,7 @@ LORENTZ_INLINE void apply_metric(const Shape& shape, const Vector& a, DoubleDoub
   }
 }
 
-/// |d|^2 in the shape's metric, and the bound of its error; d errs by at most `error` in each component.
+/// |d|^2 in the shape's metric, and a bound on its error; d errs by at most `error` in each component.
 template <class Arch, int D>
 LORENTZ_INLINE DoubleDouble<Arch> square_in(const Shape& shape, const DoubleDouble<Arch> (&d)[D],
                                             typename Arch::Number error,
@@ -40,8 +41,9 @@ LORENTZ_INLINE DoubleDouble<Arch> square_in(const Shape& shape, const DoubleDoub
   return square;
 }
 
-/// Seen from x: the centre at d, s = v . d, slack = r^2 v^2 - |v x d|^2, positive iff the line meets the open
-/// ball. Of an ellipsoid: all of this in the metric of its shape (shape.hpp).
+/// An obstacle with its centre at d relative to x: s = v . d, and slack = r^2 v^2 - |v x d|^2, which is
+/// positive iff the line meets the open ball. For an ellipsoid all of this is in the metric of its shape
+/// (shape.hpp).
 template <class Arch, int D, bool kBall>
 struct StableMeeting {
   using DD = DoubleDouble<Arch>;
@@ -81,7 +83,8 @@ struct StableMeeting {
     slack_error = 2 * h_error * (sqrt(h2.hi) + h_error) + kStable * (rho2.hi + h2.hi) + r * r * v2_error;
   }
 
-  /// The time of entry, and the bound of its error. Required: the line meets the obstacle, which is ahead.
+  /// The time of entry, and a bound on its error. Requires that the line meets the obstacle, and that it is
+  /// ahead.
   LORENTZ_INLINE DD time(const DD (&d)[D], Number error, const Bravais& lattice, Number& time_error) const {
     DD q(sqrt(slack.hi));
     const Mask root_is_far = s.hi > kFarSlack * q.hi;  // where one roundoff of q does not count
@@ -100,7 +103,7 @@ struct StableMeeting {
     return t;
   }
 
-  /// |d|^2 - r^2, and the bound of its error.
+  /// |d|^2 - r^2, and a bound on its error.
   LORENTZ_INLINE DD gap(const DD (&d)[D], Number error, const Bravais& lattice, Number& gap_error) const {
     const double r = lattice.radius;
     DD gap = -DD::product(all(r), all(r));
@@ -116,7 +119,7 @@ struct StableMeeting {
   }
 
  private:
-  // (s - q) / v^2: one of Newton's steps from a quotient within a few ulps.
+  // (s - q) / v^2, by one Newton step from a quotient that is right within a few ulps.
   LORENTZ_INLINE DD far_time(const DD& q, Number q_error, Number& time_error) const {
     const DD difference = s - q;
     const Number inverse = 1 / v2.hi, rough = difference.hi * inverse;
@@ -178,7 +181,8 @@ struct StableMeeting {
   }
 };
 
-/// What a meeting leaves certain; s and the slack in binary64, with all that they err by.
+/// The decisions that a meeting makes certain. s and the slack are in binary64, with errors that include this
+/// rounding.
 template <class Arch>
 struct CloseLook {
   typename Arch::Number s, s_error, slack, slack_error;

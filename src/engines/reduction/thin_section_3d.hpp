@@ -1,6 +1,6 @@
-// A long, thin section of the flight's cylinder by a lattice plane, in 3D: the first ball in an ellipse of a
-// 2D lattice. It is searched in parts, short at first and then twice as long each, with a basis of the plane
-// that is short in the metric of the part. Private to the reduction engine.
+// A long, thin section of the flight's cylinder by a lattice plane, in 3D: the problem of the first ball in
+// an ellipse of a 2D lattice. It is searched in parts, short at first and then each twice as long as the one
+// before, with a basis of the plane that is short in the metric of the part. Private to the reduction engine.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class ThinSection3 {
   ThinSection3(const Window& window, const Candidates& candidates, Lines& lines)
       : window_(window), candidates_(candidates), lines_(lines) {}
 
-  /// From a point of the plane. False: undecided.
+  /// Scans the section, from a point of the plane. False: undecided.
   [[gnu::noinline]] bool scan(const Point3& in_plane, double z_first, double z_last, double kappa,
                               double xi_error) {
     const Basis3& basis = *window_.basis;
@@ -42,14 +42,14 @@ class ThinSection3 {
   }
 
  private:
-  // A part of a section, and the half width that it has there.
+  // A part of a section, and its half width.
   struct Part {
     double z, z_next, width;
 
     double middle() const { return z + 0.5 * (z_next - z); }
   };
 
-  // Across the normal.
+  // The coordinate across the normal.
   double eta(const double* p) const {
     const double* normal = window_.basis->normal;
     return p[1] * normal[0] - p[0] * normal[1];
@@ -62,7 +62,8 @@ class ThinSection3 {
     return std::sqrt(std::max(0.0, (1 - nearest) * (1 + nearest)) + unsure) + kSectionSlop;
   }
 
-  // To a lattice point of the plane near the middle of the part; false if its integers were rounded.
+  // Moves `base` to a lattice point of the plane near the middle of the part; false if its integers were
+  // rounded.
   bool move_to_middle(const Part& part, const Arm3 (&c)[2], double inverse, Point3& base) const {
     for (int pass = 0; pass < 2; ++pass) {
       const double dz = part.middle() - base.z, dh = -eta(base.p);
@@ -78,7 +79,7 @@ class ThinSection3 {
     return true;
   }
 
-  // The lines of a part: k_1 = (c_0 x (point - base)) / (c_0 x c_1).
+  // Scans the lines of a part: k_1 = (c_0 x (point - base)) / (c_0 x c_1).
   bool scan_part(const Part& part, const Arm3 (&c)[2], double inverse, const Point3& base, double overlap) {
     const double centre = (c[0].z * -eta(base.p) - (part.middle() - base.z) * eta(c[0].p)) * inverse;
     const double reach =

@@ -1,7 +1,8 @@
-// A stretch of the flight in 3D, and which planes, lines and points of the lattice are in it. The text of
-// window_3d.hpp, and of the batch engine.
+// A stretch of the flight in 3D, and the planes, lines and points of the lattice that are in it. Included by
+// window_3d.hpp and by the batch engine.
 
-/// A lattice point relative to the anchor; `size` and `extent`: of the terms that p and z were summed from.
+/// A lattice point relative to the anchor. `size` and `extent` are those of the terms from which p and z were
+/// summed.
 template <class Numbers>
 struct PointOf3 {
   using Number = typename Numbers::Number;
@@ -26,9 +27,10 @@ struct LineOf3 {
   using Mask = typename Numbers::Mask;
 
   Number a, b, discriminant, unsure;
-  Number first, last, slack;  ///< the range of k, and what its ends may be off by
+  Number first, last, slack;  ///< the range of k, and how far its ends may be off
 
-  /// From a point of the line, which errs by `unsure` across, and the steps. False where all are missed.
+  /// Sets the quadratic from a point of the line, which errs by `unsure_across` across, and the step. False
+  /// where all balls are missed.
   LORENTZ_INLINE Mask set(const PointOf3<Numbers>& q, const ArmOf3<Numbers>& arm, Number unsure_across) {
     unsure = unsure_across;
     a = square_of(arm.p), b = sum_of_products(q.p[0], arm.p[0], q.p[1], arm.p[1]);
@@ -43,7 +45,7 @@ struct LineOf3 {
     slack = all(kSlop3d) + kLineEnd * unsure * sqrt(inverse);
   }
 
-  /// Wider by the slack, and no longer than the part [z_first, z_last] of the window.
+  /// Makes the range wider by the slack, but no longer than the part [z_first, z_last] of the window.
   LORENTZ_INLINE void cut(const PointOf3<Numbers>& q, const ArmOf3<Numbers>& arm, Number z_first,
                           Number z_last) {
     first = first - slack, last = last + slack;
@@ -55,7 +57,7 @@ struct LineOf3 {
   }
 };
 
-/// Products and sums of double-double by Arch; what is kept between is of Numbers.
+/// Arch computes products and sums of double-double; Numbers holds the results in between.
 template <class Arch, class Numbers, bool kUnit, bool kBall>
 class WindowOf3 {
  protected:
@@ -86,10 +88,11 @@ class WindowOf3 {
 
   // ---- Planes: k b_2 + (b_0, b_1) -----------------------------------------------------------------------
 
-  /// Which one the point is on, where that of the start of the window's middle is about 0.
+  /// The number of the plane through the point. The plane through the start of the window's axis has a number
+  /// of about 0.
   LORENTZ_INLINE Number plane_of(const Point& point) const { return coordinate(2, point, point.z); }
 
-  /// The range of k that meet the window, if the anchor is on kappa.
+  /// The range of k whose planes meet the window, if the anchor is on plane kappa.
   LORENTZ_INLINE void set_planes(Number kappa, Number& low, Number& high) const {
     const Number tilt = basis->tilt(), slop = all(kSlop3d);
     low = Min(all(0), tilt) - basis->slope - kappa - slop;
@@ -97,13 +100,13 @@ class WindowOf3 {
   }
 
   /// Where the cylinder cuts the plane: a section of an ellipse, between z_first and z_last, and the range of
-  /// its lines. In the coordinates xi (along the normal), eta (across it), z the plane is
+  /// its lines. In the coordinates xi (along the normal), eta (across it) and z the plane is
   /// slope xi + tilt z = kappa.
   struct Section {
     Number z_first, z_last, xi_error, low, high;
   };
 
-  /// The section of the plane of this point, up to `end`. False where the flight misses it.
+  /// Sets the section of the plane of this point, up to `end`. False where the flight misses it.
   LORENTZ_INLINE Mask set_section(const Point& point, Number kappa, Number end, Section& section) const {
     const Number slop = all(kSlop3d), tilt = basis->tilt();
     const auto& g1 = basis->dual[1];
@@ -124,14 +127,14 @@ class WindowOf3 {
     return met;
   }
 
-  /// The least |xi| between two of a plane.
+  /// The least |xi| of a plane between two places.
   static LORENTZ_INLINE Number nearest_of(Number xi_first, Number xi_last) {
     return where(xi_first * xi_last > all(0), Min(Abs(xi_first), Abs(xi_last)));
   }
 
   // ---- Lines and balls ----------------------------------------------------------------------------------
 
-  /// What a line through this point errs by across.
+  /// The error across of a line through this point.
   LORENTZ_INLINE Number line_error(const Point& q) const {
     const Number error = kLine * kRoundoff * (1 + q.size) + p_error;
     if constexpr (kBall)
@@ -140,7 +143,7 @@ class WindowOf3 {
       return error + all(to.scale_error);
   }
 
-  /// 1 - |p|^2, and the bound of its error.
+  /// 1 - |p|^2, and a bound on its error.
   LORENTZ_INLINE void set_across(const Point& point, Number& margin, Number& spread) const {
     constexpr double kScaleOfBall = kScale * kRoundoff;
     const Number square = square_of(point.p), error = kAcross * kRoundoff * point.size + p_error;
@@ -148,21 +151,21 @@ class WindowOf3 {
     margin = 1 - square;
   }
 
-  /// s, and the bound of its error.
+  /// s, and a bound on its error.
   LORENTZ_INLINE void set_along(const Point& point, Number& s, Number& error) const {
     s = begin + point.z * basis->length;
     error = s_error + kAlong * kRoundoff * point.extent * basis->length;
   }
 
-  /// Where in the window nothing is wanted any more, if what is at s is found.
+  /// The place in the window beyond which nothing more is needed, if an obstacle at s is found.
   LORENTZ_INLINE Number end_before(Number s) const {
     return Min(all(1), (s - begin) / basis->length) + all(kSlop3d) + 2 * z_error;
   }
 
   // ---- The next window ----------------------------------------------------------------------------------
 
-  /// Right behind this one; or where no plane was met, where the next one comes within r of the line. Rounded
-  /// down: no gap between the windows.
+  /// Moves right behind this window; or, where no plane was met, to where the next plane comes within r of
+  /// the line. Rounded down, so that there is no gap between the windows.
   LORENTZ_INLINE void advance(Mask none_met, Number kappa) {
     Number step = all(1);
     if (!Numbers::kOne || any(none_met)) step = select(none_met, windows_to_next_plane(kappa), step);
@@ -171,21 +174,22 @@ class WindowOf3 {
   }
 
  protected:
-  // The home cell, in binary64.
+  // Sets the anchor point to the home cell, in binary64.
   LORENTZ_INLINE void set_point_of_home() {
     for (int i = 0; i < 2; ++i) anchor_point.p[i] = to.scale[i] * start_[i].hi;
     anchor_point.z = (start_[2].hi - begin) / basis->length;
   }
 
-  // The steps from the anchor to the lattice point near the middle of the window, where that is wanted, and
-  // the largest.
+  // Sets the steps from the anchor to the lattice point near the middle of the window, where that is wanted.
+  // Returns the largest.
   LORENTZ_INLINE Number steps_to_middle(Mask wanted, Number (&k)[3]) const {
     for (int i = 0; i < 3; ++i)
       k[i] = where(wanted, Neg(Round(coordinate(i, anchor_point, anchor_point.z - all(kMiddle)))));
     return Max(Max(Abs(k[0]), Abs(k[1])), Abs(k[2]));
   }
 
-  // The lattice point n cells from the home cell: along it lies from - length z.
+  // Sets the lattice point n cells from the home cell. `from` is the along of the home cell, counted from the
+  // window's begin.
   LORENTZ_INLINE void set_place(const Number (&n)[3], const Pair& from, Point& point) const {
     const auto& form = to.form();
     point.p[0] = to.scale[0] * compensated_sum_from<DD, Direction::kFirstTerms>(start_[0], form[0], n);
@@ -193,14 +197,14 @@ class WindowOf3 {
     point.z = compensated_sum_from<DD, 3, Direction::kLowParts>(from, form[2], n) / basis->length;
   }
 
-  // As the point that others are counted from.
+  // Makes this the point from which others are counted.
   static LORENTZ_INLINE void set_zero(Point& point) {
     for (Number& n : point.n) n = all(0);
     point.size = Abs(point.p[0]) + Abs(point.p[1]);
     point.extent = Abs(point.z);
   }
 
-  // For an anchor n cells from the home cell. False where it is not known well enough.
+  // Sets the errors for an anchor n cells from the home cell. False where it is not known well enough.
   LORENTZ_INLINE Mask set_errors(const Number (&n)[3]) {
     Number terms = start_size_;
     for (int j = 0; j < 3; ++j) terms = terms + Abs(n[j]) * all(to.size_of[j]);
@@ -217,7 +221,7 @@ class WindowOf3 {
     return p_error < all(kSlop3d / 2);
   }
 
-  // The window from here on, by a basis that suits its length.
+  // Makes the window longer from here on, with a basis that suits its length.
   LORENTZ_INLINE void lengthen(Number factor, Mask wanted) {
     if (basis != &longer_) longer_ = *basis;
     to.template lengthen<Arch>(longer_, factor, wanted);
@@ -247,9 +251,9 @@ class WindowOf3 {
     return And(cut, Or(beside, section.z_first > section.z_last));
   }
 
-  // By how much xi, where the line passes the plane of this point, may be off. A plane that the line passes
-  // at nearly the radius leaves a section of the half width sqrt(1 - xi^2), whose square is off by twice
-  // that: more than all of it, when the section is thin.
+  // The error of xi where the line passes the plane of this point. If the line passes a plane at nearly the
+  // radius, the section has the half width sqrt(1 - xi^2), whose square is off by twice that error: more than
+  // all of it if the section is thin.
   LORENTZ_INLINE Number xi_error(const Point& point) const {
     const auto& g = basis->dual[2];
     const Number terms = 1 + Max(Abs(g[0]), Abs(g[1])) * point.size + Abs(g[2]) * point.extent;
@@ -258,7 +262,8 @@ class WindowOf3 {
                (basis->tilt_error + Abs(g[2]) * s_error / basis->length + kPlane * kRoundoff * terms);
   }
 
-  // Planes at k + kappa - tilt z = 0 on the line; how far the nearest one ahead has to come.
+  // The line meets planes at k + kappa - tilt z = 0. Returns how many windows ahead the nearest of them comes
+  // within r of the line.
   LORENTZ_INLINE Number windows_to_next_plane(Number kappa) const {
     const Number tilt = basis->tilt(), steepest = Abs(tilt) + basis->tilt_error;
     const Number up = gap_above(tilt - kappa), down = gap_above(kappa - tilt);

@@ -1,5 +1,5 @@
-// A stretch of the flight in 3D, and the lattice point near its middle from which all others are counted, in
-// small numbers, for one flight. Private to the reduction engine.
+// A stretch of the flight in 3D, and the lattice point near its middle from which all others are counted, so
+// that numbers are small; for one flight. Private to the reduction engine.
 #pragma once
 
 #include "src/engines/reduction/direction_3d.hpp"
@@ -32,7 +32,7 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall> {
           const Offset<SplitProduct, 3>& from_offset)
       : Base(of_lattice, direction, from_offset), offset(from_offset) {}
 
-  /// False if none is found that is known well enough.
+  /// False if no anchor is found that is known well enough.
   bool set_anchor() {
     if (!find_anchor()) return false;
     double n[3];
@@ -43,10 +43,10 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall> {
     return this->set_errors(n);
   }
 
-  /// The window from here on, by a basis that suits its length.
+  /// Makes the window longer from here on, with a basis that suits its length.
   void lengthen(double factor) { Base::lengthen(factor, true); }
 
-  /// The same point, its coordinates from the integers.
+  /// The same point, with its coordinates recomputed from the integers.
   Point3 recomputed(const Point3& point) const {
     Wide N[3];
     for (int i = 0; i < 3; ++i) N[i] = anchor[i] + Wide(point.n[i]);
@@ -55,7 +55,7 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall> {
     return same;
   }
 
-  /// The point's coefficients from the home cell; false if they are not exact.
+  /// The point's coefficients, counted from the home cell; false if they are not exact.
   bool cell_of(const Point3& point, Wide (&N)[3]) const {
     for (int i = 0; i < 3; ++i) {
       if (!(std::fabs(point.n[i]) < kMaxCoefficient)) return false;
@@ -65,7 +65,7 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall> {
   }
 
  private:
-  // Near the middle of the window, in few steps from the home cell.
+  // Finds an anchor near the middle of the window, in a few steps from the home cell.
   bool find_anchor() {
     for (Wide& n : anchor) n = Wide();
     this->set_point_of_home();
@@ -80,8 +80,8 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall> {
     return false;
   }
 
-  // By integers, exactly if they are below 2^53; beyond, whatever the rounding makes of them is a lattice
-  // point too.
+  // Moves the anchor by integers, exactly if they are below 2^53. Beyond that, the rounded integers are a
+  // lattice point, too.
   void move_anchor(const double (&k)[3]) {
     for (int j = 0; j < 3; ++j) {
       double sum = anchor[j].hi, size = std::fabs(sum);
@@ -100,7 +100,7 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall> {
   Point3 at(const Wide (&N)[3]) const {
     const Wide from = begin == 0 ? this->start_[2] : this->start_[2] - Wide(begin);
     Point3 point;
-    if (N[0].lo == 0 && N[1].lo == 0 && N[2].lo == 0) {  // nearly always; to the same bits
+    if (N[0].lo == 0 && N[1].lo == 0 && N[2].lo == 0) {  // nearly always; both ways give the same bits
       const double n[3] = {N[0].hi, N[1].hi, N[2].hi};
       this->set_place(n, from, point);
     } else {
