@@ -90,8 +90,7 @@ void CaseFiles::write(const CaseReport& report) const {
     if (page) return report::page(page_json(report));
     std::string drawing = drawing_of(report);
     if (drawing.empty())
-      throw InputError(
-          "--svg: there is nothing to be drawn: the question is none, or it has no exact answer");
+      throw InputError("--svg: there is nothing to draw: the question is invalid, or it has no exact answer");
     return drawing;
   };
   std::vector<std::pair<std::string, std::string>> files;

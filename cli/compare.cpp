@@ -192,7 +192,7 @@ void check(const CompareOptions& options, const std::vector<EngineInfo>& engines
     throw InputError("--store, --add and --shard are of what is judged; leave --no-oracle out");
   const Truth truth = truth_named(options.judge, engines);
   if (options.no_oracle && truth != Truth::oracle)
-    throw InputError("--judge: nobody is judged with --no-oracle");
+    throw InputError("--judge: has no effect with --no-oracle; leave one of them out");
   if (options.no_oracle && !options.answers.empty())
     throw InputError("--answers needs the oracle; leave --no-oracle out");
   if (!options.queries && !options.answers.empty())

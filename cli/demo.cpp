@@ -85,9 +85,9 @@ class DemoReport {
         "wrong time: of those right, the times that are off by more than 4 times what an ulp in each input "
         "makes of them.\n"
         "error: of the time of the hits it got right, in units in the last place (ulp) of a binary64.\n"
-        "The published algorithm was wrong {} times in {}; docs/published.md says why. Nobody has to believe "
+        "The published algorithm was wrong {} times in {}; docs/published.md says why. To check "
         "it:\n"
-        "lorentz demo --disagreements FILE writes these {} cases, to be run again by any program.\n",
+        "lorentz demo --disagreements FILE writes these {} cases for any program to run again.\n",
         published_.wrong, published_.agree + published_.ill_posed + published_.wrong, published_.wrong));
   }
 

@@ -438,7 +438,7 @@ Command golden_check_command() {
               options->files.write_baseline_row(),
               options->files.junit_row(),
               {"--json", &options->json, "", "one JSON object an engine"},
-              {"--markdown", &options->markdown, "", "a page of documentation: who fails what"},
+              {"--markdown", &options->markdown, "", "a page of documentation: which engine fails which set"},
           },
 
           "Exit status 1: an answer is wrong or an error; 3: a cmd: or lib: engine broke.\n"

@@ -112,8 +112,8 @@ int act(const ExplainOptions& options) {
   for (golden::ReadRecord read; reader.next(read);)
     if (read.record.id.starts_with(options.id)) {
       if (options.files.any() && !read.query)
-        throw InputError(fmt::format("{}: the record is no valid query, and there is nothing to be drawn",
-                                     read.record.id));
+        throw InputError(
+            fmt::format("{}: the record is not a valid query, so there is nothing to draw", read.record.id));
       if (options.files.any()) options.files.write(case_report(reader, read, options.files));
       explain(reader, read, most);
       break;

@@ -68,13 +68,13 @@ std::string seed_of(const golden::Order& order) {
 void check_place(const std::string& path) {
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_regular_file(path, error))
-    throw FileError(path + ": is no regular file; name another, or use standard output");
+    throw FileError(path + ": is not a regular file; name another, or use standard output");
   if (!fs::is_regular_file(path, error) || fs::file_size(path, error) == 0) return;
   const std::string_view kBeginning = "{\"golden\"";
   std::string start(kBeginning.size(), ' ');
   std::ifstream(path, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
   if (start != kBeginning)
-    throw InputError(path + ": is no golden set, and is left as it is; remove it, or name another file");
+    throw InputError(path + ": is not a golden set, and is left as it is; remove it, or name another file");
 }
 
 golden::RecordCounts make_file(const golden::Order& order, const std::string& path) {

@@ -28,7 +28,7 @@ std::uint64_t whole_number(const std::string& text, const char* option, std::uin
   }
   if (!good || value < least || value > most)
     throw InputError(
-        fmt::format("{}: {} is no whole number from {} to {}", option, json_quoted(text), least, most));
+        fmt::format("{}: {} is not a whole number from {} to {}", option, json_quoted(text), least, most));
   return value;
 }
 

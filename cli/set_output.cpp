@@ -63,7 +63,7 @@ std::optional<std::string> folder_in(const std::optional<std::string>& path) {
 }  // namespace
 
 void write_beside_sets(const std::string& folder) {
-  if (!fs::is_directory(folder)) throw FileError(folder + ": is no folder");
+  if (!fs::is_directory(folder)) throw FileError(folder + ": is not a folder");
   check_folder(folder);
   std::vector<std::string> names;
   for (const std::string& file : golden::find_sets({folder})) names.push_back(fs::path(file).filename());

@@ -41,7 +41,7 @@ struct TrajectoryOptions {
 Rational positive_rational(const std::string& text, const char* option) {
   const auto number = rational_from(text);
   if (!number || !is_positive(*number))
-    throw InputError(fmt::format("{}: {} is no rational number above zero (like 1/3, 0.1, 2.5e-3)", option,
+    throw InputError(fmt::format("{}: {} is not a rational number above zero (like 1/3, 0.1, 2.5e-3)", option,
                                  json_quoted(text)));
   return *number;
 }

@@ -157,8 +157,8 @@ std::optional<std::string> Maker::flaw_of(const Record& record, const std::optio
   if (auto why = flaw_of_form(record)) return why;
   if (!query || record.expect.outcome == Outcome::error) {
     if (!query && record.expect.outcome == Outcome::error) return std::nullopt;
-    return query ? "this is a query, `error` is no answer to it"
-                 : "this is no query, it has no answer but `error`";
+    return query ? "this is a query; `error` does not answer it"
+                 : "this is not a query; its only answer is `error`";
   }
   if (!consists_of(impl_->scene, impl_->precision) || !consists_of(*query, impl_->precision))
     return std::string("its numbers are not of ") + name_of(impl_->precision);

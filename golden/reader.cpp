@@ -107,7 +107,7 @@ oracle::WindowEnd read_end(json::Value value, const std::string& key) {
   const std::string_view text = value.text();
   if (key == "to" && text == "inf") return HUGE_VAL;
   const auto end = oracle::window_end_from(text);
-  if (!end) throw InputError(key + ": is no number and no text like \"-0x1f4p-3\"");
+  if (!end) throw InputError(key + ": is neither a number nor a text like \"-0x1f4p-3\"");
   return *end;
 }
 

@@ -209,7 +209,7 @@ std::string sentence_of(Cause cause, std::optional<double> by_radii) {
     case Cause::no_answer:
       return "gives no answer: it dies, falls silent, or leaves the question out";
     case Cause::bad_line:
-      return "writes lines that are no answers";
+      return "writes lines that are not answers";
     case Cause::answered_nonsense:
       return "answers invalid questions, where error is right";
   }

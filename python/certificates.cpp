@@ -61,7 +61,7 @@ WindowEnd end_from(const py::handle& end, const char* key) {
   const auto text = end.cast<std::string>();
   if (text == "inf" && key == std::string("to")) return HUGE_VAL;
   const auto value = oracle::window_end_from(text);
-  if (!value) throw InputError(std::string(key) + ": is no number and no text like \"-0x1f4p-3\"");
+  if (!value) throw InputError(std::string(key) + ": is neither a number nor a text like \"-0x1f4p-3\"");
   return *value;
 }
 

@@ -24,8 +24,8 @@ struct StrictReader : ExchangeReader {
 void expect(StreamItem::Kind wanted, StreamItem::Kind kind, const std::string& message) {
   if (kind == wanted) return;
   throw InputError(kind == StreamItem::Kind::bad       ? message
-                   : wanted == StreamItem::Kind::scene ? "is no scene"
-                                                       : "is no query");
+                   : wanted == StreamItem::Kind::scene ? "is not a scene"
+                                                       : "is not a query");
 }
 
 StreamItem query_line(const std::string& text, const Scene* scene) {
@@ -75,7 +75,7 @@ Answer read_answer(const std::string& text, const Components& count) {
   Id id;
   std::size_t components = 0;
   if (!StrictReader().read_answer_line(PaddedLine(text).line(), id, answer, components))
-    throw InputError("is no answer");
+    throw InputError("is not an answer");
   const bool names_one = answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
   const int needed = count.of_cells(answer.obstacle.lattice);
   // Columns have as many coordinates as there are dimensions, the last ones zero.

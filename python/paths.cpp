@@ -139,7 +139,7 @@ py::dict itinerary(const PyScene& scene, const std::string& start, std::optional
   journey.collisions = collisions, journey.digits = digits, journey.states = states;
   journey.most_bits = most_bits;
   if (time) journey.time = rational_from(*time);
-  if (time && !journey.time) throw InputError("time: " + json_quoted(*time) + " is no rational number");
+  if (time && !journey.time) throw InputError("time: " + json_quoted(*time) + " is not a rational number");
   const Start from = read_start(start, scene.exact());
   std::vector<oracle::CertifiedCollision> met;
   oracle::Arrival arrival;

@@ -281,7 +281,7 @@ void CommandEngine::take_line(const LineReader::Line& line) {
     if (reader_.read_answer_line(line, id, answer, components)) take_answer(id, answer, components);
   } catch (const InputError& error) {
     const std::string what = line.too_long ? "wrote a line that is too long for an answer"
-                                           : fmt::format("wrote a line that is no answer, {} ({})",
+                                           : fmt::format("wrote a line that is not an answer, {} ({})",
                                                          shown(line.text), error.what());
     if (run_->outstanding > 0 && number_of(id) == first_number_)
       answer_first_with_error(what);

@@ -168,7 +168,7 @@ std::optional<Introduction> read_of(const std::string& name, const Read& read) {
 EngineInfo command_named(const std::string& name) {
   const std::string command = name.substr(kCommand.size());
   if (command.find_first_not_of(" \t\n") == std::string::npos)
-    throw InputError("cmd: is no engine yet; it is followed by the command that runs one");
+    throw InputError("cmd: needs the command that runs the engine behind it");
   EngineInfo engine{name, {}, EngineInfo::Kind::command};
   engine.answerer = [command](const AnswererOptions& options) {
     return std::make_unique<CommandEngine>(command, options);
@@ -181,7 +181,7 @@ EngineInfo command_named(const std::string& name) {
 
 EngineInfo library_named(const std::string& name) {
   const std::string file = name.substr(kLibrary.size());
-  if (file.empty()) throw InputError("lib: is no engine yet; it is followed by the path of a shared library");
+  if (file.empty()) throw InputError("lib: needs the path of a shared library behind it");
   const std::string claim = claim_line_of_library(file);  // and it can be loaded
   EngineInfo engine{name, {}, EngineInfo::Kind::library};
   engine.answerer = [file](const AnswererOptions& options) {

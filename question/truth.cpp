@@ -12,9 +12,8 @@ Truth truth_named(const std::string& name, const std::vector<EngineInfo>& judged
   if (index_of_name(name, {"oracle", "certified"}, "--judge") == 0) return Truth::oracle;
   for (const EngineInfo& engine : judged)
     if (engine.traits.uses_reduction)
-      throw InputError(
-          fmt::format("--judge: certified rests on reduction, and is no judge of the engine {}; use oracle",
-                      engine.name));
+      throw InputError(fmt::format(
+          "--judge: certified rests on reduction, and cannot judge the engine {}; use oracle", engine.name));
   return Truth::certified;
 }
 

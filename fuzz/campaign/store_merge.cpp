@@ -66,7 +66,7 @@ void check_all(const std::vector<Shard>& shards) {
     for (std::size_t c = 0; c < first.campaigns.size(); ++c)
       if (const auto what = difference(first.campaigns[c].manifest, other.campaigns[c].manifest);
           !what.empty())
-        throw InputError(first.path + " and " + other.path + " are no shards of one campaign: " + what);
+        throw InputError(first.path + " and " + other.path + " are not shards of one campaign: " + what);
   }
   for (std::size_t c = 0; c < first.campaigns.size(); ++c) {
     std::map<std::string, std::string> seen;

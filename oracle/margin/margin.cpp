@@ -225,7 +225,7 @@ struct Margins::Impl {
 
   // The change of the time, in this unit, if every input moves by an ulp.
   double change(const Query& query, const Answer& exact, double unit) const {
-    if (exact.outcome != Outcome::hit || !exact.time) throw InputError("answer: is no hit with a time");
+    if (exact.outcome != Outcome::hit || !exact.time) throw InputError("answer: is not a hit with a time");
     return scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
       return to_double(change_of_time(perturbed, exact.obstacle) / Real(unit),
                        std::numeric_limits<double>::max());

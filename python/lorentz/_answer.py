@@ -196,4 +196,4 @@ def _tuple(numbers: list[Any] | None) -> tuple[float, ...] | None:
 def _number(value: Any) -> Any:
     if hasattr(value, "item"):  # a scalar of NumPy
         return value.item()
-    raise TypeError(f"{type(value).__name__} is no number")
+    raise TypeError(f"{type(value).__name__} is not a number")

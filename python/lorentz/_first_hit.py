@@ -139,10 +139,10 @@ def floats_of(numbers: npt.ArrayLike, name: str) -> Floats:
     try:
         given = np.asarray(numbers)
         if numbers is None or given.dtype.kind in "bcmMSUV":
-            raise TypeError(f"{given.dtype} is no type of real numbers")
+            raise TypeError(f"{given.dtype} is not a type of real numbers")
         floats = np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:
-        raise Error(f"{name}: is no array of numbers: {error}") from None
+        raise Error(f"{name}: is not an array of numbers: {error}") from None
     if not _is_kept(numbers, given, floats, name):
         raise Error(f"{name}: has numbers that floats would round; lorentz.oracle takes them as they are")
     return floats
@@ -233,7 +233,7 @@ def _integers(numbers: npt.ArrayLike, kind: Any) -> npt.NDArray[Any]:
     if array.dtype.kind == "O":
         raise TypeError("there are integers beyond 64 bits, or other objects")
     if array.dtype.kind not in "iu":
-        raise TypeError(f"{array.dtype} is no type of integers")
+        raise TypeError(f"{array.dtype} is not a type of integers")
     if array.size and not np.iinfo(kind).min <= int(array.min()) <= int(array.max()) <= np.iinfo(kind).max:
         raise OverflowError(f"there are integers that {np.dtype(kind)} does not hold")
     return array.astype(kind, copy=False)

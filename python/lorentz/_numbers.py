@@ -37,8 +37,8 @@ def rational(value: Any, name: str = "number") -> Fraction:
         except (AttributeError, TypeError):
             pass
         except (ValueError, OverflowError):
-            raise Error(f"{name}: {value!r} is no finite number") from None
-    raise Error(f"{name}: {value!r} is no number; numbers are floats, ints, Fractions, Decimals or texts like '1/3'")
+            raise Error(f"{name}: {value!r} is not a finite number") from None
+    raise Error(f"{name}: {value!r} is not a number; numbers are floats, ints, Fractions, Decimals or texts like '1/3'")
 
 
 def is_binary64(number: Rational) -> bool:
@@ -90,7 +90,7 @@ def items(values: Any, name: str) -> list[Any]:
 def vector(numbers: Any, name: str) -> list[Any]:
     """The components of a place or a velocity. Raises Error where these are none."""
     if isinstance(numbers, (str, bytes, dict)) or np.ndim(numbers) != 1:
-        raise Error(f"{name}: {numbers!r} is no sequence of 2 or 3 numbers")
+        raise Error(f"{name}: {numbers!r} is not a sequence of 2 or 3 numbers")
     return list(numbers)
 
 
@@ -118,7 +118,7 @@ def whole(value: Any, name: str, least: int = 0, most: int = 2**63 - 1) -> int:
 def parts(obstacle: Any, name: str = "start_from") -> Obstacle:
     """Lattice, atom, cell. Raises Error where these are not what it is."""
     if not isinstance(obstacle, (tuple, list)) or len(obstacle) != 3 or np.ndim(obstacle[2]) != 1:
-        raise Error(f"{name}: {obstacle!r} is no obstacle (lattice, atom, cell)")
+        raise Error(f"{name}: {obstacle!r} is not an obstacle (lattice, atom, cell)")
     return obstacle[0], obstacle[1], obstacle[2]
 
 
@@ -134,7 +134,7 @@ def finite(value: Any, name: str) -> float:
     """The float that a number is. Raises Error where there is none that is equal."""
     number = rational(value, name)
     if not is_binary64(number):
-        raise Error(f"{name}: {value!r} is no number that a float can be")
+        raise Error(f"{name}: {value!r} is not a number that a float can be")
     return float(number)
 
 

@@ -178,10 +178,10 @@ def check(scene: SceneLike, x: Vector, v: Vector, answer: Answer, proof: Certifi
     Of the answer outcome, obstacle, time and ``time_decimal`` are proved. Shares no code with the searches.
     """
     if not isinstance(proof, Certificate):
-        raise Error(f"proof: {type(proof).__name__} is no Certificate; Certificate.from_dict makes one of a dict")
+        raise Error(f"proof: {type(proof).__name__} is not a Certificate; Certificate.from_dict makes one of a dict")
     decimal = _checked(answer).time_decimal
     if decimal is not None and (not isinstance(decimal, str) or not decimal or answer.outcome != "hit"):
-        return "time_decimal: is no text, or of an answer without a time"
+        return "time_decimal: is not a text, or of an answer without a time"
     return _oracle(scene).refutation(_text(x, v, start_from), answer.to_line(), decimal or "", proof)
 
 
@@ -277,7 +277,7 @@ def _fractions(numbers: Vector, name: str) -> list[Fraction]:
     for number in vector(numbers, name):
         fraction = exact(number)
         if fraction is None:
-            raise Error(f"{name}: {number!r} is no rational number")
+            raise Error(f"{name}: {number!r} is not a rational number")
         fractions.append(fraction)
     return fractions
 

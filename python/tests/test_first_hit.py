@@ -217,7 +217,7 @@ def test_what_an_engine_does_not_do_is_no_fault_of_the_row():
 @pytest.mark.parametrize("arguments, text", [
     (dict(x=[[0, 0]] * 3, v=[[1, 0], [0, 1]]), "v: has 2 rows, the other 3"),
     (dict(x=[[0, 0, 0]], v=[[1, 0, 0]]), r"x: has the shape \(1, 3\), needs \(N, 2\) or \(2,\)"),
-    (dict(x=[["a", 0]], v=[[1, 0]]), "x: is no array of numbers"),
+    (dict(x=[["a", 0]], v=[[1, 0]]), "x: is not an array of numbers"),
     (dict(x=[[0, 0]], v=[[1, 0]], engine="bach"), "did you mean batch"),
     (dict(x=[[0, 0]], v=[[1, 0]], engine="cmd:cat"), "judge"),
     (dict(x=[[0, 0]], v=[[1, 0]], engine="oracle", jobs=2), "jobs: only the engines batch"),

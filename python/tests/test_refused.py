@@ -93,8 +93,8 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("x: has numbers that floats would round", lambda: lorentz.first_hit(SQUARE, [[Fraction(1, 3), 0]], [V])),
     ("x: has numbers that floats would round", lambda: lorentz.first_hit(SQUARE, [[Decimal("0.1"), 0]], [V])),
     ("x: has numbers that floats would round", lambda: lorentz.first_hit(SQUARE, [[np.longdouble(1) / 3, 0]], [V])),
-    ("v: is no array of numbers", lambda: lorentz.first_hit(SQUARE, [X], np.array([[True, False]]))),
-    ("x: is no array of numbers", lambda: lorentz.first_hit(SQUARE, [["1", "2"]], [V])),
+    ("v: is not an array of numbers", lambda: lorentz.first_hit(SQUARE, [X], np.array([[True, False]]))),
+    ("x: is not an array of numbers", lambda: lorentz.first_hit(SQUARE, [["1", "2"]], [V])),
     ("x: ", lambda: oracle.first_hit(SQUARE, b"12", V)),  # type: ignore[arg-type]
     ("x: nan", lambda: oracle.first_hit(SQUARE, [math.nan, 0], V)),
     ("radius: inf", lambda: lorentz.unit_scene(2, math.inf)),

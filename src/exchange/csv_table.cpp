@@ -135,7 +135,7 @@ double CsvTable::number(std::size_t column) const {
   const std::string_view text = fields_[column];
   auto value = nearest_decimal(text);
   if (!value) value = nearest_hexadecimal(text);
-  if (!value) refuse(column, "is no number");
+  if (!value) refuse(column, "is not a number");
   if (!std::isfinite(*value)) refuse(column, "is beyond the range of binary64");
   return *value;
 }
@@ -149,7 +149,8 @@ std::int64_t CsvTable::integer(std::size_t column) const {
   if (status == std::errc::result_out_of_range) refuse(column, "does not fit 64 bits");
   if (status == std::errc{} && end == text.data() + text.size()) return value;
   const auto real = nearest_decimal(text);
-  if (!real || !(std::fabs(*real) <= 0x1p53) || *real != std::floor(*real)) refuse(column, "is no integer");
+  if (!real || !(std::fabs(*real) <= 0x1p53) || *real != std::floor(*real))
+    refuse(column, "is not an integer");
   return static_cast<std::int64_t>(*real);
 }
 

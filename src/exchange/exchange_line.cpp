@@ -31,7 +31,7 @@ CellRead read_cell(json::Value value) {
 int read_index(json::Value value, const char* key) {
   const Integer n = read_integer(value, key);
   if (!n.fits_int64() || n.int64() < 0 || n.int64() > 1'000'000'000)
-    throw InputError(std::string(key) + ": is no index");
+    throw InputError(std::string(key) + ": is not an index");
   return static_cast<int>(n.int64());
 }
 
@@ -103,7 +103,8 @@ std::string not_json(const LineReader::Line& line, const std::string& why) {
            " NUL bytes (was the file overwritten or cut while it was written?)";
   if (const std::string_view word = no_number_in(line.text); !word.empty())
     return "not JSON: " + std::string(word) +
-           " is no number there (Python's json writes it; a time beyond binary64 is \"inf\", in quotes, and "
+           " is not a number there (Python's json writes it; a time beyond binary64 is \"inf\", in quotes, "
+           "and "
            "what "
            "is not known is \"outcome\":\"undecided\")";
   return "not JSON: " + why;

@@ -92,7 +92,7 @@ namespace {
 Outcome read_outcome(std::string_view name) {
   if (const auto outcome = outcome_named(name)) return *outcome;
   throw InputError("outcome: " + json_quoted(name) +
-                   " is none of hit, never, inside, later, undecided, error");
+                   " is not one of hit, never, inside, later, undecided, error");
 }
 
 double read_time(json::Value value) {

@@ -37,14 +37,14 @@ bool looks_hexadecimal(std::string_view text) {
 
 double parse_hexadecimal(std::string_view text, const std::string& place) {
   constexpr const char* kWhat =
-      " is no hexadecimal float (like \"0x1.8p-1\"); decimal numbers stand without quotes";
+      " is not a hexadecimal float (like \"0x1.8p-1\"); decimal numbers stand without quotes";
   if (!looks_hexadecimal(text)) throw InputError(place + ": the string " + json_quoted(text) + kWhat);
   return finite(nearest_hexadecimal(text), text, place, kWhat);
 }
 
 double parse_number(std::string_view text) {
   if (looks_hexadecimal(text)) return parse_hexadecimal(text, "number");
-  return finite(nearest_decimal(text), text, "number", " is no finite number");
+  return finite(nearest_decimal(text), text, "number", " is not a finite number");
 }
 
 namespace {
@@ -179,7 +179,7 @@ Rational rational_at(const SceneNode& node, const std::string& place) {
   if (!text) throw InputError(place + ": needs a number");
   if (auto number = rational_from(*text)) return *number;
   throw InputError(place + ": " + json_quoted(*text) +
-                   " is no rational number (like \"1/3\", \"0.1\", \"2.5e-3\", \"0x1.8p-1\")");
+                   " is not a rational number (like \"1/3\", \"0.1\", \"2.5e-3\", \"0x1.8p-1\")");
 }
 
 Scene scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {

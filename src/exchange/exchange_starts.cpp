@@ -26,7 +26,7 @@ Surd surd_at(const SceneNode& node, const std::string& place) {
   if (const std::string* text = std::get_if<std::string>(&node.value)) {
     if (auto number = surd_from(*text)) return *number;
     throw InputError(place + ": " + json_quoted(*text) +
-                     R"x( is no number that is known (like "1/3", "0.1", "sqrt(2)", "golden"))x");
+                     R"x( is not a known number (like "1/3", "0.1", "sqrt(2)", "golden"))x");
   }
   return Surd(rational_at(node, place));
 }

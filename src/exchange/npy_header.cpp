@@ -128,7 +128,7 @@ NpyHeader header_of(const PythonValue& value) {
   }
   if (!order->is(Kind::boolean)) throw InputError("fortran_order in the header is neither True nor False");
   header.fortran_order = order->number == 1;
-  if (!shape->is(Kind::tuple)) throw InputError("the shape in the header is no tuple");
+  if (!shape->is(Kind::tuple)) throw InputError("the shape in the header is not a tuple");
   for (const PythonValue& n : shape->items) {
     if (!n.is(Kind::integer) || n.number < 0) throw InputError("the shape in the header has no numbers");
     header.shape.push_back(static_cast<std::uint64_t>(n.number));

@@ -26,7 +26,7 @@ class Parser {
 
  private:
   [[noreturn]] void fail() const {
-    throw InputError("the header is no literal of Python, from byte " + std::to_string(place_) + " on");
+    throw InputError("the header is not a literal of Python, from byte " + std::to_string(place_) + " on");
   }
 
   char next_char() {

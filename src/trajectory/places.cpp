@@ -90,7 +90,7 @@ void Places::check(const Particle& particle) const {
               number(particle.atom, scene_.lattices[particle.lattice].atoms.size());
   for (const double x : particle.offset) good &= std::fabs(x) <= kLargest;
   good &= in_range(particle.velocity) && particle.speed_squared > 0 && std::isfinite(particle.time);
-  if (!good) throw InputError("this is no state of a particle in this scene");
+  if (!good) throw InputError("this is not a state of a particle in this scene");
 }
 
 Point<Wide> Places::centre(std::int32_t lattice, std::int32_t atom,

@@ -101,7 +101,7 @@ ExactSum ExactSum::of(std::string_view text) {
   if (negative) text.remove_prefix(1);
   // The highest digit may be half full.
   if (text.empty() || text.size() >= std::size_t{kDigits} * kDigitBits / 4)
-    throw std::invalid_argument("no sum: so many hexadecimal digits");
+    throw std::invalid_argument("not a sum: too many hexadecimal digits");
   ExactSum sum;
   int place = 0;
   for (auto c = text.rbegin(); c != text.rend(); ++c, place += 4) {

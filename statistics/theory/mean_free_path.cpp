@@ -47,7 +47,7 @@ MeanFreePath of_independent(const Scene& scene) {
 
 MeanFreePath mean_free_path_of(const Scene& scene) {
   if (!is_crystal(scene))
-    return {std::nullopt, "not given: most flights never end, for the scene is no crystal"};
+    return {std::nullopt, "not given: most flights never end, because the scene is not a crystal"};
   if (std::string why = overlap_in(scene, oracle::Pairs::within_lattices); !why.empty())
     return {std::nullopt, why};
   if (scene.lattices.size() == 1) return without_overlaps(scene);

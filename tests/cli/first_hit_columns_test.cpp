@@ -253,7 +253,7 @@ TEST_CASE("Columns: bad rows are errors in their place, and said on stderr", "[c
               at_limit + ",,,,,\n");
     CHECK(lines(run.err) == 3);
     CHECK(contains(run.err, "q.csv:3: v is zero"));
-    CHECK(contains(run.err, "q.csv:4: column x2: \"zero\" is no number"));
+    CHECK(contains(run.err, "q.csv:4: column x2: \"zero\" is not a number"));
     CHECK(contains(run.err, "q.csv:5: from names lattice 7, which the scene does not have"));
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const Run npy = folder.lorentz("first-hit --scene square --radius 0.25 --format npy -e " + engine + " " +
@@ -331,7 +331,7 @@ TEST_CASE("Columns: what the options ask for, and files that are none", "[cli][c
   says("--format npy --scene square -e cmd:true " + npy, 2, "not with cmd: engines and libraries");
   says("--format npy --scene square -e nobody " + npy, 2, "no engine is called");
   says("--format csv --scene square --jobs 2 " + csv, 2, "--jobs: only the engines batch and");
-  says("--format csv --scene square -e batch --jobs 0 " + csv, 2, "--jobs: \"0\" is no whole number");
+  says("--format csv --scene square -e batch --jobs 0 " + csv, 2, "--jobs: \"0\" is not a whole number");
   says("--format csv --scene square " + npy, 2, "--format npy");
   says("--format npy --scene square " + csv, 2, "is no .npy file");
   says("--format npy --scene cubic " + npy, 2, "queries in 3 dimensions are one of float64, shape (N, 6)");

@@ -96,7 +96,7 @@ TEST_CASE("Sample says what is wrong with what it is asked", "[cli][sample]") {
     CHECK(run.out.empty());
     return run.err;
   };
-  CHECK(contains(said("--count 0"), "--count: \"0\" is no whole number from 1"));
+  CHECK(contains(said("--count 0"), "--count: \"0\" is not a whole number from 1"));
   CHECK(contains(said("--kind unifrm"),
                  "is not one of uniform, surface, near-rational, grazing (did you mean uniform?)"));
   CHECK(contains(said("--format jsn"), "is not one of ndjson, csv, npy"));

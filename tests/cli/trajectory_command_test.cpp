@@ -106,9 +106,9 @@ TEST_CASE("trajectory: bad input is told with its place", "[cli][trajectory]") {
     CHECK(contains(run.out, R"("outcome":"error")"));
     CHECK(contains(run.out, R"({"id":"siam","collision":1)"));  // the rest goes on
   };
-  refused(R"({"x":["1/0",0],"v":[1,0]})", R"(x: "1/0" is no rational number)");
-  refused("{\"x\":[\"sqrt(2)\",0],\"v\":[1,0]}", "x: \"sqrt(2)\" is no rational number");
-  refused("{\"x\":[\"1/2\",0],\"v\":[\"sqrt(-2)\",0]}", "v: \"sqrt(-2)\" is no number that is known");
+  refused(R"({"x":["1/0",0],"v":[1,0]})", R"(x: "1/0" is not a rational number)");
+  refused("{\"x\":[\"sqrt(2)\",0],\"v\":[1,0]}", "x: \"sqrt(2)\" is not a rational number");
+  refused("{\"x\":[\"1/2\",0],\"v\":[\"sqrt(-2)\",0]}", "v: \"sqrt(-2)\" is not a known number");
   refused(R"({"x":["1/2",0],"v":[0,"0/7"]})", "v is zero");
   refused(R"({"x":["1/2",0]})", "v is missing");
   refused(R"({"x":["1/2",0],"v":[1,0],"direction":{"degrees":3}})", "has both v and direction");
@@ -134,7 +134,7 @@ TEST_CASE("trajectory: options that are none, and files that cannot be written",
     return run.status;
   };
   CHECK(status("", "needs --collisions N or --time T") == 2);
-  CHECK(status("--time 0", "--time: \"0\" is no rational number above zero") == 2);
+  CHECK(status("--time 0", "--time: \"0\" is not a rational number above zero") == 2);
   CHECK(status("--collisions 5 --radius -1/3", "--radius: \"-1/3\" is no") == 2);
   CHECK(status("--collisions 5 --engine reductoin", "did you mean") == 2);
   CHECK(status("--collisions 5 --precision double", "is not one of binary64, double-double") == 2);

@@ -147,10 +147,10 @@ TEST_CASE("A program's fault costs the query that it shows at, is reported with 
       {"dies-buffered", "cmd died (exit 3) on this query", "asked again, fewer at a time"},
       {"ends", "cmd ended (exit 0) without an answer", "ended (exit 0)"},
       {"crashes", "cmd died (signal 11, ", "died (signal 11, "},
-      {"garbage", bad_line + "wrote a line that is no answer, rubbish (not JSON",
+      {"garbage", bad_line + "wrote a line that is not an answer, rubbish (not JSON",
        "no answer, rubbish (not JSON"},
       {"long-line", bad_line + "wrote a line that is too long", "wrote a line that is too long"},
-      {"half", "cmd wrote a line that is no answer, ", "needs lattice, atom and cell"},
+      {"half", "cmd wrote a line that is not an answer, ", "needs lattice, atom and cell"},
       {"swaps", "cmd gave no answer to this query before that to a later one",
        "answered this query after a later"},
       {"unknown-id", bad_line + "gave an answer with an id that no query has, 123456", "123456"},
@@ -262,6 +262,11 @@ done
   for (int i = 0; i < kTimes; ++i) ask();
   CHECK(seconds_since(start) < kTimes * 0.5 * 0.8);  // 0.5 s is the while
   CHECK(lines(folder.read("starts")) == 2 + kTimes);
+  // Of more queries than are given to it at once it answers while others come: it is started once, however often asked.
+  for (int i = 1; i <= 3; ++i) {
+    CHECK(asked(*program, lorentz::unit_scene(2, 0.25), 5001).size() == 5001);
+    CHECK(lines(folder.read("starts")) == 2 + kTimes + i);
+  }
   CHECK_FALSE(program->failed());
 }
 
@@ -390,7 +395,7 @@ TEST_CASE("Lines between the answers cost no answer, but are reported", "[compar
   const Folder folder;
   const Run run = folder.lorentz("first-hit --engine " + odd("talks") + " " + folder.write("q", stream()));
   CHECK(run.status == 3);
-  CHECK(contains(run.err, "wrote a line that is no answer, loading, please wait ("));
+  CHECK(contains(run.err, "wrote a line that is not an answer, loading, please wait ("));
   check_all_but_fifth(run.out, "");
 }
 

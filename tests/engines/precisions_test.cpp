@@ -42,6 +42,15 @@ TEST_CASE("In 53 bits of any library the search is `published`, bit by bit", "[e
   CHECK(leaving > 300);
 }
 
+TEST_CASE("Double-double numbers compare by both parts", "[engines][precisions]") {
+  const Wide one(1), more = Wide::ordered_sum(1, 1e-20);
+  for (const auto& [a, b] : {std::pair{one, more}, {Wide(-2), one}}) {
+    CHECK((a < b && a <= b && b > a && b >= a && !(a == b)));
+    CHECK_FALSE((b < a || b <= a || a > b || a >= b));
+  }
+  CHECK((more == more && more <= more && more >= more && !(more < more) && !(more > more)));
+}
+
 TEST_CASE("What grazes at r = 1e-6 is beyond 24 bits and 53, and not beyond 106", "[engines][precisions]") {
   const Scene scene = unit_scene(2, 1e-6);
   const auto place = std::make_shared<Place>(scene);

@@ -128,13 +128,13 @@ TEST_CASE("CSV: of rows that were removed nothing is left in those that come aft
 
 TEST_CASE("CSV: a bad line is told with its column, and the next is read", "[exchange][csv]") {
   CHECK(flaw("0,0,1,0").empty());
-  CHECK(flaw("0,zero,1,0") == "column x2: \"zero\" is no number");
-  CHECK(flaw("0,0,,0") == "column v1: \"\" is no number");
-  CHECK(flaw("0,0,nan,0") == "column v1: \"nan\" is no number");
-  CHECK(flaw("0,0,1,inf") == "column v2: \"inf\" is no number");
+  CHECK(flaw("0,zero,1,0") == "column x2: \"zero\" is not a number");
+  CHECK(flaw("0,0,,0") == "column v1: \"\" is not a number");
+  CHECK(flaw("0,0,nan,0") == "column v1: \"nan\" is not a number");
+  CHECK(flaw("0,0,1,inf") == "column v2: \"inf\" is not a number");
   CHECK(flaw("0,0,1,1e999") == "column v2: \"1e999\" is beyond the range of binary64");
-  CHECK(flaw("0,0,1,1 2") == "column v2: \"1 2\" is no number");
-  CHECK(flaw("0,0,1,+-2") == "column v2: \"+-2\" is no number");
+  CHECK(flaw("0,0,1,1 2") == "column v2: \"1 2\" is not a number");
+  CHECK(flaw("0,0,1,+-2") == "column v2: \"+-2\" is not a number");
   CHECK(flaw("0,0,1") == "there are 3 fields, and 4 names of columns");
   CHECK(flaw("0,0,1,0,") == "there are 5 fields, and 4 names of columns");
   CHECK(flaw("0,0,1,\"0") == "a quote is not closed");
@@ -143,8 +143,8 @@ TEST_CASE("CSV: a bad line is told with its column, and the next is read", "[exc
   const std::string from = "x1,x2,v1,v2,from_lattice,from_atom,from_cell1,from_cell2";
   CHECK(flaw("0,0,1,0,0,0,0,9223372036854775808", from) ==
         "column from_cell2: \"9223372036854775808\" does not fit 64 bits");
-  CHECK(flaw("0,0,1,0,0,0,0.5,0", from) == "column from_cell1: \"0.5\" is no integer");
-  CHECK(flaw("0,0,1,0,0,,0,0", from) == "column from_atom: \"\" is no integer");
+  CHECK(flaw("0,0,1,0,0,0,0.5,0", from) == "column from_cell1: \"0.5\" is not an integer");
+  CHECK(flaw("0,0,1,0,0,,0,0", from) == "column from_atom: \"\" is not an integer");
   CHECK(flaw("0,0,1,0,2147483648,0,0,0", from) ==
         "column from_lattice: \"2147483648\" is too large for a number in a scene");
   const Reading reading = read("id,x1,x2,v1,v2\na,0,0,1,0\nb,0,0,1\nc,0,0,x,0\nd,0,0.5,1,0\n");

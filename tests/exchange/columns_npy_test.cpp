@@ -210,7 +210,7 @@ TEST_CASE("Arrays that are no queries are refused, with what they are", "[exchan
   }
   says(npy_file(std::string(100'000, '('), ""), "no literal of Python");
   says(npy_file("{'descr': '<f8', 'fortran_order': 0, 'shape': (1, 4)}", ""), "neither True nor False");
-  says(npy_file("{'descr': '<f8', 'fortran_order': False, 'shape': 4}", ""), "is no tuple");
+  says(npy_file("{'descr': '<f8', 'fortran_order': False, 'shape': 4}", ""), "is not a tuple");
   says(npy_file("{'descr': '<f8', 'fortran_order': False, 'shape': (-1, 4)}", ""), "has no numbers");
   says(npy_file("{'descr': 8, 'fortran_order': False, 'shape': (1, 4)}", ""), "is not understood");
   says(array("'<f8'", "(5, 6)"), "an array of '<f8' of shape (5, 6); queries in 2 dimensions");

@@ -426,7 +426,7 @@ TEST_CASE("NaN and Infinity are told by name", "[exchange]") {
     ExchangeReader().read_query_line(
         Padded(std::string(R"({"id":"NaN","x":[0.5,)") + word + R"(],"v":[1,0]})").line(), &unit, item);
     CHECK(item.kind == StreamItem::Kind::bad);
-    CHECK(item.message.starts_with(std::string("not JSON: ") + word + " is no number there"));
+    CHECK(item.message.starts_with(std::string("not JSON: ") + word + " is not a number there"));
   }
   StreamItem item;
   ExchangeReader().read_query_line(Padded(R"({"id":"Infinity","x":[0.5,?],"v":[1,0]})").line(), nullptr,

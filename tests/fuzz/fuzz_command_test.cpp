@@ -529,21 +529,21 @@ TEST_CASE("Bad options are refused before any work, with what would do", "[fuzz]
   refused("-e cmd:", "cmd: is no engine yet");
   refused("--time 0", "--time: must be above zero");
   refused("--time soon", "--time: ");
-  refused("--count 0", "--count: \"0\" is no whole number from 1");
-  refused("--seed x", "--seed: \"x\" is no whole number");
-  refused("--jobs 0", "--jobs: \"0\" is no whole number from 1 to 1024");
+  refused("--count 0", "--count: \"0\" is not a whole number from 1");
+  refused("--seed x", "--seed: \"x\" is not a whole number");
+  refused("--jobs 0", "--jobs: \"0\" is not a whole number from 1 to 1024");
   refused("--shard 3", "--shard: \"3\" is not I/N");
-  refused("--shard 3/3", "--shard: \"3\" is no whole number from 0 to 2");
-  refused("--shard 0/0", "--shard: \"0\" is no whole number from 1");
+  refused("--shard 3/3", "--shard: \"3\" is not a whole number from 0 to 2");
+  refused("--shard 0/0", "--shard: \"0\" is not a whole number from 1");
   refused("--keep 0", "--keep: ");
   refused("--mutate -1", "--mutate: ");
   refused("--ulps 1e9", "--ulps: 1000000000 is above 1048576");
   refused("--undecided --no-undecided", "excludes");
   refused("--judge nobody", "--judge: \"nobody\" is not one of oracle, certified");
   refused("--judge certified -e reduction",
-          "certified rests on reduction, and is no judge of the engine reduction");
+          "certified rests on reduction, and cannot judge the engine reduction");
   refused("--timeout 0", "--timeout: must be above zero");
-  refused("--dimension 4", "--dimension: \"4\" is no whole number from 2 to 3");
+  refused("--dimension 4", "--dimension: \"4\" is not a whole number from 2 to 3");
   refused("--scenes cubes", "--scenes: \"cubes\" is not one of unit, lattice, ball, any");
   refused("-t superpositions --scenes unit", "--target: superpositions has no such scenes as --scenes and");
   refused("nonsense", "no subcommand is called \"nonsense\"; there are list, show, export, merge");

@@ -280,7 +280,7 @@ TEST_CASE("golden make: into regular files only, one run at a time", "[golden][g
   REQUIRE(mkfifo(folder.file("pipe").c_str(), 0600) == 0);
   const Run pipe = folder.lorentz("golden make --set ties --count 3 -o " + folder.file("pipe"));
   CHECK(pipe.status == 3);
-  CHECK(contains(pipe.err, "is no regular file"));
+  CHECK(contains(pipe.err, "is not a regular file"));
   CHECK(std::filesystem::is_fifo(folder.file("pipe")));
   auto part = std::make_unique<runs::LockFile>(folder.file("set.part"), true, "busy");
   const Run second = folder.lorentz("golden make --set ties --count 3 -o " + folder.file("set"));
@@ -297,7 +297,7 @@ TEST_CASE("golden make overwrites golden sets, and nothing else", "[golden][gold
   const std::string notes = folder.write("notes.txt", "not to be lost\n");
   const Run refused = folder.lorentz(make + notes);
   CHECK(refused.status == 2);
-  CHECK(contains(refused.err, "notes.txt: is no golden set, and is left as it is"));
+  CHECK(contains(refused.err, "notes.txt: is not a golden set, and is left as it is"));
   CHECK(folder.read("notes.txt") == "not to be lost\n");
   for (int twice = 0; twice < 2; ++twice) CHECK(folder.lorentz(make + folder.file("set")).status == 0);
   CHECK(folder.lorentz(make + folder.write("empty", "")).status == 0);

@@ -89,7 +89,7 @@ TEST_CASE("A program is given up for a scene, not for the run, and the row says 
   CHECK(findings[0].count == 15);
 }
 
-TEST_CASE("What is no answer is told apart from none, with what the program said on its standard error",
+TEST_CASE("What is not an answer is told apart from none, with what the program said on its standard error",
           "[judge][examination]") {
   const std::atomic<bool> stop = false;
   const auto finding_of = [&](const std::string& command) {
