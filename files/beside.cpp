@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kDigits = 16;
 constexpr std::string_view kEnd = ".new";
 
-// What the names of all that is made beside a place begin with; short enough for the rest.
+// The beginning of all names beside a place, short enough to leave room for the rest.
 std::string beginning_of(const fs::path& place) {
   constexpr std::size_t kLongestName = 255;
   return place.filename().string().substr(0, kLongestName - 1 - kDigits - kEnd.size()) + '.';
@@ -40,7 +40,7 @@ bool is_name_beside(std::string_view name, std::string_view beginning) {
   return name.size() == kDigits + kEnd.size() && name.find_first_not_of("0123456789abcdef") == kDigits;
 }
 
-// The process that makes such a file holds a lock on it until it ends.
+// The process that made the file holds a lock on it until it ends.
 void remove_if_dead(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -52,7 +52,7 @@ void remove_if_dead(const fs::path& path) {
   ::close(descriptor);
 }
 
-// Once a place, for some are written every few seconds.
+// Runs once per place, because some places are written every few seconds.
 void clean_up(const fs::path& place) {
   static std::set<std::string> done;
   if (!done.insert(place.string()).second) return;
@@ -89,7 +89,7 @@ bool Beside::open(Kind kind) {
   return descriptor_ >= 0;
 }
 
-// False if another process took it for a dead one's before it was locked.
+// False if another process took it for a leftover before it was locked.
 bool Beside::is_held() {
   struct stat status {};
   const bool locked = ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;

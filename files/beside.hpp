@@ -1,5 +1,5 @@
-// A new file, or folder, beside a place that it is to take: its name cannot be foreseen, it is opened through
-// no link, and what a process left that was killed is taken away by the next that writes to the place.
+// A new file or folder beside the place that it will take. Its name is unpredictable, and it is not opened
+// through a link. Leftovers of a killed process are removed by the next one that writes to the place.
 #pragma once
 
 #include <optional>
@@ -13,16 +13,16 @@ class Beside {
  public:
   enum class Kind { file, folder };
 
-  /// PLACE.HEX.new, sixteen random hexadecimal digits. A file has the permissions that any new file has, a
-  /// folder is this user's alone. Throws FileError.
+  /// PLACE.HEX.new, with sixteen random hexadecimal digits. A file has the permissions of any new file; a
+  /// folder is accessible to this user only. Throws FileError.
   Beside(const std::string& place, Kind kind);
-  /// It is gone with all that is in it, unless it was renamed.
+  /// Removes it with all its contents, unless it was renamed.
   ~Beside();
   Beside(const Beside&) = delete;
   Beside& operator=(const Beside&) = delete;
 
   const std::string& path() const { return path_; }
-  int descriptor() const { return descriptor_; }  ///< a file's, open for writing
+  int descriptor() const { return descriptor_; }  ///< of a file, open for writing
 
  private:
   bool open(Kind kind);

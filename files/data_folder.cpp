@@ -32,7 +32,7 @@ std::vector<fs::path> data_folders() {
   }
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (!error) {
-    // Installed; first, for /usr/bin/../../data would be somebody else's.
+    // Installed; first, because /usr/bin/../../data would not be ours.
     folders.push_back(program.parent_path() / "../share/lorentz");
     folders.push_back(program.parent_path() / "../data");
     folders.push_back(program.parent_path() / "../../data");

@@ -6,15 +6,16 @@
 
 namespace lorentz {
 
-/// The files with this extension in data/FOLDER, in order: of the data folder that LORENTZ_DATA names, or of
-/// the one beside the build folder, or of the one installed, or of one that was added. None if there is no
-/// such folder. Throws FileError if LORENTZ_DATA is set, and is no folder with scenes or golden sets.
+/// The files with this extension in data/FOLDER, in order. The data folder is the one that LORENTZ_DATA
+/// names, or the one beside the build folder, or the installed one, or one that was added. Empty if there is
+/// no such folder. Throws FileError if LORENTZ_DATA is set but does not name a folder with scenes or golden
+/// sets.
 std::vector<std::string> data_files(const std::string& folder, const std::string& extension);
 
-/// Another folder to look for them in, after the others: for who is no program, and has its data elsewhere.
+/// Adds a folder to search after the others, for a caller that is not a program and has its data elsewhere.
 void add_data_folder(const std::string& path);
 
-/// Where it looks for them, for messages.
+/// The places that are searched, for messages.
 std::string data_places(const std::string& folder);
 
 }  // namespace lorentz

@@ -1,4 +1,4 @@
-// What is said to people on stderr, and words as a shell takes them.
+// Messages to people on stderr, and words quoted for a shell.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,8 +11,8 @@
 
 namespace lorentz {
 
-/// A message on stderr with the program's name in front; of several lines if `lines` says so, else it is one.
-/// If stderr is closed or full the message is lost and nothing else.
+/// Writes a message to stderr with the program's name in front; it has several lines if `lines` says so, else
+/// one. If stderr is closed or full, only the message is lost.
 inline void say_text(std::string_view message, Lines lines) {
   const std::string text = "lorentz: " + printable(message, lines) + '\n';
   std::fputs(text.c_str(), stderr);
@@ -22,8 +22,7 @@ void say(fmt::format_string<Args...> format, Args&&... args) {
   say_text(fmt::format(format, std::forward<Args>(args)...), Lines::escaped);
 }
 
-/// A word as a shell takes it: as it is if it can be, else in quotes; characters that act on a terminal are
-/// escaped
+/// A word for a shell: unchanged if possible, else in quotes. Characters that act on a terminal are escaped
 /// ($'\x1b', of bash, zsh and ksh).
 inline std::string shell_quoted(const std::string& word) {
   constexpr std::string_view kPlain =

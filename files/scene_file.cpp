@@ -60,7 +60,7 @@ std::string find_scene(const std::string& name_or_file) {
 
 namespace {
 
-// Every ball gets this radius, if there is one.
+// Gives every ball this radius, if there is one.
 template <class AScene, class Number>
 void set_radius(AScene& scene, const std::optional<Number>& radius, const std::string& name) {
   if (!radius) return;
@@ -117,7 +117,7 @@ Scene load_crystal(const std::string& name_or_file, std::optional<double> radius
 }
 
 void warn_of_overlaps(const Scene& scene, const std::string& place) {
-  if (flaw_of(scene) || oracle::dependence_in(scene)) return;  // what binary64 has left of rational numbers
+  if (flaw_of(scene) || oracle::dependence_in(scene)) return;  // rational numbers, invalid in binary64
   const oracle::Contacts contacts = oracle::contacts_in(scene, 20, oracle::Pairs::within_lattices);
   const oracle::Contact* worst = nullptr;  // one that touches, unless some overlap
   for (const oracle::Contact& contact : contacts.found)

@@ -11,7 +11,7 @@
 namespace lorentz {
 namespace {
 
-// A handler may neither allocate nor wait: names lie in places that are always there.
+// A handler may neither allocate nor wait, so names are in static storage.
 struct Slot {
   std::atomic<bool> taken = false, named = false;
   char path[PATH_MAX];
@@ -25,7 +25,7 @@ void write_line(std::string_view text) {
 }
 
 void take_leave(int number) {
-  for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot)  // a folder's files before it
+  for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot)  // a folder's files before the folder
     if (slot->named && unlink(slot->path) != 0) rmdir(slot->path);
   if (number != SIGPIPE) {
     write_line(number == SIGINT    ? "lorentz: interrupted"
@@ -55,9 +55,9 @@ void goes_on_when_repeated() {
 }
 
 Unfinished::Unfinished(const std::string& path) : slot_(0) {
-  if (path.size() >= sizeof Slot::path) slot_ = slots.size();  // no file can be called so
+  if (path.size() >= sizeof Slot::path) slot_ = slots.size();  // no file can have this name
   while (slot_ < slots.size() && slots[slot_].taken.exchange(true)) ++slot_;
-  if (slot_ == slots.size()) return;  // more at once than anybody asks for: these stay
+  if (slot_ == slots.size()) return;  // more files at once than expected: these stay
   path.copy(slots[slot_].path, path.size());
   slots[slot_].path[path.size()] = '\0';
   slots[slot_].named = true;

@@ -1,4 +1,4 @@
-// How the program ends when a signal says so: Ctrl-C, SIGTERM, a terminal that hangs up, a closed pipe.
+// How the program ends at a signal: Ctrl-C, SIGTERM, a terminal that hangs up, a closed pipe.
 #pragma once
 
 #include <cstddef>
@@ -6,16 +6,16 @@
 
 namespace lorentz {
 
-/// From here on such a signal takes away the files that are not whole, says in a line that it came (a closed
-/// pipe says nothing: who read it has gone), and ends the program as it would have. A file that outgrows the
-/// limit of its size (ulimit -f) is an error like a full disk. What the caller ignores stays ignored.
+/// From here on such a signal removes unfinished files, reports itself in a line (except a closed pipe, whose
+/// reader has gone), and ends the program as it would have. A file that exceeds the size limit (ulimit -f) is
+/// an error like a full disk. Signals that the caller ignores stay ignored.
 void end_in_order();
 
-/// The line of an interrupted program says that the same command goes on.
+/// Lets the line of an interrupted program say that the same command goes on.
 void goes_on_when_repeated();
 
-/// A file that would look whole and is not, or the folder of such: taken away if a signal ends the program
-/// while this lives.
+/// A file that would look whole but is not, or a folder of such files. It is removed if a signal ends the
+/// program while this object lives.
 class Unfinished {
  public:
   explicit Unfinished(const std::string& path);

@@ -5,7 +5,7 @@
 
 namespace lorentz {
 
-/// All of a file, or of standard input for "-". Throws FileError.
+/// The whole text of a file, or of standard input for "-". Throws FileError.
 std::string text_of_file(const std::string& path);
 
 }  // namespace lorentz

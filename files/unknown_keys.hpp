@@ -1,4 +1,4 @@
-// Keys that a format does not have: warned about once each, or errors.
+// Keys that a format does not have: each gives one warning, or an error.
 #pragma once
 
 #include <set>
@@ -11,20 +11,20 @@ namespace lorentz {
 
 enum class UnknownKeys { warned, errors };
 
-/// What the help texts say of --strict of commands that read streams.
+/// The help text of --strict for commands that read streams.
 inline constexpr const char* kStrictKeysHelp = "a key that is not known is an error";
 
 /// The keys of one stream or file.
 class KeyCheck {
  public:
-  /// `name` is the stream's, for messages.
+  /// `name` is the stream's name, for messages.
   KeyCheck(std::string name, UnknownKeys policy) : name_(std::move(name)), policy_(policy) {}
 
-  /// What a reader calls (ExchangeReader::on_unknown_key). Throws InputError if they are errors; else it
-  /// warns of each key once, of the first kMost.
+  /// Called by a reader (ExchangeReader::on_unknown_key). Throws InputError if unknown keys are errors; else
+  /// warns once about each of the first kMost keys.
   void operator()(const std::string& key);
 
-  std::size_t line = 0;  ///< where the reader is; 0: not said
+  std::size_t line = 0;  ///< where the reader is; 0: unknown
 
  private:
   static constexpr std::size_t kMost = 20;
@@ -34,7 +34,7 @@ class KeyCheck {
   std::set<std::string> seen_;
 };
 
-/// What readers of columns call: the same of columns beside the known ones.
+/// Called by readers of columns: the same for columns that are not known.
 OnUnknownColumn unknown_columns(const std::vector<std::string>& known, UnknownKeys policy);
 
 }  // namespace lorentz

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 WholeFile::WholeFile(const std::string& path) : path_(path), place_(path) {
   std::error_code error;
   const fs::file_status there = fs::status(path, error);
-  if (fs::is_regular_file(there) && ::access(path.c_str(), W_OK) != 0)  // renaming would not mind
+  if (fs::is_regular_file(there) && ::access(path.c_str(), W_OK) != 0)  // renaming would not notice
     throw write_error(path_, errno);
   if (fs::exists(there) && !fs::is_regular_file(there)) {
     file_ = std::fopen(path.c_str(), "wb");

@@ -1,5 +1,5 @@
-// A file that is written beside its place and put there when it is whole: killed at any moment, the old file
-// stands, and nothing is left beside it by any signal that can be met.
+// A file that is written beside its place and moved there when it is whole. If the program is killed, the old
+// file stays, and any signal that can be caught leaves nothing beside it.
 #pragma once
 
 #include <cstdio>
@@ -13,29 +13,28 @@ namespace lorentz {
 
 class WholeFile {
  public:
-  /// Opens a file beside `path`, or what `path` itself names if that is no regular file (a device, a pipe).
-  /// Throws FileError.
+  /// Opens a file beside `path`, or `path` itself if it is not a regular file (a device, a pipe). Throws
+  /// FileError.
   explicit WholeFile(const std::string& path);
-  /// Without commit() nothing is left behind.
+  /// Leaves nothing behind without commit().
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
 
-  /// What could not be written is said by commit().
+  /// commit() reports errors of writing.
   void write(std::string_view text);
 
-  /// Takes the place of what was there. Throws FileError if something was not written; then the old file
-  /// stands.
+  /// Replaces the old file. Throws FileError if something was not written; then the old file stays.
   void commit();
 
  private:
-  std::string path_, place_;      // as it was named; without links
+  std::string path_, place_;      // as given; with links resolved
   std::optional<Beside> beside_;  // where it is written
   std::FILE* file_ = nullptr;
 };
 
-/// What an option asks for, or no file. Opened before the work, so that a file that cannot be written costs
-/// none.
+/// The file that an option asks for, or none. It is opened before the work, so that no work is lost if it
+/// cannot be written.
 class RequestedFile {
  public:
   explicit RequestedFile(const std::optional<std::string>& path) {
@@ -53,7 +52,7 @@ class RequestedFile {
   std::optional<WholeFile> file_;
 };
 
-/// A file of this text, whole or not at all. Throws FileError.
+/// Writes a file with this text, whole or not at all. Throws FileError.
 void write_whole(const std::string& path, std::string_view text);
 
 }  // namespace lorentz

@@ -6,15 +6,15 @@
 
 namespace lorentz::golden {
 
-/// The committed sets: every *.ndjson in data/golden, by name. Empty if the folder is not there.
+/// The committed sets: every *.ndjson in data/golden, by name. Empty if the folder does not exist.
 std::vector<std::string> committed_sets();
 
-/// The file of a set: a file (or a folder), or the name of a committed set. Throws FileError, naming the
-/// sets.
+/// The file of a set, given a file (or a folder) or the name of a committed set. Throws FileError, listing
+/// the sets.
 std::string find_set(const std::string& name_or_file);
 
-/// Those, of a folder every *.ndjson in it, or all committed sets if none is named. Throws FileError if there
-/// are none.
+/// The files of these sets; for a folder every *.ndjson in it; all committed sets if no name is given. Throws
+/// FileError if there are none.
 std::vector<std::string> find_sets(const std::vector<std::string>& names_or_files);
 
 }  // namespace lorentz::golden

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a consumer has to be able to do with the scenes.
+// What a consumer must support in the scenes.
 void see_scene(const Scene& scene, std::set<std::string>& kinds) {
   for_each_atom(scene, [&](const Atom& atom) { kinds.insert(atom.is_ball() ? "balls" : "ellipsoids"); });
   if (scene.lattices.size() > 1) kinds.insert("several lattices");
@@ -34,7 +34,7 @@ bool has_exponent(std::string_view text) {
   return false;
 }
 
-// And with the texts of numbers; in questions and answers, not in proofs.
+// What a consumer must support in the texts of numbers, in questions and answers but not in proofs.
 void see_notation(std::string_view text, std::set<std::string>& notations) {
   text = text.substr(0, text.find(",\"certificate\""));
   if (text.find("\"0x") != text.npos || text.find("\"-0x") != text.npos) notations.insert("hexadecimal");
@@ -42,7 +42,7 @@ void see_notation(std::string_view text, std::set<std::string>& notations) {
   if (text.find("\"inf\"") != text.npos) notations.insert("inf");
 }
 
-// Numbers of cells that JSON's readers would round are decimal strings.
+// True if a cell has numbers that JSON readers would round; these are decimal strings.
 bool has_text(const ObstacleId& obstacle) {
   constexpr std::int64_t kExact = std::int64_t{1} << 53;
   return std::ranges::any_of(obstacle.cell, [](const Integer& n) {

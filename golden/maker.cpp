@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int64_t kWalkCells = 100;
 
-// The number of significant digits of a decimal number as it is written here; 0 of zero.
+// The number of significant digits of a decimal number as it is written here; 0 for zero.
 int significant_digits(std::string_view decimal) {
   int digits = 0;
   for (const char c : decimal.substr(0, decimal.find('e')))
@@ -30,7 +30,7 @@ bool is_same(const oracle::ExcusedAnswer& a, const oracle::ExcusedAnswer& b) {
   return a.ulps == b.ulps && a.answer.outcome == b.answer.outcome && a.answer.obstacle == b.answer.obstacle;
 }
 
-// What a record has must be what its outcome has.
+// A record must have exactly the parts that belong to its outcome.
 std::optional<std::string> flaw_of_form(const Record& record) {
   const Outcome outcome = record.expect.outcome;
   const std::string& decimal = record.expect.time_decimal;
@@ -88,7 +88,7 @@ struct Maker::Impl {
     return decision;
   }
 
-  // Which other answers are acceptable; or the tag that says that a judge is needed.
+  // Adds the other acceptable answers, or the tag that says that a judge is needed.
   void excuse(const Query& query, Record& record) const {
     if (auto excused = judge.excused(query, record.expect, kExcusedUlps, kMostAcceptable))
       record.acceptable = std::move(*excused);

@@ -24,12 +24,12 @@ constexpr std::uint64_t kBatch = cases::kCasesPerScene;
 struct Made {
   std::string scene_line;
   Components components = 2;
-  std::optional<MadeRecord> record;  // nothing: it is left out
+  std::optional<MadeRecord> record;  // nothing: the question is left out
 };
 
 using Batch = std::vector<Made>;
 
-// How many questions there are.
+// The number of questions.
 std::uint64_t number_in(const Order& order) {
   return order.given ? order.given->questions.size() : order.set->most;
 }
@@ -42,7 +42,7 @@ NumberFormat precision_of(const Order& order) {
   return order.given ? order.given->header.precision : order.set->precision;
 }
 
-// Nothing if a given question can't be proved.
+// Nothing if a given question cannot be proved.
 std::optional<MadeRecord> make_record(const Maker& maker, const Order& order, const SetQuestion& question) {
   try {
     MadeRecord made = maker.make(question.text, question.query);
@@ -75,7 +75,7 @@ Batch make_batch(const Order& order, std::uint64_t number) {
   return batch;
 }
 
-// Batches made by several threads, handed out in order. No more than a few are waiting at any time.
+// Batches made by several threads, handed out in order. Only a few wait at any time.
 class BatchQueue {
  public:
   BatchQueue(const Order& order, std::uint64_t first) : order_(order), next_(first), wanted_(first) {
@@ -132,7 +132,7 @@ class BatchQueue {
   std::vector<std::thread> threads_;
 };
 
-// How far a production is. What a resumed one needs to go on as if nothing had happened.
+// The state of a production: everything that it needs to be resumed as if nothing had happened.
 struct ProductionState {
   std::uint64_t next_batch = 0;
   RecordCounts counts;
@@ -140,7 +140,7 @@ struct ProductionState {
   std::unordered_set<std::uint64_t> ids;
 };
 
-// Of the sixteen hexadecimal digits that an id is.
+// The number with the sixteen hexadecimal digits of an id.
 std::uint64_t number_of(std::string_view id) {
   std::uint64_t number = 0;
   std::from_chars(id.data(), id.data() + id.size(), number, 16);
@@ -166,7 +166,7 @@ void count(RecordCounts& counts, const MadeRecord& made) {
   }
 }
 
-// Makes what is missing; `write` gets the text of one batch at a time, and `state` says what is made with it.
+// Makes the missing batches. `write` gets the text of one batch at a time; `state` then includes that batch.
 void produce_rest(const Order& order, ProductionState& state,
                   const std::function<void(std::string_view)>& write, const OnProgress& progress) {
   BatchQueue queue(order, state.next_batch);
@@ -190,7 +190,7 @@ void produce_rest(const Order& order, ProductionState& state,
   }
 }
 
-// A piece is what was made with a batch, in numbers, and the batch's text.
+// A piece has the counts up to and including a batch, and the batch's text.
 std::string piece_of(const RecordCounts& a, std::string_view text) {
   return fmt::format("{} {} {} {} {} {} {} {}\n{}", a.records, a.walked, a.hits, a.insides, a.nevers,
                      a.errors, a.needing_judge, a.left_out, text);
@@ -277,7 +277,7 @@ RecordCounts produce_lines(const Order& order, const Write& write, const OnProgr
 
 }  // namespace
 
-// How many records given questions make is known in the end.
+// For given questions the number of records is known only at the end.
 RecordCounts produce(const Order& order, const Write& write, const OnProgress& progress,
                      runs::PieceStore* kept) {
   if (!order.given) {

@@ -6,8 +6,9 @@
 
 namespace lorentz::golden {
 
-/// The next records; `where` is the record's id. Throws as the reader does. The reader must outlast the source.
-/// Judged by the claim. Margins are those of the records if the claim's precision is the set's, else recomputed.
+/// A source of the next records, judged by the claim; `where` is the record's id. Throws as the reader does.
+/// The reader must outlast the source. Margins are those of the records if the claim's precision is the
+/// set's; otherwise they are recomputed.
 question::Source questions_of(Reader& reader, const Claim& claim = {});
 
 }  // namespace lorentz::golden

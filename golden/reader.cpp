@@ -85,7 +85,7 @@ std::vector<std::vector<Integer>> read_basis(json::Value value) {
   return rows;
 }
 
-// It has as many vectors as the lattice, and these as many components.
+// The basis must have as many vectors as the lattice, each with as many components.
 oracle::CertificateBasis basis_of(const std::vector<std::vector<Integer>>& rows, int rank) {
   const auto check = [&](std::size_t count, const char* what) {
     if (count != static_cast<std::size_t>(rank))
@@ -101,7 +101,7 @@ oracle::CertificateBasis basis_of(const std::vector<std::vector<Integer>>& rows,
   return basis;
 }
 
-// A number as elsewhere, but its hexadecimal form is taken exactly.
+// A number in the usual forms, but the hexadecimal form is taken exactly.
 oracle::WindowEnd read_end(json::Value value, const std::string& key) {
   if (value.type() != json::Type::string) return read_number(value, key);
   const std::string_view text = value.text();
@@ -111,7 +111,7 @@ oracle::WindowEnd read_end(json::Value value, const std::string& key) {
   return *end;
 }
 
-// A window, or of a row what it has of one.
+// A window, or the window's parts that a row has.
 oracle::Window read_window(json::Value value, const Components& count, bool is_row) {
   oracle::Window window;
   std::vector<std::vector<Integer>> basis;
@@ -161,7 +161,8 @@ oracle::Certificate read_certificate(json::Value value, const Components& count)
   return certificate;
 }
 
-// An answer of a record has what its outcome has, and no id; `expect` has a time, what is acceptable has ulps.
+// An answer of a record has the members of its outcome, and no id. `expect` has a time; acceptable answers
+// have ulps.
 void check_members(const std::set<std::string>& keys, Outcome outcome, bool is_expected) {
   const bool named = outcome == Outcome::hit || outcome == Outcome::inside;
   const std::pair<const char*, bool> members[] = {{"id", false},
@@ -190,7 +191,7 @@ struct Reader::Impl {
   std::string scene_line;
   std::size_t scenes = 0;
 
-  // Calls read(key, value) for the members of the line's object, which is all that is in the line.
+  // Calls read(key, value) for the members of the object, which must be all of the line.
   template <class Read>
   void each_member_of(std::string_view text, std::size_t allocated, const Read& read) {
     document.open(text, allocated);
@@ -202,7 +203,7 @@ struct Reader::Impl {
     each_member_of(line.text, line.text.size() + LineReader::kPadding, read);
   }
 
-  // The line's keys. All of it is looked at: what is no JSON is no line of a set, whatever it says.
+  // The line's keys. The whole line is parsed, because a line that is not JSON is not a line of a set.
   std::vector<std::string> keys_of(const LineReader::Line& line) {
     if (line.too_long) throw InputError("the line is too long");
     std::vector<std::string> keys;
@@ -213,7 +214,7 @@ struct Reader::Impl {
     return keys;
   }
 
-  // Calls read(line), and puts the place in front of what it complains of.
+  // Calls read(line), and puts the place in front of its error messages.
   template <class Read>
   void at(const LineReader::Line& line, const Read& read) {
     const std::string place = lines.name() + ':' + std::to_string(line.number) + ": ";
@@ -244,13 +245,13 @@ struct Reader::Impl {
     });
   }
 
-  // The text from behind the first `],` to before the first `,"expect"`: simple to find for any program. The
-  // id is made from it, so by itself it has all keys between the tags and `expect`, and all of the question.
+  // The text between the first `],` and the first `,"expect"`, which is simple to find for any program. The
+  // id is made from it, so it must contain all keys between the tags and `expect`, and the whole question.
   std::string question_in(std::string_view line, const std::vector<std::string>& keys) {
     constexpr const char* kOrder =
         "the keys of a record stand in the order id, tags, x, v, from, expect, ...";
     const auto tags_end = line.find("],\""), end = line.find(",\"expect\"");
-    // Where one of these is not there, or they stand the other way round, this is no text of such members.
+    // If one of these is missing, or they are in the other order, this is not a text of such members.
     const std::string question(line.substr(tags_end + 2, end - tags_end - 2));
     std::vector<std::string> asked{"id", "tags"};
     std::string object = '{' + question + '}';
@@ -274,7 +275,7 @@ struct Reader::Impl {
     return question;
   }
 
-  // `expect`; or, if there is room for ulps, what is acceptable.
+  // Reads `expect`; or, if `ulps` is not null, an acceptable answer.
   Answer read_answer_in(json::Object object, double* ulps) {
     const char* key = ulps ? "acceptable" : "expect";
     std::set<std::string> keys;
@@ -292,7 +293,7 @@ struct Reader::Impl {
 
   void read_expectation(json::Object object, Answer& expect) {
     Answer answer = read_answer_in(object, nullptr);
-    answer.time_decimal = std::move(expect.time_decimal);  // a key of the record's, wherever it stands
+    answer.time_decimal = std::move(expect.time_decimal);  // a key of the record, wherever it stands
     expect = std::move(answer);
   }
 
@@ -359,7 +360,7 @@ struct Reader::Impl {
     StreamItem item;
     exchange.read_query_line(line, scene ? &*scene : nullptr, item);
     if (item.kind == StreamItem::Kind::bad && item.bad_scene) throw InputError(item.message);
-    // A query that is bad for another reason does not say that it has no scene besides.
+    // A query that is invalid for another reason does not report a missing scene.
     if (item.kind == StreamItem::Kind::bad && !scene) throw InputError("no scene before this record");
     if (item.kind == StreamItem::Kind::scene) {
       take_scene(line, keys, std::move(item.scene));

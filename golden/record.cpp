@@ -117,7 +117,7 @@ void append_record_line(std::string& out, const Record& record, const Components
     line.add("id", record.id, "tags", record.tags).add_members(record.question);
     line.add("expect", [&](json::Members& expect) {
       Answer answer = record.expect;
-      answer.time_decimal.clear();  // a key of the record's
+      answer.time_decimal.clear();  // a key of the record
       add_answer(expect, answer, count);
     });
     if (!record.expect.time_decimal.empty()) line.add("time_decimal", record.expect.time_decimal);

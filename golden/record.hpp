@@ -1,5 +1,4 @@
-// Golden records: queries with their exact answers and the proofs of these (docs/formats.md has the
-// format).
+// Golden records: queries with their exact answers and proofs (format: docs/formats.md).
 #pragma once
 
 #include <optional>
@@ -15,10 +14,11 @@
 
 namespace lorentz::golden {
 
-/// The format that is written. Format 1 is read, too: its records have no `time_change` and no `acceptable`.
+/// The format that is written. Format 1 is read, too; its records have no `time_change` and no `acceptable`.
 inline constexpr int kFormat = 2;
 
-/// What errors of at most so many ulps excuse is listed, if it is no more than that; else the record has the tag.
+/// A record lists the answers that input errors of at most kExcusedUlps ulps excuse, if they are at most
+/// kMostAcceptable; otherwise it has the tag.
 inline constexpr double kExcusedUlps = 16;
 inline constexpr std::size_t kMostAcceptable = 32;
 inline constexpr const char* kNeedsJudge = "needs-judge";
@@ -30,23 +30,23 @@ struct Header {
   int format = kFormat;
   std::string name = {}, description = {};
   std::string generator = {};  ///< the command that makes the set again
-  std::string version = {};    ///< of the program that made it
+  std::string version = {};    ///< version of the program that made it
   std::uint64_t count = 0;
-  std::vector<std::pair<std::string, std::string>> tags = {};  ///< each with what it is out to break
-  /// Of all numbers of its scenes and queries, and of the ulps that margins and conditions count.
+  std::vector<std::pair<std::string, std::string>> tags = {};  ///< each with the weakness that it targets
+  /// The format of all numbers of its scenes and queries, and of the ulps of margins and conditions.
   NumberFormat precision = NumberFormat::binary64;
 };
 
 struct Record {
   std::string id = {};
   std::vector<std::string> tags = {};
-  std::string comment = {};    ///< on the decision that is hard; empty: none is
-  std::string source_id = {};  ///< as JSON: the id that the question came with; empty: none
-  std::string question;        ///< the text after the tags to before `,"expect"`: what the id is made from
-  Answer expect;               ///< with time_decimal, of a hit
+  std::string comment = {};    ///< on the hard decision; empty: no decision is hard
+  std::string source_id = {};  ///< as JSON: the id that the question came with; empty: it had none
+  std::string question;        ///< the text between the tags and `,"expect"`, from which the id is made
+  Answer expect;               ///< with time_decimal for a hit
   std::optional<double> margin = {}, condition = {};
-  std::optional<double> time_change = {};  ///< of a hit: what an ulp in each input makes of its time
-  std::vector<oracle::ExcusedAnswer> acceptable = {};  ///< besides `expect`, by ulps
+  std::optional<double> time_change = {};  ///< for a hit: the effect of an ulp in each input on its time
+  std::vector<oracle::ExcusedAnswer> acceptable = {};  ///< besides `expect`, in order of ulps
   std::optional<oracle::Certificate> certificate = {};
 };
 
@@ -62,24 +62,24 @@ std::string id_of(const Scene& scene, const Query& query);
 /// SHA-256 in hexadecimal.
 std::string sha256(std::string_view text);
 
-/// The text of a query as it stands in a record.
+/// The text of a query in a record.
 std::string question_of(const Query& query, const Components& count);
 
-/// Of a line that holds no valid query: what it says of x, v and `from`, as it stands there. Nothing if the line is not
-/// JSON, or is an object without these.
+/// For a line without a valid query: its text of x, v and `from`, unchanged. Empty if the line is not JSON,
+/// or is an object without these.
 std::string question_in(std::string_view line);
 
 /// The number of significant digits of a record's time_decimal.
 inline constexpr int kDigits = 40;
 
-/// Adds its windows and rows; a lattice's bases have as many rows as it has vectors.
+/// Adds the certificate's windows and rows; a lattice's bases have as many rows as it has vectors.
 void add_certificate(json::Members& object, const oracle::Certificate& certificate, const Components& count);
 
 /// Appends a line, with its line end.
 void append_header_line(std::string& out, const Header& header);
 void append_record_line(std::string& out, const Record& record, const Components& count);
 
-/// The library that ids are made by, and its version.
+/// The library that makes the ids, and its version.
 std::string record_libraries();
 
 }  // namespace lorentz::golden

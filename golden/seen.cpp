@@ -21,7 +21,7 @@ bool is_hard(const std::optional<oracle::HardestDecision>& decision) {
   return decision && decision->margin < oracle::kLargestMargin;
 }
 
-// Infinite where no lattice repeats.
+// Infinite if no lattice repeats.
 double shortest_vector(const Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const Lattice& lattice : scene.lattices)
@@ -38,13 +38,13 @@ double smallest_radius(const Scene& scene) {
   return smallest;
 }
 
-// The sine of the angle between two vectors; of a zero vector not a number.
+// The sine of the angle between two vectors; NaN for a zero vector.
 double sine_between(const Vec& a, const Vec& b) {
   const Vec cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   return length(cross) / length(a) / length(b);
 }
 
-// Along a small vector of a lattice, or nearly.
+// True if v is along a small vector of a lattice, or nearly.
 bool is_near_rational(const Scene& scene, const Vec& v) {
   for (const Lattice& lattice : scene.lattices) {
     const int rank = lattice.rank(scene.dimension);
@@ -62,14 +62,14 @@ bool is_near_rational(const Scene& scene, const Vec& v) {
   return false;
 }
 
-// Of the largest component.
+// The exponent of the largest component.
 int exponent_of(const Vec& v) {
   double largest = 0;
   for (const double component : v) largest = std::max(largest, std::abs(component));
   return std::ilogb(largest);
 }
 
-// How far it is to a hit along direction 2^exponent: the time may lie beyond binary64.
+// The distance to a hit along direction 2^exponent; the time may be out of range for binary64.
 long double flown(const Answer& exact, const Vec& direction, int exponent) {
   if (exact.outcome != Outcome::hit) return 0;
   return std::scalbn(std::strtold(exact.time_decimal.c_str(), nullptr) * length(direction), exponent);
@@ -97,7 +97,7 @@ std::vector<std::string> tags_seen(const Scene& scene, const Query& query, const
   const auto is = [&](oracle::DecisionKind kind) { return is_hard(decision) && decision->kind == kind; };
   const double unit = shortest_vector(scene);
   const int exponent = exponent_of(query.v);
-  Vec direction = query.v;  // by a power of two: its largest component is from 1 to 2
+  Vec direction = query.v;  // scaled by a power of two: its largest component is from 1 to 2
   for (double& component : direction) component = std::scalbn(component, -exponent);
   const bool has_zero = std::any_of(query.v.begin(), query.v.begin() + scene.dimension,
                                     [](double component) { return component == 0; });

@@ -1,4 +1,4 @@
-// What the program sees of a question that was given: tags, and a comment on what is hard about it.
+// What the program finds out about a given question: tags, and a comment on its difficulty.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace lorentz::golden {
 
-/// The tags that there are, each with the sentence that explains it.
+/// All tags, each with the sentence that explains it.
 const std::vector<std::pair<std::string, std::string>>& seen_tags();
 
-/// Those of a question with this exact answer, and the decision that is the hardest (or nothing).
+/// The tags of a question with this exact answer and this hardest decision (or nothing).
 std::vector<std::string> tags_seen(const Scene& scene, const Query& query, const Answer& exact,
                                    const std::optional<oracle::HardestDecision>& decision);
 
-/// "misses lattice 0, atom 0, cell [3,1] by 2.1 ulps"; empty where no decision is hard.
+/// "misses lattice 0, atom 0, cell [3,1] by 2.1 ulps"; empty if no decision is hard.
 std::string comment_on(const std::optional<oracle::HardestDecision>& decision, const Components& count);
 
 }  // namespace lorentz::golden

@@ -1,4 +1,4 @@
-// Records of several sets in one: all, some, or a few of each tag.
+// Combines records of several sets into one: all, a selection, or a few of each tag.
 #pragma once
 
 #include <functional>
@@ -12,13 +12,13 @@ namespace lorentz::golden {
 
 class Selection {
  public:
-  /// Reads a set, of which each record is taken that `takes` says. An id that was there before is passed over. Throws
-  /// InputError, also if its precision or format is another one than that of the sets before.
+  /// Reads a set and takes each record for which `takes` is true. An id that is there already is skipped.
+  /// Throws InputError, also if its precision or format differs from that of the sets before.
   void add(Reader& set, const std::function<bool(const Record&)>& takes);
 
   bool has(const std::string& id) const { return by_id_.contains(id); }
 
-  /// Keeps so many: in turn the first of each tag of each set, until there are enough.
+  /// Keeps `count` records: in turn the first of each tag of each set, until there are enough.
   void thin(std::size_t count);
 
   std::size_t size() const { return records_.size(); }

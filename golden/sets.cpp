@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::string_view kBadQueries = "bad-queries";
 constexpr std::uint64_t kEndless = std::numeric_limits<std::uint64_t>::max();
-// Of so many scenes: 20, or 25.
+// From 20 and 25 scenes.
 constexpr std::uint64_t kCount = 640, kCountInBinary32 = 200;
-constexpr std::uint64_t kCasesOfScene = 8;  // that a set in binary32 has
+constexpr std::uint64_t kCasesOfScene = 8;  // in a set in binary32
 
 constexpr std::string_view kCommittedInBinary32[] = {
     "near-rational", "grazing",     "ties",    "boundary-starts", "corridor-edge",    "long-flight",

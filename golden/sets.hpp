@@ -1,4 +1,4 @@
-// The golden sets by name: what each is made of.
+// The golden sets by name, and their contents.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace lorentz::golden {
 
-/// One question of a set. `query` is missing if it is invalid: then the text is all there is.
+/// One question of a set. `query` is missing if the question is invalid; then there is only the text.
 struct SetQuestion {
   Scene scene;
   std::string text;
@@ -20,24 +20,24 @@ struct SetQuestion {
 };
 
 struct Set {
-  std::string name;    ///< of binary32 the family's with "-binary32" behind it
-  std::string family;  ///< of cases; of bad-queries its name
+  std::string name;    ///< in binary32 the family's name followed by "-binary32"
+  std::string family;  ///< family of cases; for bad-queries the set's own name
   std::string description;
   std::vector<cases::Tag> tags;
   NumberFormat precision;  ///< of the numbers of scenes and queries
-  std::uint64_t count;     ///< how many records are made if nobody says how many
-  std::uint64_t most;      ///< how many there are
-  bool is_committed;       ///< data/golden holds so many of them
+  std::uint64_t count;     ///< default number of records
+  std::uint64_t most;      ///< largest number of records
+  bool is_committed;       ///< data/golden contains the set, with `count` records
 
-  /// Follows from (set, seed, index). Cases in a row share a scene: 32 in binary64, 8 in binary32.
+  /// Determined by (set, seed, index). Consecutive cases share a scene: 32 in binary64, 8 in binary32.
   SetQuestion question(std::uint64_t seed, std::uint64_t index) const;
 };
 
 /// All sets: one of each family of cases, and bad-queries; then one of each family in binary32.
 const std::vector<Set>& sets();
 
-/// The set of this family in the precision; or else the one of this name, whatever its precision. Null if there
-/// is none.
+/// The set of this family in this precision; otherwise the set of this name in any precision; null if no set
+/// fits.
 const Set* set_named(std::string_view name, NumberFormat precision = NumberFormat::binary64);
 
 }  // namespace lorentz::golden

@@ -1,4 +1,4 @@
-// An earlier report, and in what a later one is worse.
+// An earlier report, and what is worse in a later one.
 #pragma once
 
 #include <map>
@@ -11,17 +11,18 @@
 
 namespace lorentz::judge {
 
-/// What `lorentz judge --json` printed of an engine.
+/// What `lorentz judge --json` printed about an engine.
 class Baseline {
  public:
-  /// `json`: the report; `name`: what messages call it. Throws InputError if it is no such report.
+  /// `json`: the report; `name`: its name in messages. Throws InputError if it is not such a report.
   Baseline(const std::string& json, const std::string& name);
 
-  /// A sentence for each kind of fault that is new, and for each row that asked as many questions then and has more
-  /// answers that are wrong, errors or missing now. With `times` wrong times are faults, too.
+  /// A sentence for each new kind of fault, and for each row that asked the same number of questions then and
+  /// now and has more answers that are wrong, errors or missing now. With `times` wrong times are faults,
+  /// too.
   std::vector<std::string> worse(const JudgeReport& report, bool times) const;
 
-  /// Rows that asked another number of questions: what they got wrong is not compared.
+  /// The rows that asked another number of questions; their wrong answers are not compared.
   std::vector<std::string> not_compared(const JudgeReport& report) const;
 
  private:

@@ -31,8 +31,8 @@ std::vector<Predicate> plain_predicates() {
 
 using Quantity = double Features::*;
 
-// "below 1e-9", with the least power of ten that all failing questions are below; nothing if one has no such
-// quantity, or if that power says nothing.
+// "below 1e-9", with the least power of ten above all failing questions. Nothing if one of them lacks the
+// quantity, or if that power is `says_nothing` or more.
 std::optional<Predicate> where_below(const std::vector<Features>& failing, Quantity quantity,
                                      const char* text,
                                      double says_nothing = std::numeric_limits<double>::infinity()) {
@@ -52,7 +52,7 @@ std::optional<Predicate> least(Quantity quantity, double limit, const std::strin
   return Predicate{text, [=](const Features& f) { return f.*quantity >= limit; }};
 }
 
-// The smallest of them; nothing if one has no such quantity.
+// The smallest value; nothing if one of the questions lacks the quantity.
 std::optional<double> smallest(const std::vector<Features>& failing, Quantity quantity) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Features& f : failing) {
@@ -70,7 +70,8 @@ std::optional<Predicate> from(const std::vector<Features>& failing, Quantity qua
   return least(quantity, limit, fmt::format(fmt::runtime(text), limit));
 }
 
-// The greatest power of two, of lengths in radii, if that is far: nothing cancels nearby.
+// The greatest power of two that all failing questions reach, for lengths in radii, if it is far, because
+// nothing cancels nearby.
 std::optional<Predicate> from_afar(const std::vector<Features>& failing, Quantity quantity,
                                    const char* text) {
   constexpr int kFar = 10;
@@ -113,7 +114,7 @@ std::optional<Circumstance> circumstance_of(const std::vector<Features>& failing
     if (!std::all_of(failing.begin(), failing.end(), predicate.holds)) continue;
     const auto number = std::count_if(right.begin(), right.end(), predicate.holds);
     const double share = static_cast<double>(number) / static_cast<double>(right.size());
-    // Of so many right answers a share that was not seen may still be this large.
+    // With this number of right answers, a share that was not seen may still be this large.
     const double possible = std::max(share, 3 / static_cast<double>(right.size()));
     if (share > kCommon || std::pow(possible, failing.size()) > kByChance) continue;
     if (!rarest || share < rarest->share)

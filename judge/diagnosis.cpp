@@ -23,17 +23,17 @@ Fault graded(Cause grazing, Cause gross, double gap) {
   return {std::fabs(gap) < kGrazing ? grazing : gross, std::fabs(gap)};
 }
 
-// In what follows `decisive` is the obstacle that the judgement rests on.
+// Below, `decisive` is the obstacle that the judgement rests on.
 
 // The answer says that x lies in an obstacle, which must exist.
 Fault of_false_inside(const Question& question, const Answer& given, const ObstacleId& decisive) {
   const double gap = question.place->margins().approach(question.query, given.obstacle).start_gap;
   if (question.exact.outcome == Outcome::inside && (gap < 0 || decisive != given.obstacle))
     return {Cause::inside_another};
-  return {Cause::inside_not_so, gap};  // x lies outside: else it were the one above, or right
+  return {Cause::inside_not_so, gap};  // x lies outside, else it is the case above or right
 }
 
-// The answer says that another obstacle is hit than the exact one, or that one is where none is.
+// The answer names another obstacle than the exact one, or one where nothing is hit.
 Fault of_false_hit(const Question& question, const Answer& given, const ObstacleId& decisive) {
   const question::Place& place = *question.place;
   const oracle::Approach approach = place.margins().approach(question.query, decisive);
@@ -45,7 +45,7 @@ Fault of_false_hit(const Question& question, const Answer& given, const Obstacle
   return graded(Cause::passed_over_grazing, Cause::passed_over, approach.gap);
 }
 
-// Is the obstacle that is said to be hit only touched? (Asked where the inputs need not move: such a one is
+// True if the obstacle that is said to be hit is only touched. (Asked if the inputs need not move; then it is
 // not missed, nor does it lie behind.)
 bool is_touched(const Question& question, const Answer& given) {
   return given.outcome == Outcome::hit &&
@@ -58,7 +58,7 @@ Fault of_another_answer(const Question& question, const Answer& given,
   const Answer& exact = question.exact;
   if (names_obstacle(given) && !exists(question, given.obstacle)) return {Cause::no_such_obstacle};
   if (names_obstacle(given) && query.from == given.obstacle) return {Cause::leaving};
-  // A judgement that rests on no obstacle is one of margin 0: of a tie, or of an obstacle that is touched.
+  // A judgement that rests on no obstacle has margin 0: there is a tie, or an obstacle is touched.
   const ObstacleId& decisive = needed                        ? *needed
                                : is_touched(question, given) ? given.obstacle
                                                              : exact.obstacle;
@@ -99,7 +99,7 @@ const CauseWords& words_for(Cause cause) {
   return kCauseWords[static_cast<std::size_t>(cause)];
 }
 
-// Of the right obstacle.
+// The answer names the right obstacle, with a wrong time.
 Diagnosis of_wrong_time(const Question& question, const Answer& given, bool other_quantity) {
   return {other_quantity ? Cause::other_quantity : Cause::wrong_time, Severity::wrong_time,
           question::radii_off(question, given)};

@@ -1,4 +1,4 @@
-// What an answer did wrong, in words of the problem.
+// What is wrong with an answer, in words of the problem.
 #pragma once
 
 #include <array>
@@ -13,46 +13,47 @@ namespace lorentz::judge {
 using question::Place;
 using question::Question;
 
-/// The ways of being wrong. docs/judge.md has them.
+/// The ways in which an answer can be wrong (docs/judge.md).
 enum class Cause {
-  passed_over_grazing,  ///< a later obstacle is named than the one that is hit first; the line enters that by
-                        ///< less than kGrazing of its radii
-  passed_over,          ///< the same, and it enters by more
-  never_for_grazing,  ///< `never` is said, and the line enters an obstacle by less than kGrazing of its radii
-  never_for_hit,      ///< the same, and it enters one by more
-  false_hit_grazing,  ///< an obstacle is named that the line misses by less than kGrazing of its radii
-  false_hit,          ///< or by more
-  behind,             ///< one that lies behind the start
-  leaving,            ///< the one that the particle leaves
-  inside_not_seen,    ///< the start lies in an obstacle
+  passed_over_grazing,  ///< a later obstacle is named than the first hit, which the line enters by less than
+                        ///< kGrazing of its radii
+  passed_over,          ///< the same, but the line enters it by more
+  never_for_grazing,  ///< the answer is `never`, but the line enters an obstacle by less than kGrazing of its
+                      ///< radii
+  never_for_hit,      ///< the same, but the line enters one by more
+  false_hit_grazing,  ///< the named obstacle is missed by the line by less than kGrazing of its radii
+  false_hit,          ///< the same, but missed by more
+  behind,             ///< the named obstacle lies behind the start
+  leaving,            ///< the named obstacle is the one that the particle leaves
+  inside_not_seen,    ///< the answer does not say that the start lies in an obstacle
   inside_not_so,      ///< the start does not lie in the obstacle named
-  inside_another,     ///< it does, but in a smaller one, too
-  tie,                ///< two are entered at the same time, and the larger one is named
+  inside_another,     ///< it does, but also in one that comes first by name
+  tie,                ///< two are entered at the same time, and the later one by name is named
   no_such_obstacle,   ///< the scene has no such lattice or atom
-  other_quantity,     ///< the right obstacle with something else than the time of its entry
-  wrong_time,         ///< the right obstacle, and a time that is off by more than rounding explains
-  refused,            ///< a valid question is called an error
+  other_quantity,     ///< the right obstacle, with something else than the time of its entry
+  wrong_time,         ///< the right obstacle, with a time that is off by more than rounding explains
+  refused,            ///< a valid question was answered with an error
   no_answer,          ///< another program died, fell silent, or left the question out
-  bad_line,           ///< it wrote something in the answer's place that is no answer
+  bad_line,           ///< another program wrote an invalid line in place of the answer
   answered_nonsense   ///< an invalid question was answered
 };
 inline constexpr int kCauses = 19;
 
-/// Whose findings are, in the order in which reports tell of them.
+/// What is to blame for a finding, in the order of reports.
 enum class Blame { engine, ended, protocol, rounding };
 inline constexpr std::array kBlames{Blame::engine, Blame::ended, Blame::protocol, Blame::rounding};
 
-/// Below this part of an obstacle's radius it is only just met or missed.
+/// An obstacle is only just met or missed if the gap is below this part of its radius.
 inline constexpr double kGrazing = 1e-6;
 
-/// How much it matters, the worst first. `nonsense`: the question is invalid.
+/// How much a fault matters, the worst first. `nonsense`: the question is invalid.
 enum class Severity { wrong, error, wrong_time, ill_posed, nonsense };
 
 struct Diagnosis {
   Cause cause{};
   Severity severity{};
-  /// By so many of its radii the obstacle in question is entered or missed, or x lies inside or outside of
-  /// it. Of a wrong time: radii_off.
+  /// By how many of its radii the obstacle in question is entered or missed, or x lies inside or outside it.
+  /// For a wrong time: radii_off.
   std::optional<double> by_radii = {};
 
   Blame blame() const;
@@ -60,8 +61,9 @@ struct Diagnosis {
 
 bool names_obstacle(const Answer& answer);
 
-/// Of an answer that departs from the exact one, or has a wrong time, or is an error, or missing; else
-/// nothing. Where several obstacles are in question it is about the one that the judgement rests on.
+/// The diagnosis of an answer that departs from the exact one, has a wrong time, is an error, or is missing;
+/// nothing for any other answer. If several obstacles are in question, it is about the one that the judgement
+/// rests on.
 std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& given,
                                       const oracle::Judgement& judgement);
 
@@ -73,8 +75,8 @@ std::string_view title_of(Cause cause);
 std::string_view title_of(Blame group);
 std::string_view name_of(Severity severity);
 
-/// "passes over obstacles that the line enters by less than 1e-09 of their radii": of all answers that went
-/// wrong so, `by_radii` the most of any.
+/// "passes over obstacles that the line enters by less than 1e-09 of their radii": describes all answers with
+/// this cause. `by_radii`: the largest among them.
 std::string sentence_of(Cause cause, std::optional<double> by_radii);
 
 /// The least power of ten above x > 0, as text.

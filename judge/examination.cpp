@@ -18,8 +18,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// What is asked together: so much that it takes this long, for a time limit is only looked at in between; and
-// never much, for what is fast here can take a second a question in the next scene.
+// The number of questions that are asked together. They should take kSecondsAtOnce, because time limits are
+// only checked in between. The number stays small, because an engine that is fast here can take a second per
+// question in the next scene.
 constexpr std::size_t kFewestAtOnce = 4, kMostAtOnce = 32;
 constexpr double kSecondsAtOnce = 0.05;
 
@@ -30,8 +31,8 @@ std::size_t next_number(std::size_t asked, double took) {
       std::clamp(fitting, double{kFewestAtOnce}, std::max(most, double{kFewestAtOnce})));
 }
 
-// Questions of each row that are looked at closely: what right answers are like, and how close the calls
-// were.
+// Number of questions of each row that are examined closely: the features of right answers, and how close the
+// calls were.
 constexpr std::size_t kCompared = 500;
 
 }  // namespace
@@ -69,10 +70,10 @@ Examination::Start Examination::warm_up() {
   return {longest, longest - last};
 }
 
-// Returns how long it took.
+// Returns how long the answers took.
 double Examination::ask(const std::vector<Question>& questions) {
   replies_.clear();
-  answerer_->take_last_words();  // what it said of earlier questions
+  answerer_->take_last_words();  // what it wrote about earlier questions is dropped
   const auto start = Clock::now();
   question::ask_all(question::all_of(questions), *answerer_,
                     [this](const Question&, Reply& reply) { replies_.push_back(std::move(reply)); });

@@ -36,7 +36,7 @@ double as_double(const Integer& number) {
   return value;
 }
 
-// Of the cells that a question is about. Nothing where there are none: of `never`.
+// The largest number in the cells that a question is about; kNone if there are none, as for `never`.
 double largest_number(const Question& question) {
   double largest = Features::kNone;
   const auto see = [&](const ObstacleId& obstacle) {
@@ -47,7 +47,7 @@ double largest_number(const Question& question) {
   return largest;
 }
 
-// The only one of a scene; nothing if there are several.
+// The only obstacle of a scene; nothing if there are several.
 std::optional<ObstacleId> lone_obstacle(const Scene& scene) {
   const Lattice& first = scene.lattices[0];
   const bool is_lone =
@@ -55,7 +55,7 @@ std::optional<ObstacleId> lone_obstacle(const Scene& scene) {
   return is_lone ? std::optional(ObstacleId{}) : std::nullopt;
 }
 
-// From x to its centre, in its radii (of an ellipsoid the smallest semiaxis).
+// Sets the distance from x to the obstacle's centre, in its radii (for an ellipsoid, the smallest semiaxis).
 void measure_from(const Question& question, const ObstacleId& obstacle, Features& its) {
   const Scene& scene = question.place->scene();
   const Lattice& lattice = scene.lattices[static_cast<std::size_t>(obstacle.lattice)];

@@ -1,4 +1,4 @@
-// What a question is like, for those who look for what sets the failing ones apart.
+// Features of a question, by which the failing questions can be distinguished from the others.
 #pragma once
 
 #include <limits>
@@ -18,21 +18,21 @@ struct Features {
   bool zero_component = false;  ///< a component of v is 0
   bool leaving = false;         ///< `from` is given
   bool several_lattices = false, several_atoms = false, ellipsoids = false;
-  bool other_cell = false;  ///< not one unit square or cubic lattice
+  bool other_cell = false;  ///< not a single unit square or cubic lattice
   bool never = false;       ///< nothing is ever hit
-  // Lengths in those of the shortest primitive vector.
+  // Lengths in units of the shortest primitive vector.
   double flight = kNone;  ///< to the obstacle that is hit
   double radius = kNone;  ///< the smallest
-  double start = kNone;   ///< of x from the origin
-  double cell = kNone;    ///< the largest number of a cell, without its sign: of the obstacle hit, of `from`
-  double depth = kNone;   ///< by so many of its radii the line enters the obstacle that is hit
-  double speed = kNone;   ///< of v, in the scene's own unit
-  // In radii (of an ellipsoid: its smallest semiaxis).
-  double distance = kNone;         ///< of x from the centre of the obstacle in question
-  double flight_in_radii = kNone;  ///< to the obstacle that is hit, in radii of that
+  double start = kNone;   ///< distance of x from the origin
+  double cell = kNone;    ///< the largest absolute value in a cell, of the obstacle hit or of `from`
+  double depth = kNone;   ///< by how many of its radii the line enters the obstacle that is hit
+  double speed = kNone;   ///< |v|, in the scene's own unit
+  // In radii (for an ellipsoid, its smallest semiaxis).
+  double distance = kNone;         ///< from x to the centre of the obstacle in question
+  double flight_in_radii = kNone;  ///< to the obstacle that is hit, in its radii
 };
 
-/// `in_question`: the obstacle that is in question; nothing: the only one that there is.
+/// `in_question`: the obstacle in question; nothing: the scene's only obstacle, if it has just one.
 Features features_of(const Question& question, const std::optional<ObstacleId>& in_question = {});
 
 }  // namespace lorentz::judge

@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::size_t kMostFeatures = 2000;
 
-// Valid questions before invalid ones, which have no numbers: of these the shortest text.
+// Valid questions come before invalid ones. These have no numbers, so the shortest text is the simplest.
 std::pair<bool, long> complexity_of(const Question& question) {
   if (!question.is_query()) return {true, static_cast<long>(question.text.size())};
   return {false, fuzz::complexity(question.place->scene(), question.query)};
 }
 
-// Of all that was asked in the rows that are hard, or in the others.
+// The share among all questions that were asked in the hard rows, or in the others.
 double share_of(const std::map<std::string, std::size_t>& by_row, const Asked& asked, bool hard) {
   double all = 0, its = 0;
   for (const auto& [row, asked_of] : asked) {
@@ -52,7 +52,7 @@ Features features_in(const Example& example) {
 
 std::string Finding::summary() const {
   const std::string text = sentence_of(cause(), by_radii);
-  // A grazing one says that of itself.
+  // The sentence of a grazing cause says this already.
   const bool is_said = (cause() == Cause::passed_over_grazing || cause() == Cause::never_for_grazing) &&
                        circumstance && circumstance->is_of_depth;
   return circumstance && !is_said ? text + ", only " + circumstance->text : text;

@@ -7,7 +7,7 @@
 namespace lorentz::judge {
 namespace {
 
-// How far a particle gets by an answer; nothing if it does not say.
+// How far a particle gets according to an answer; nothing if the answer does not say.
 std::optional<double> path_of(const Answer& answer) {
   if (answer.outcome == Outcome::hit) return answer.time;
   if (answer.outcome == Outcome::never) return std::numeric_limits<double>::infinity();
@@ -30,7 +30,7 @@ std::vector<double> sorted(std::vector<double> values) {
 void FreePaths::add(const Question& question, const Answer& given) {
   const auto path = path_of(given), exact = path_of(question.exact);
   if (!path || std::isnan(*path) || !exact) return;
-  // What rounding does to a path must not carry it across a point of the curve.
+  // Rounding must not carry a path across a point of the curve.
   constexpr double kSame = 0x1p-30;
   given_.push_back(std::fabs(*path - *exact) <= kSame * *exact ? *exact : *path);
   exact_.push_back(*exact);

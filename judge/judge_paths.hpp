@@ -1,4 +1,4 @@
-// The free paths of the judged engine, beside the exact ones and theory.
+// The free paths of the judged engine, compared with the exact ones and with theory.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace lorentz::judge {
 
-/// What was flown in one scene.
+/// The flights in one scene.
 struct FlownScene {
   std::string scene;
   double radius = 0;
@@ -23,12 +23,12 @@ struct FlownScene {
   report::FreePathCurve curve(const std::string& engine) const;
 };
 
-/// Flies in some scenes, from collision to collision, for so many seconds at the most; what came of it, of
-/// each scene in which the engine flew.
+/// Flies in a few scenes, from collision to collision, for at most `seconds`. Returns the flights of each
+/// scene in which the engine flew.
 std::vector<FlownScene> fly_free_paths(Examination& examination, std::uint64_t seed, double seconds);
 
-/// Of the scene in which the engine's P(tau > t) is farthest from the exact one: by how much; empty if it is
-/// exact in all of them.
+/// Says how far the engine's P(tau > t) is from the exact one in the scene where the distance is largest;
+/// empty if it is exact in all scenes.
 std::string free_path_fault(const std::vector<FlownScene>& scenes);
 
 }  // namespace lorentz::judge

@@ -1,4 +1,4 @@
-// What `lorentz judge` found, for people, for programs, and for the page.
+// The report of `lorentz judge`, for people, for programs, and for the page.
 #include "judge/judge_report.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Components components_of(const Example& example) {
   return example.question.place->scene();
 }
 
-// An invalid question stands as it was asked.
+// An invalid question is shown as it was asked.
 std::string members_of(const Example& example) {
   return example.question.is_query() ? report::query_members(example.question.query, components_of(example))
                                      : example.question.text;
@@ -50,7 +50,7 @@ const char* option_for(Severity severity) {
   return severity == Severity::wrong ? "" : " --strict";
 }
 
-// The shell command that prints the question, as often as it takes.
+// The shell command that prints the question, as many times as needed.
 std::string lines_of_question(const Finding& finding) {
   return report::printed(finding.simplest.question.place->scene(), members_of(finding.simplest),
                          finding.repetitions);
@@ -58,7 +58,7 @@ std::string lines_of_question(const Finding& finding) {
 
 std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& report) {
   if (report.engine.kind == question::EngineInfo::Kind::guest)
-    return {};                                                      // a function of a caller's has no command
+    return {};                                                      // a function of the caller has no command
   if (finding.recheck == Recheck::passes) return {report.command};  // the question alone does not show it
   const std::string lines = lines_of_question(finding);
   std::string engine = shell_quoted(report.engine.name);
@@ -68,7 +68,7 @@ std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& 
     return {fmt::format("{} | lorentz compare --queries - --engine {}{}{}", lines, engine, claim,
                         option_for(finding.severity())),
             fmt::format("{} | lorentz first-hit --engine {}", lines, engine)};
-  // Invalid questions only golden sets hand on; a program reads them by itself.
+  // Only golden sets pass invalid questions on, and only to a program, which reads them by itself.
   if (!report.engine.is_command()) return {};
   return {fmt::format("{} | sh -c {}", lines,
                       shell_quoted(report.engine.name.substr(std::string_view("cmd:").size())))};
@@ -98,7 +98,7 @@ std::vector<std::string> lines_of_dispute(const Example& example) {
   return lines;
 }
 
-// By how much the time is off: along the ray, and in what rounding of the inputs makes of it.
+// By how much the time is off: along the ray, and relative to the effect of rounding the inputs.
 std::string words_of_time_error(const Example& example) {
   const auto radii = json::finite(example.diagnosis.by_radii);
   const double ulps = example.judgement.departs;
@@ -134,7 +134,7 @@ std::vector<std::string> reason_lines(const Finding& finding) {
   return lines;
 }
 
-// The rows in which it is met most often: "17 % of grazing, 9.1 % of golden ties, .."
+// The rows in which the finding is most frequent: "17 % of grazing, 9.1 % of golden ties, .."
 std::string often(const Finding& finding, const JudgeReport& report) {
   constexpr std::size_t kMost = 3;
   std::vector<std::pair<double, std::string>> shares;
@@ -149,7 +149,7 @@ std::string often(const Finding& finding, const JudgeReport& report) {
   return text + (shares.size() > kMost ? ", .." : "");
 }
 
-// The ray and the one obstacle that decides; nothing of a question or an answer that is about none.
+// The ray and the obstacle that decides; nothing if question and answer involve no obstacle.
 std::optional<report::Primitive> primitive_for(const Example& example) {
   const auto obstacle = obstacle_in_question(example);
   if (!obstacle) return std::nullopt;
@@ -157,7 +157,7 @@ std::optional<report::Primitive> primitive_for(const Example& example) {
   return report::primitive_of(place.margins(), place.scene(), example.question.query, *obstacle);
 }
 
-// In full, but for what rounding of the inputs explains.
+// The finding in full, but shorter if rounding of the inputs explains it.
 std::string text_of(const Finding& finding, const JudgeReport& report, int number) {
   const Example& example = finding.simplest;
   const Components dimension = components_of(example);
@@ -180,7 +180,7 @@ std::string text_of(const Finding& finding, const JudgeReport& report, int numbe
   return text;
 }
 
-// Of a group's findings, which count on from `number`.
+// The findings of a group, numbered on from `number`.
 std::string text_of(Blame group, const JudgeReport& report, int& number) {
   std::string text;
   for (const Finding& finding : report.findings)
@@ -188,7 +188,7 @@ std::string text_of(Blame group, const JudgeReport& report, int& number) {
   return text;
 }
 
-// Nothing is drawn of an invalid question, nor where nothing can be.
+// Nothing for an invalid question, or if the case cannot be drawn.
 std::optional<std::string> drawing_of(const Example& example) {
   if (!example.question.is_query()) return std::nullopt;
   std::string drawing =
@@ -228,7 +228,7 @@ const std::vector<std::string> kColumns{"questions",  "number",    "agree",     
                                         "wrong time", "undecided", "unsupported", "error",     "missing",
                                         "nonsense",   "radii off", "max ulp",     "ns/query"};
 
-// Times near 0 have ulps that tell nothing.
+// For times near 0, ulps are not informative.
 std::string largest_ulp(const question::Tally& t) {
   if (!t.timed_hits) return "-";
   return t.max_ulp() < oracle::kLargestMargin ? fmt::format("{:.3g}", t.max_ulp()) : "> 2^20";
@@ -259,7 +259,7 @@ constexpr const char* kRowStates[] = {"asked", "unsupported", "no time", "given 
 RowState state_of(const ExaminedRow& row, const JudgeReport& report) {
   if (row.scenes_given_up > 0) return RowState::given_up;
   if (row.asked() > 0) return row.tally.unsupported == row.asked() ? RowState::unsupported : RowState::asked;
-  // Its scenes had been left before: all of them unsupported, or some too slow to be asked again?
+  // Its scenes had been left before: either all were unsupported, or some were too slow to be asked again.
   const question::Tally all = report.total();
   if (!row.is_exhausted) return RowState::no_time;
   if (all.queries == all.unsupported) return RowState::unsupported;

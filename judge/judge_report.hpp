@@ -1,4 +1,4 @@
-// What `lorentz judge` says in the end.
+// The report that `lorentz judge` gives at the end.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,12 @@
 
 namespace lorentz::judge {
 
-/// What is to be read first, a line each.
+/// What readers should see first, one line each.
 struct ThreeLines {
   std::string what;                  ///< the engine, and what it was judged by
   std::string how_bad;               ///< shares of drawn flights and of hard ones
-  std::string worst;                 ///< what goes wrong above all
-  const Finding* finding = nullptr;  ///< that; null if nothing does
+  std::string worst;                 ///< the worst fault
+  const Finding* finding = nullptr;  ///< this fault; null if there is none
 };
 
 struct JudgeReport {
@@ -27,18 +27,18 @@ struct JudgeReport {
   std::vector<Finding> findings;
   Curves curves;
   std::optional<question::Introduction> introduction = {};
-  std::optional<double> own_ns = {};  ///< a query, of the engine's own calls, if it says that
+  std::optional<double> own_ns = {};  ///< per query, in the engine's own calls, if it reports that
   std::vector<FlownScene> flown;
-  double timeout = 0;       ///< seconds of silence that are a failure of another program
+  double timeout = 0;       ///< seconds of silence after which another program has failed
   double start_up = 0;      ///< seconds that another program took to start
   double first_answer = 0;  ///< seconds until its first answer
   std::optional<double> ns_per_query, ns_of_reduction;            ///< on the same drawn flights
-  std::optional<double> processor_ns, processor_ns_of_reduction;  ///< of processors, likewise
+  std::optional<double> processor_ns, processor_ns_of_reduction;  ///< the same in processor time
   std::string speed_of;                                           ///< which flights these were
-  bool misbehaved = false;             ///< another program broke, or did what it should not, at least once
-  bool was_stopped = false;            ///< before all was asked
+  bool misbehaved = false;             ///< another program failed or misbehaved at least once
+  bool was_stopped = false;            ///< before all questions were asked
   bool times = false;                  ///< wrong times count
-  Claim claim = {};                    ///< that it was judged by
+  Claim claim = {};                    ///< by which it was judged
   double ulps = oracle::kDefaultUlps;  ///< the tolerance k
   bool strict = false;                 ///< answers to invalid questions count
 
@@ -47,9 +47,9 @@ struct JudgeReport {
   std::size_t nonsense() const;
   /// Rows in which another program was given up.
   std::size_t rows_given_up() const;
-  /// The largest radii_off of any right obstacle.
+  /// The largest radii_off of all right obstacles.
   std::optional<double> max_radii() const;
-  /// More than one answer in a hundred is missing.
+  /// True if more than one answer in a hundred is missing.
   bool is_broken() const;
 
   /// right, wrong, ill-posed, undecided, broken: the worst that applies (docs/judge.md).

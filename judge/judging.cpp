@@ -24,18 +24,18 @@ using starts::Kind;
 
 namespace {
 
-// How long each part takes at the most, in seconds, and how many flights are drawn.
+// The longest duration of each part, in seconds, and the number of flights that are drawn.
 struct TimePlan {
   double drawn, hard, paths, golden, campaign, speed, simplest;
   std::size_t count;
-  std::optional<std::size_t> questions = {};  // of each row, instead of a time
+  std::optional<std::size_t> questions = {};  // per row, instead of a time
   double seconds() const { return drawn + hard + paths + golden + campaign + speed + simplest; }
-  /// The same in another time.
+  /// The same plan, scaled to another total time.
   TimePlan lasting(double other) const {
     const double k = other / seconds();
     return {k * drawn, k * hard, k * paths, k * golden, k * campaign, k * speed, k * simplest, count};
   }
-  /// So many questions a row, however long they take. Only what measures a speed keeps its time.
+  /// `number` questions per row, however long they take. Only the measurement of speed keeps its time.
   TimePlan asking(std::size_t number) const {
     constexpr double kEver = 1e7;  // seconds
     return {kEver, kEver, kEver, kEver, kEver, speed, kEver, number, number};
@@ -43,7 +43,7 @@ struct TimePlan {
 };
 constexpr TimePlan kWhole{15, 8, 3, 24, 58, 4, 12, 4000}, kQuick{4, 2.5, 1, 3.5, 4.5, 1, 3, 500};
 
-// The catalogue's scenes that are flown in, and their radii; without any at their own size.
+// The scenes of the catalogue that are examined, and their radii; scenes without radii keep their own sizes.
 struct Scenery {
   const char* scene;
   std::vector<const char*> radii;
@@ -92,7 +92,7 @@ class Countdown {
   JudgingClock::time_point end_;
 };
 
-// Parts of one stretch of time: what one leaves over is the others'.
+// Parts of one stretch of time. The others get the time that one leaves.
 class Shares {
  public:
   Shares(double seconds, std::size_t parts) : all_(seconds), parts_(parts) {}
@@ -103,7 +103,7 @@ class Shares {
   std::size_t parts_;
 };
 
-// Flights as they are drawn, a row a scene; then two rows of hard ones in all these scenes that have balls.
+// Drawn flights, one row per scene; then two rows of hard flights in all these scenes that have balls.
 std::vector<NamedPlace> fly_drawn(Examination& examination, const TimePlan& plan, std::uint64_t seed) {
   std::vector<NamedPlace> all;
   Shares shares(plan.drawn, kSceneries.size());
@@ -122,8 +122,8 @@ std::vector<NamedPlace> fly_drawn(Examination& examination, const TimePlan& plan
   return all;
 }
 
-// The committed sets that an engine is asked about: those in binary32 are for engines in binary32 alone, to
-// others the same families are harder in binary64.
+// The committed sets that an engine is asked about. Sets in binary32 are for engines in binary32 only; for
+// other engines the same families are harder in binary64.
 std::vector<std::string> golden_sets_for(NumberFormat precision) {
   std::vector<std::string> files = golden::committed_sets();
   if (precision == NumberFormat::binary64)
@@ -143,7 +143,7 @@ void check_golden_sets(Examination& examination, double seconds) {
   }
 }
 
-// In a thread for each examination, each with scenes of its own.
+// Runs each examination in its own thread, with scenes of its own.
 void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examination>>& others,
                   const fuzz::Scope& scope, std::uint64_t seed, const TimePlan& plan) {
   const auto parts = static_cast<unsigned>(1 + others.size());
@@ -163,7 +163,7 @@ void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examinat
   }
 }
 
-// Who is examined, and on which terms.
+// The engine that is examined, and the terms.
 struct Terms {
   question::EngineInfo engine;
   double ulps;
@@ -174,7 +174,7 @@ struct Terms {
   std::unique_ptr<Examination> examination() const {
     return std::make_unique<Examination>(engine, answerer, ulps, stop, claim);
   }
-  /// That tells nobody what it meets.
+  /// An examination without a listener.
   std::unique_ptr<Examination> silent_examination() const {
     Terms silent = *this;
     silent.answerer.listener = {};
@@ -183,7 +183,7 @@ struct Terms {
 };
 
 void find_simplest(std::vector<Finding>& findings, Examination& examination, double seconds) {
-  examination.limit(seconds);  // also if the questions took longer than they should
+  examination.limit(seconds);  // also if the questions took too long
   Shares shares(seconds, findings.size());
   for (Finding& finding : findings) {
     const Question met = finding.simplest.question;
@@ -191,16 +191,16 @@ void find_simplest(std::vector<Finding>& findings, Examination& examination, dou
     const Question& left = finding.simplest.question;
     finding.was_shrunk = left.place->scene() != met.place->scene() || left.query.x != met.query.x ||
                          left.query.v != met.query.v || left.query.from != met.query.from;
-    // A circumstance that the simpler case is without was none.
+    // A circumstance that the simpler case lacks is not essential.
     if (finding.circumstance && finding.simplest.question.is_query() &&
         !finding.circumstance->holds(features_in(finding.simplest)))
       finding.circumstance.reset();
   }
 }
 
-// Does another program go wrong with a simplest case by itself? Besides its share of the time a new start of
-// it has what the first one took until it answered, several times over; all starts together have that kMost
-// times.
+// Checks whether another program goes wrong on a simplest case by itself. Besides its share of the time, a
+// new start gets kForOne times the first start's time until its answer; all starts together get kMost times
+// that.
 void recheck_all(std::vector<Finding>& findings, const Terms& terms, double seconds, double first_answer) {
   constexpr double kForOne = 4, kMost = 10;
   const Countdown all(seconds + kMost * first_answer);
@@ -212,7 +212,7 @@ void recheck_all(std::vector<Finding>& findings, const Terms& terms, double seco
           std::min(shares.next() + kForOne * first_answer, all.left()));
 }
 
-// The simplest case of each.
+// Finds the simplest case of each finding.
 void simplify(std::vector<Finding>& findings, Examination& examination, const Terms& terms, double seconds,
               double first_answer) {
   if (!terms.engine.runs_apart()) return find_simplest(findings, examination, seconds);
@@ -222,7 +222,7 @@ void simplify(std::vector<Finding>& findings, Examination& examination, const Te
 
 // ---- Speed
 
-// Of the places where the engine answered: the square and cubic lattice at r = 0.1, if these are among them.
+// The square and cubic lattice at r = 0.1, if the engine answered there; else the first place where it did.
 std::vector<const NamedPlace*> places_to_race_in(const std::vector<NamedPlace>& places) {
   std::vector<const NamedPlace*> chosen;
   for (const NamedPlace& place : places)
@@ -235,7 +235,7 @@ std::vector<const NamedPlace*> places_to_race_in(const std::vector<NamedPlace>& 
   return chosen;
 }
 
-// As many of each place as can be afforded.
+// `count` questions of each place.
 std::vector<question::Question> questions_to_race_in(const std::vector<const NamedPlace*>& places,
                                                      std::uint64_t seed, std::size_t count) {
   std::vector<question::Question> all;
@@ -257,7 +257,7 @@ std::size_t affordable(const JudgeReport& report, int rounds, double seconds) {
 
 void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Terms& terms, double seconds) {
   constexpr int kRounds = 5;
-  constexpr double kTooLong = 2;  // times as long as it should take
+  constexpr double kTooLong = 2;  // times the planned duration
   const std::vector<const NamedPlace*> chosen = places_to_race_in(places);
   if (chosen.empty()) return;
   const std::size_t count = affordable(report, kRounds, seconds);
@@ -281,8 +281,8 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
       fmt::format("{} drawn flights in each of {}, in turn with reduction", count, fmt::join(names, "; "));
 }
 
-// Without an order: much more than any answer should take here, and little of the time there is. A program's
-// first answer may take as long as elsewhere.
+// If the order has no timeout, it is much longer than any answer should take here, and a small part of the
+// whole time. A program's first answer may take as long as elsewhere.
 Terms terms_of(const JudgeOrder& order, const TimePlan& plan, const std::atomic<bool>& stop) {
   constexpr double kShortest = 2, kPart = 0.1;
   Terms terms{order.engine, order.ulps, order.claim, {}, stop};
@@ -293,7 +293,7 @@ Terms terms_of(const JudgeOrder& order, const TimePlan& plan, const std::atomic<
   return terms;
 }
 
-// All that it is asked in turn; returns where.
+// Asks everything in turn; returns the places.
 std::vector<NamedPlace> examine(Examination& examination, const Terms& terms, const TimePlan& plan,
                                 unsigned jobs, JudgeReport& report) {
   const Countdown all(plan.seconds());

@@ -1,4 +1,4 @@
-// What makes a question hard: the curves that show where an engine begins to fail.
+// Measures of difficulty, and the curves that show where an engine begins to fail.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@ namespace lorentz::judge {
 enum class Measure {
   call,      ///< by how many radii the line enters or misses the obstacle in question
   distance,  ///< from the start to the centre of the obstacle in question, in its radii
-  flight,    ///< to the obstacle that is hit, in lattice vectors
-  start,     ///< from the origin to the start, in lattice vectors
-  radius     ///< the smallest, in lattice vectors
+  flight,    ///< length of the flight to the obstacle that is hit, in lattice vectors
+  start,     ///< distance from the origin to the start, in lattice vectors
+  radius     ///< smallest radius, in lattice vectors
 };
 inline constexpr int kMeasures = 5;
 
@@ -25,7 +25,7 @@ inline const char* name_of(Measure measure) {
   return kNames[static_cast<int>(measure)];
 }
 
-/// One for each measure.
+/// One curve for each measure.
 using Curves = std::array<report::Calls, kMeasures>;
 
 }  // namespace lorentz::judge

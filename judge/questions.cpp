@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kBlock = 16;  // drawn queries of one place in a row
 
-// Blocks of all places in turn, but of those that the engine does not do.
+// Blocks of all places in turn, except places that the engine does not support.
 class Drawn {
  public:
   Drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count)
@@ -97,9 +97,9 @@ class CampaignQuestions {
   }
 
  private:
-  static constexpr std::size_t kTries = 10'000;  // scenes in a row that the scope leaves out
+  static constexpr std::size_t kTries = 10'000;  // most scenes in a row that the scope may leave out
 
-  // A target, how far it is, and what it took.
+  // A target, its next case, and the time that it has taken.
   struct TargetTrack {
     const cases::Target* target;
     std::uint64_t next = 0;
@@ -119,7 +119,7 @@ class CampaignQuestions {
     track.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
-  // Some cases of a scene of the target's, and the variants of one of them.
+  // Makes the cases of one scene of the target, and the variants of one of them.
   void make(const cases::Target& target, std::uint64_t begin) {
     const cases::Case base = target.make(seed_, begin, claim_.precision);
     if (!scope_.admits(base.scene)) return;
@@ -141,7 +141,7 @@ class CampaignQuestions {
       add(variant.query, variant.exact, begin, ++step);
   }
 
-  static constexpr std::uint64_t kCases = 16;  // of a scene's
+  static constexpr std::uint64_t kCases = 16;  // of one scene
 
   const std::uint64_t seed_;
   const fuzz::Scope scope_;
@@ -152,7 +152,7 @@ class CampaignQuestions {
   std::deque<Question> questions_;
 };
 
-// What std::function holds must be copied.
+// Shares the maker, because std::function must copy what it holds.
 template <class Maker, class... Arguments>
 Source source_of(Arguments&&... arguments) {
   auto maker = std::make_shared<Maker>(std::forward<Arguments>(arguments)...);
@@ -191,7 +191,7 @@ fuzz::Scope scope_of(const std::vector<NamedPlace>& places) {
   }
   if (!in_plane && !in_space) return {};
   fuzz::Scope scope{fitting.front(), 0};
-  // There is no disc alone to be asked about, only a ball.
+  // The places have no single disc, only a single ball.
   if (in_plane != in_space && scope.scenes != Scenes::ball) scope.dimension = in_plane ? 2 : 3;
   return scope;
 }

@@ -1,4 +1,4 @@
-// Does a program answer a question wrong by itself, or by a count, or not again?
+// Checks whether a program answers a question wrong when it is asked alone, after repetitions, or not again.
 #pragma once
 
 #include <functional>
@@ -8,12 +8,12 @@
 
 namespace lorentz::judge {
 
-/// Questions in a row, at the most.
+/// The largest number of questions in a row.
 inline constexpr std::size_t kMostRepetitions = 1000;
 
 /// Asks new starts of the program the finding's simplest question, alone and then kMostRepetitions times in a
-/// row, each for so many seconds at the most, and notes in the finding what came of it. `start` makes an
-/// examination that has asked nothing yet.
+/// row, each for at most `seconds`, and records the result in the finding. `start` makes an examination that
+/// has asked nothing yet.
 void recheck(Finding& finding, const std::function<std::unique_ptr<Examination>()>& start, double seconds);
 
 }  // namespace lorentz::judge

@@ -15,7 +15,7 @@ bool is_alike(const Example& a, const Example& b, const std::optional<double>& b
          a.given.outcome == b.given.outcome && a.question.exact.outcome == b.question.exact.outcome;
 }
 
-// Does a case go wrong like the example?
+// Tests whether a case goes wrong like the example.
 class SameWay {
  public:
   SameWay(const Finding& finding, Examination& examination)
@@ -49,7 +49,7 @@ class SameWay {
 
 }  // namespace
 
-// A program that gives no answer is not asked thousands of times: it would be given up.
+// A program that gives no answer is not asked thousands of times, because it would be given up.
 Example simplest(const Finding& finding, Examination& examination, double seconds) {
   using Clock = std::chrono::steady_clock;
   const Example& example = finding.simplest;

@@ -32,7 +32,7 @@ std::size_t answers(const question::Tally& t) {
   return t.agree + t.ill_posed + t.wrong;
 }
 
-// All shares are of these.
+// The answers to which all shares refer.
 std::size_t judged_of(const question::Tally& t) {
   return t.queries - t.unsupported;
 }
@@ -49,7 +49,7 @@ std::optional<double> largest_radii(const std::vector<ExaminedRow>& rows, bool h
   return largest;
 }
 
-// Of all the rows that are hard, or of the others.
+// The sum over the hard rows, or over the others.
 question::Tally sum_of(const std::vector<ExaminedRow>& rows, bool hard) {
   question::Tally sum;
   for (const ExaminedRow& row : rows)
@@ -90,8 +90,8 @@ std::string paths_text(const std::vector<FlownScene>& flown) {
   return fault.empty() ? "" : "; " + fault;
 }
 
-// "; 314016 ns a query (298000 of processors), 1104 times lorentz's own engine". Where both have been spent by
-// processors the two are compared in that: the wall's time is also that of other programs.
+// "; 314016 ns a query (298000 of processors), 1104 times lorentz's own engine". The two are compared in
+// processor time if it is known for both, because wall-clock time includes other programs.
 std::string speed_text(const JudgeReport& report) {
   if (!report.ns_per_query) return "";
   std::string text = fmt::format("; {} ns a query", two_digits(*report.ns_per_query));
@@ -124,7 +124,7 @@ const Finding* first_that(const JudgeReport& report, const Holds& holds) {
   return place == report.findings.end() ? nullptr : &*place;
 }
 
-// The kinds of fault that condemn, and the first of them: the worst, of these the most frequent.
+// The kinds of fault that condemn the engine, and the first of them: the most frequent of the worst.
 std::string faults_text(const JudgeReport& report) {
   const auto kinds = std::count_if(report.findings.begin(), report.findings.end(),
                                    [&](const Finding& finding) { return condemns(finding, report); });
@@ -151,7 +151,7 @@ std::string heading(const JudgeReport& report) {
   return fmt::format("right: no wrong answer in {}", answers(total));
 }
 
-// What it was asked and did not answer, and what it was not asked; nothing if there is nothing.
+// The number of missing answers, and of rows in which it was given up; empty if there are none.
 std::string missing_text(const JudgeReport& report) {
   const question::Tally total = report.total();
   std::string text;
@@ -221,7 +221,8 @@ std::string how_bad_text(const JudgeReport& report) {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-// The first that condemns, else what rounding does not excuse; null if there is nothing of that.
+// The first finding that condemns the engine, else the first that rounding does not excuse; null if there is
+// neither.
 const Finding* worst_of(const JudgeReport& report) {
   const Finding* worst = first_that(report, [&](const Finding& f) { return condemns(f, report); });
   return worst ? worst

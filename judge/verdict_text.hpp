@@ -1,4 +1,4 @@
-// Numbers as the verdict has them.
+// Texts and numbers in the form that the verdict prints.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,10 @@ namespace lorentz::judge {
 
 struct JudgeReport;
 
-/// "Ball 1.2", if the engine says its name.
+/// "Ball 1.2", if the engine reports its name.
 std::optional<std::string> library_text(const JudgeReport& report);
 
-/// Two digits, or all before the point.
+/// A number with two digits, or with all digits before the point.
 std::string two_digits(double a);
 
 }  // namespace lorentz::judge

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRounding = 1e-9;
 
-// Lattice vectors of one length, one of each pair +-u, from short combinations of a short basis.
+// Lattice vectors of the wanted length, one of each pair +-u, from short combinations of a short basis.
 std::vector<Vec> vectors_of_length(const std::array<Vec, 3>& u, double wanted) {
   std::vector<Vec> found;
   for (int i = -2; i <= 2; ++i)
@@ -28,7 +28,8 @@ bool are_square(const Vec& a, const Vec& b) {
   return std::fabs(dot(a, b)) < kRounding * dot(a, a);
 }
 
-// The first along the axis that it is nearest to, and so on, all of them upwards: a cube as one draws it.
+// Sorts the vectors by their nearest axes, all pointing in the positive direction: the usual way to draw a
+// cube.
 std::array<Vec, 3> upright(std::array<Vec, 3> cube) {
   for (int i = 0; i < 3; ++i) {
     for (int k = i + 1; k < 3; ++k)

@@ -83,12 +83,12 @@ void FindingCase::compare_answers(const std::optional<ObstacleId>& decisive) {
   if (exact.outcome == Outcome::inside && approach.start_gap < 0) return about_start(passed, approach);
   if (given->outcome == Outcome::hit && given_names) {
     about_order(passed, given->obstacle);
-    if (distance < std::fabs(approach.gap)) return;  // a matter of order more than of meeting it
+    if (distance < std::fabs(approach.gap)) return;  // the order matters more than whether it is met
   }
   about_line(passed, approach);
 }
 
-// Is it the obstacle that is named that makes the answer wrong?
+// True if the obstacle that the answer names makes it wrong.
 bool FindingCase::compare_named() {
   const Approach approach = margins.approach(query, given->obstacle);
   const bool is_hit = given->outcome == Outcome::hit;
@@ -109,7 +109,7 @@ bool FindingCase::compare_named() {
 void FindingCase::take_hardest_decision() {
   const auto decision = margins.hardest_decision(query, exact);
   if (!decision) return;
-  if (decision->margin >= oracle::kLargestMargin) {  // none is hard
+  if (decision->margin >= oracle::kLargestMargin) {  // no decision is hard
     const Approach approach = margins.approach(query, exact.obstacle);
     return exact.outcome == Outcome::inside ? about_start(exact.obstacle, approach)
                                             : about_line(exact.obstacle, approach);

@@ -1,4 +1,4 @@
-// What a drawing of a finding is about: which obstacle is in question, and by how much. Private to
+// The subject of a finding's drawing: which obstacle is in question, and by how much. Private to
 // finding_*.cpp.
 #pragma once
 
@@ -19,11 +19,11 @@ enum class Issue {
   time    ///< where is `obstacle` entered?
 };
 
-/// One question with its exact answer and perhaps another one.
+/// One question with its exact answer, and possibly a given one.
 class FindingCase {
  public:
-  /// `given` may be null; `decisive` is the obstacle that it is judged by, if that is known. All of it lives
-  /// as long as this. Lengths, and times, are in units of 2^exponent.
+  /// `given` may be null. `decisive` is the obstacle by which it is judged, if known. The arguments must
+  /// outlive this object. Lengths and times are in units of 2^exponent.
   FindingCase(const Scene& scene, const Query& query, const Answer* given, const Answer& exact,
               const std::optional<ObstacleId>& decisive = {}, int exponent = 0);
 
@@ -39,17 +39,18 @@ class FindingCase {
   Issue issue = Issue::none;
   ObstacleId obstacle;
   std::optional<ObstacleId> second;
-  /// In radii of `obstacle`, in the coordinates in which it is a ball: the distance of the line (line) or of
-  /// x (start) from its surface, below 0 inside; the way along the flight from its entry to that of `second`
-  /// (order), or to where the flight is at the time given (time).
+  /// In radii of `obstacle`, in the coordinates in which it is a ball. For Issue::line the distance of the
+  /// line from its surface, for Issue::start that of x, both below 0 inside. Else the way along the flight
+  /// from its entry to the entry of `second` (Issue::order), or to the place at the given time (Issue::time).
   double distance = 0;
   std::string words;   ///< the same in a sentence
-  std::string margin;  ///< how hard the decision is, if that is why it is shown
+  std::string margin;  ///< how hard the decision is, if it is shown for that reason
 
-  /// Where an answer lets the flight end; nothing if it does not, or nobody knows where.
+  /// The place where the flight ends according to an answer; nothing if it does not end, or the place is
+  /// unknown.
   std::optional<oracle::PlaceOnLine> end_of(const Answer& answer) const;
 
-  /// The answer names an obstacle of the scene.
+  /// True if the answer names an obstacle of the scene.
   bool names_obstacle(const Answer& answer) const;
 
   const Atom& atom_of(const ObstacleId& id) const { return scene.lattices[id.lattice].atoms[id.atom]; }
@@ -57,7 +58,7 @@ class FindingCase {
   /// A way along the flight in radii of the obstacle in question.
   double in_radii(double way) const;
 
-  /// "cell (2, -1)", with atom and lattice where there are several.
+  /// "cell (2, -1)", with atom and lattice if there are several.
   std::string name_of(const ObstacleId& id) const;
 
  private:
@@ -79,7 +80,7 @@ inline Vec mapped(const std::array<Vec, 3>& rows, const Vec& a) {
   return coordinates(rows, a);
 }
 
-/// a / |a|, whatever the size; of 0 the first axis.
+/// a / |a|, for any size; the first axis for 0.
 Vec unit(const Vec& a);
 
 }  // namespace lorentz::pictures

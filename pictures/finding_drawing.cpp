@@ -15,9 +15,9 @@ namespace {
 constexpr double kWidth = 640, kHeight = 410;
 constexpr Panel kFlightPanel{12, 80, 616, 164}, kWholePanel{12, 80, 616, 314},
     kInsetPanel{316, 266, 312, 134}, kSidePanel{196, 284, 112, 116};
-constexpr double kLine = 15, kHeadEnds = 85;  // the next line's foot would be there
+constexpr double kLine = 15, kHeadEnds = 85;  // baseline of the line after the head
 
-// Of an answer as it was given, in whatever unit.
+// Words for an answer, in the unit in which it was given.
 std::string words_of(const FindingCase& finding, const Answer& answer) {
   const std::string name =
       finding.names_obstacle(answer) ? finding.name_of(answer.obstacle) : "an obstacle that there is not";
@@ -38,7 +38,7 @@ std::string words_of(const FindingCase& finding, const Answer& answer) {
   return "";
 }
 
-// At blanks, into lines of at most so many letters.
+// Splits a text at blanks into lines of at most `most` letters.
 std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
   std::vector<std::string> lines;
   std::string line;
@@ -56,7 +56,7 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t most) {
   return lines;
 }
 
-// Two digits of it.
+// A number with two digits.
 std::string in_short(double a) {
   const std::string text = fmt::format("{:.2g}", a);
   return a >= 10 && a < 1e5 ? fmt::format("{:g}", std::strtod(text.c_str(), nullptr)) : text;
@@ -64,7 +64,7 @@ std::string in_short(double a) {
 
 class Sheet {
  public:
-  /// The answers as they were given; `finding` has them in its own unit.
+  /// `given` and `exact` are in the original unit; `finding` has them in its own.
   Sheet(const FindingCase& finding, const Answer* given, const Answer& exact)
       : case_(finding), given_(given), exact_(exact) {}
   std::string draw();
@@ -82,7 +82,7 @@ class Sheet {
   Svg svg_;
 };
 
-// Lines of text, with the line that stands for the answer in the picture. Cells may have very large numbers.
+// Adds an answer's text, and a sample of its line in the picture. Cells may have very large numbers.
 void Sheet::add_answer(double& y, const char* who, const Answer& answer, Ink ink, const std::string& style) {
   constexpr std::size_t kLetters = 86, kMost = 5 * kLetters;
   const std::string words = fmt::format("{}: {}", who, words_of(case_, answer));
@@ -102,7 +102,7 @@ void Sheet::add_text(double& y, const std::string& text, std::size_t letters, co
   }
 }
 
-// What stands below the flight.
+// Adds the parts below the flight.
 void Sheet::add_details(const FlightPanel& flight) {
   const Axes axes = axes_of(case_);
   const bool in_space = case_.scene.dimension == 3;
@@ -114,7 +114,7 @@ void Sheet::add_details(const FlightPanel& flight) {
   add_inset(flight, axes);
 }
 
-// The inset, and a square around what it shows.
+// Adds the inset, and a square around the part that it shows.
 void Sheet::add_inset(const FlightPanel& flight, const Axes& axes) {
   if (flight.at) {
     const Point at = *flight.at;
@@ -145,7 +145,7 @@ std::string Sheet::draw() {
   add_answer(y, "exact", exact_, kExactInk, outline(kExactInk, 2.6));
   if (given_) add_answer(y += 3, "given", *given_, kGivenInk, outline(kGivenInk, 1.8) + kGivenDashes);
   add_text(y += 5, shortened(case_.words, 400), 82, " font-weight=\"bold\" font-size=\"12\"");
-  const double lower = std::max(y - kHeadEnds, 0.0);  // than where there is little to say
+  const double lower = std::max(y - kHeadEnds, 0.0);  // how much lower than with a short text
   svg_.raw(fmt::format("<g transform=\"translate(0,{:.0f})\">\n", lower));
   const bool has_inset = case_.issue != Issue::none;
   const FlightPanel flight = draw_flight(svg_, case_, has_inset ? kFlightPanel : kWholePanel);

@@ -1,5 +1,5 @@
-// A picture of one answer beside the exact one: the flight, the obstacle in question, and an inset that is
-// magnified until one sees by how much it is met or missed.
+// A picture of one answer beside the exact one: the flight, the obstacle in question, and an inset with
+// enough magnification to show by how much it is met or missed.
 #pragma once
 
 #include <optional>
@@ -11,19 +11,19 @@
 
 namespace lorentz::pictures {
 
-/// An <svg> to be put into a page: no scripts, no ids, nothing from elsewhere; numbers show under the mouse.
-/// A page may set the colours --exact, --given, --ink, --faint and --paper. In space it shows the plane that
-/// holds the flight and the centre of the obstacle in question, and a view along the flight. A flight of many
-/// cells is broken, its ends are to scale.
+/// An <svg> for a page: no scripts, no ids, no external resources; numbers appear under the mouse. A page may
+/// set the colours --exact, --given, --ink, --faint and --paper. In 3D it shows the plane of the flight and
+/// the centre of the obstacle in question, and a view along the flight. A flight of many cells is broken; its
+/// ends are to scale.
 ///
-/// Distances in the inset are exact ones, rounded to 52 bits: 1e-15 of a radius is drawn as well as a tenth.
-/// `exact` is the oracle's answer: hit, inside or never. Empty if scene, query or `exact` is none to be drawn
-/// (flaw_of). `given` may be anything. `decisive`: the obstacle that it is judged by (Judgement::obstacle),
-/// and that is shown therefore; the exact one if it is not known.
+/// Distances in the inset are exact, rounded to 52 bits: 1e-15 of a radius is drawn as well as a tenth.
+/// `exact` is the oracle's answer: hit, inside or never. The text is empty if scene, query or `exact` cannot
+/// be drawn (flaw_of). `given` may be anything. `decisive` is the obstacle by which it is judged
+/// (Judgement::obstacle), which is therefore shown; the exact one if that is not known.
 std::string finding_drawing(const Scene& scene, const Query& query, const Answer& given, const Answer& exact,
                             const std::optional<ObstacleId>& decisive = {});
 
-/// The same of the exact answer alone, with the decision that it rests on with the smallest margin.
+/// The same for the exact answer alone, with its decision of smallest margin.
 std::string finding_drawing(const Scene& scene, const Query& query, const Answer& exact);
 
 }  // namespace lorentz::pictures

@@ -1,5 +1,5 @@
-// The panel of the flight: where it starts, where it ends by each answer, and what stands beside it. A long
-// flight is broken; its stretches have one scale.
+// The panel of the flight: its start, its end according to each answer, and the obstacles beside it. A long
+// flight is broken; all stretches have the same scale.
 #include <algorithm>
 #include <cmath>
 
@@ -11,14 +11,14 @@ namespace {
 
 using oracle::PlaceOnLine;
 
-constexpr double kWhole = 20;                 // cells: a flight of so many is not broken
+constexpr double kWhole = 20;                 // cells: a flight up to this length is not broken
 constexpr double kTogether = 5;               // cells: places nearer than this share a stretch
-constexpr double kBreak = 46;                 // pixels of a zigzag
-constexpr std::size_t kMostLookedAt = 1000;   // obstacles of an atom beside a piece of the line
+constexpr double kBreak = 46;                 // pixels: width of a zigzag
+constexpr std::size_t kMostLookedAt = 1000;   // obstacles of an atom beside a part of the line
 constexpr std::size_t kMostNeighbours = 400;  // drawn in a stretch
 constexpr double kSmallest = 2;               // pixels: radius of an obstacle
 
-// A part of the line, in lengths from its anchor, and on paper.
+// A part of the line, by distances from its anchor, and on paper.
 struct LineStretch {
   PlaceOnLine anchor;
   double low = 0, high = 0, left = 0;
@@ -65,7 +65,7 @@ class FlightDrawing {
   bool enlarged_ = false, incomplete_ = false, leaves_ = false;
 };
 
-// In order along the line.
+// The places, in order along the line.
 std::vector<PlaceOnLine> FlightDrawing::places() const {
   std::vector<PlaceOnLine> places{PlaceOnLine::start()};
   for (const Answer* answer : {&case_.exact, case_.given})
@@ -78,7 +78,7 @@ std::vector<PlaceOnLine> FlightDrawing::places() const {
   return places;
 }
 
-// Places that stand together share a stretch, or all do if the flight is short.
+// Places that are close together share a stretch; in a short flight all do.
 void FlightDrawing::lay_out() {
   const std::vector<PlaceOnLine> all = places();
   const bool whole = way(all.front(), all.back()) <= kWhole * cell_;
@@ -93,7 +93,8 @@ void FlightDrawing::lay_out() {
   widen();
 }
 
-// As large as the panel allows: not so large that less than a cell and a half is seen across the flight.
+// Makes the scale as large as the panel allows, but keeps at least a cell and a half visible across the
+// flight.
 void FlightDrawing::widen() {
   const double n = static_cast<double>(stretches_.size());
   const double room = panel_.width - kBreak * (n - 1);
@@ -119,7 +120,7 @@ std::optional<Point> FlightDrawing::on_line(const PlaceOnLine& place) const {
   return std::nullopt;
 }
 
-// An ellipse about a point, in lengths from it; a dot if the obstacle is too small to be seen.
+// Adds an ellipse about a point, in the unit of length; a dot if the obstacle is too small to be seen.
 void FlightDrawing::add_ellipse(Point at, const ShapeSection& ellipse, const std::string& style,
                                 const std::string& hint, bool is_dot) {
   const double size = result_.scale;
@@ -132,8 +133,8 @@ void FlightDrawing::add_ellipse(Point at, const ShapeSection& ellipse, const std
                {on_paper(shape.rx), on_paper(shape.ry), shape.angle}, style, hint);
 }
 
-// The obstacles beside the flight, faint: looked for in balls along it, each of which takes those beside its
-// own piece of the line. What begins before a stretch reaches into it.
+// Adds the obstacles beside the flight, faint. They are searched in balls along it; each ball takes those
+// beside its own part of the line. Obstacles that begin before a stretch may reach into it.
 void FlightDrawing::add_neighbours(const LineStretch& stretch) {
   const double margin = std::min(largest_radius(), cell_);
   const double half_height = panel_.height / 2 / result_.scale + margin;
@@ -160,7 +161,8 @@ void FlightDrawing::add_neighbours(const LineStretch& stretch) {
   svg_.close();
 }
 
-// In space only if the plane of the drawing cuts it, or as a shadow if it is near that. Whether it was drawn.
+// In 3D an obstacle is drawn only if the plane of the drawing cuts it, or as a shadow if it is near the
+// plane. True if it was drawn.
 bool FlightDrawing::add_neighbour(const LineStretch& stretch, const ObstacleId& id, const Vec& centre) {
   const Point at = on_paper_of(stretch, centre);
   const Atom& atom = case_.atom_of(id);
@@ -194,7 +196,7 @@ double FlightDrawing::largest_radius() const {
   return largest;
 }
 
-// One that an answer names, or that is in question.
+// Adds an obstacle that an answer names, or that is in question.
 void FlightDrawing::add_obstacle(const LineStretch& stretch, const ObstacleId& id, const Vec& centre) {
   const Point at = on_paper_of(stretch, centre);
   if (!(std::fabs(at.x) < 1e4 && std::fabs(at.y) < 1e4)) return;
@@ -239,7 +241,7 @@ void FlightDrawing::add_stretch(const LineStretch& stretch) {
   close_clip(svg_);
 }
 
-// A zigzag between stretches, with the number of cells left out.
+// Adds a zigzag between stretches, with the number of cells left out.
 void FlightDrawing::add_breaks() {
   for (std::size_t i = 1; i < stretches_.size(); ++i) {
     const LineStretch &before = stretches_[i - 1], &after = stretches_[i];
@@ -259,7 +261,7 @@ void FlightDrawing::add_breaks() {
   }
 }
 
-// The axes of the scene, as the drawing turns them.
+// Adds the axes of the scene, as they are turned in the drawing.
 void FlightDrawing::add_compass() {
   constexpr double kArm = 16;
   const Point middle{panel_.left + 22, panel_.top + 20};
@@ -267,7 +269,7 @@ void FlightDrawing::add_compass() {
   svg_.ellipse(middle, {20, 20, 0}, paint(kPaper) + " fill-opacity=\"0.8\"");
   for (int k = 0; k < case_.scene.dimension; ++k) {
     const double x = axes_.along[k], y = axes_.across[k];
-    if (std::hypot(x, y) < 0.25) continue;  // it points at the reader
+    if (std::hypot(x, y) < 0.25) continue;  // it points towards the reader
     svg_.arrow(middle, {middle.x + kArm * x, middle.y - kArm * y}, 5, "currentColor", 1);
     svg_.text({middle.x + 1.5 * kArm * x - 3, middle.y - 1.5 * kArm * y + 3}, std::string(1, "xyz"[k]),
               paint(kInk) + " font-size=\"10\"");

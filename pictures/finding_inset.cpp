@@ -1,9 +1,9 @@
-// The inset: magnified around the place where a decision falls, until the distance that it is about takes a
-// good part of it. In the coordinates in which the obstacle in question is a ball of radius 1; there the
-// flight is a line still, from left to right, and the plane of the inset holds it and the centre.
+// The inset magnifies the place of a decision until the decisive distance takes a large part of it. It uses
+// the coordinates in which the obstacle in question is a ball of radius 1. There the flight is still a line,
+// from left to right, and the plane of the inset contains it and the centre.
 //
-// Nothing is placed by differences of large numbers: the distance is known (FindingCase), a surface is drawn
-// from a point of it, as the curve |y0 + B w| = 1 with w the place relative to that point.
+// No place is a difference of large numbers: the distance is known (FindingCase), and a surface is drawn from
+// one of its points, as the curve |y0 + B w| = 1 with w the place relative to that point.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,18 +15,18 @@ namespace {
 
 using oracle::PlaceOnLine;
 
-constexpr double kShare = 0.36;   // of the inset that the distance takes
-constexpr double kNatural = 45;   // pixels per radius where there is no distance to be shown
-constexpr double kBeyond = 4000;  // pixels: outside of any inset
+constexpr double kShare = 0.36;   // part of the inset that the distance takes
+constexpr double kNatural = 45;   // pixels per radius if there is no distance to show
+constexpr double kBeyond = 4000;  // pixels: outside any inset
 
 // The surface of an obstacle in the plane of the inset, seen from a point of it.
 struct InsetSurface {
-  Vec right{}, up{};  // images of the inset's axes in the coordinates in which it is the unit ball
-  Vec y0{};           // the point, there: of length 1
+  Vec right{}, up{};  // images of the inset's axes in the coordinates in which the obstacle is the unit ball
+  Vec y0{};           // the point in these coordinates, of length 1
 };
 
-// The curve around the point in pixels, x to the right and y up: |y0 + (x right + y up) / scale| = 1, as seen
-// along its tangent. Where it is nearly straight, the part within kBeyond.
+// The curve around the point in pixels, x to the right and y up: |y0 + (x right + y up) / scale| = 1, with
+// its tangent as parameter. If it is nearly straight, only the part within kBeyond.
 std::vector<Point> curve_of(const InsetSurface& surface, double scale) {
   Point normal{dot(surface.right, surface.y0), dot(surface.up, surface.y0)};  // outwards
   const double size = std::hypot(normal.x, normal.y);
@@ -38,7 +38,7 @@ std::vector<Point> curve_of(const InsetSurface& surface, double scale) {
   // At u tangent - h normal: h^2 a - 2 h b + c = 0, b = p u + q, c = r u^2; the near side is the smaller
   // root.
   const double a = dot(n, n) / scale, p = dot(t, n) / scale, q = dot(n, surface.y0), r = dot(t, t) / scale;
-  // Both roots are one where (p^2 - a r) u^2 + 2 p q u + q^2 = 0: as far as the surface is seen along n.
+  // The roots coincide at (p^2 - a r) u^2 + 2 p q u + q^2 = 0, the end of the surface as seen along n.
   const double rest = std::sqrt(std::max(0.0, a * r)), ahead = q / (rest - p), behind = q / (rest + p);
   std::vector<Point> near, far;
   constexpr int kSteps = 100;
@@ -79,7 +79,7 @@ class Inset {
   const FindingCase& case_;
   const Panel panel_;
   const std::array<Vec, 3> to_ball_;
-  Vec right_{}, up_{};  // of the inset, of length 1, in the coordinates of the ball
+  Vec right_{}, up_{};  // axes of the inset, of length 1, in the coordinates of the ball
   double side_ = 1;     // -1: the centre is on the lower side
   double scale_ = 1;    // pixels per radius
   Point origin_{};
@@ -106,7 +106,8 @@ void Inset::set_axes(const Axes& axes) {
   }
 }
 
-// So many pixels for a radius that the distance is well seen; of a distance of some radii, fewer.
+// Sets the pixels per radius so that the distance is well visible; for a distance of several radii they are
+// fewer.
 void Inset::set_scale() {
   const double size = std::fabs(case_.distance);
   const bool across = case_.issue == Issue::line || case_.issue == Issue::start;
@@ -115,7 +116,7 @@ void Inset::set_scale() {
   origin_ = {panel_.left + panel_.width / 2, panel_.middle()};
 }
 
-// Does the flight of this answer pass the line's nearest point to the obstacle, or end there?
+// True if the flight of this answer passes the line's nearest point to the obstacle, or ends there.
 bool Inset::reaches(const Answer& answer) const {
   if (answer.outcome == Outcome::never) return true;
   const auto end = case_.end_of(answer);
@@ -133,14 +134,14 @@ void Inset::add_surface(const ObstacleId& id, const InsetSurface& surface, doubl
   svg_.close();
 }
 
-// A part of the flight, in pixels from the origin; what is beyond the inset is cut.
+// Adds a part of the flight, in pixels from the origin, cut at the inset's edges.
 void Inset::add_way(double from, double to, Ink ink, double width, const char* more) {
   from = std::max(from, -panel_.width);
   to = std::min(to, panel_.width);
   if (from < to) svg_.polyline({paper(from, 0), paper(to, 0)}, outline(ink, width) + more);
 }
 
-// What is measured: a line between two points, with its length in radii.
+// Adds the measured distance: a line between two points, with its length in radii.
 void Inset::add_distance(Point from, Point to, Point label, const char* anchor) {
   svg_.polyline({from, to}, outline(kInk, 1.2));
   for (const Point& end : {from, to}) svg_.ellipse(end, {2.2, 2.2, 0}, paint(kInk));
@@ -154,7 +155,7 @@ void Inset::add_distance(Point from, Point to, Point label, const char* anchor) 
                 '"');
 }
 
-// The line, and the surface where it is nearest to it: above the line if it is missed.
+// Draws the line, and the surface where it is nearest to the line: above the line if the obstacle is missed.
 void Inset::draw_line() {
   const double gap = case_.distance * scale_;
   origin_.y += side_ * gap / 2;
@@ -173,11 +174,12 @@ void Inset::draw_line() {
     svg_.text({panel_.left + 8, paper(0, 0).y - 5},
               fmt::format("the line, {:.3g} radii after it enters", half_chord / scale_),
               paint(kInk) + " font-size=\"10\"");
-  const double beside = gap == 0 ? side_ * 14 : 0;  // of the line and the surface, which are one there
+  const double beside = gap == 0 ? side_ * 14 : 0;  // away from the line and the surface, which coincide
+                                                    // there
   add_distance(paper(0, 0), paper(0, gap), {paper(8, 0).x, paper(0, gap / 2).y + 4 + beside}, "start");
 }
 
-// x, and the surface where it is nearest to it.
+// Draws x, and the surface where it is nearest to x.
 void Inset::draw_start() {
   const Vec centre =
       mapped(to_ball_, case_.surroundings.centre(case_.query, PlaceOnLine::start(), case_.obstacle));
@@ -195,7 +197,7 @@ void Inset::draw_start() {
   svg_.ellipse(x, {4, 4, 0}, paint(kPaper, kInk, 1.5), "the start");
 }
 
-// Where the obstacle is entered, and where another is, or where the time given is.
+// Draws the entry into the obstacle, and the entry into another one or the place at the given time.
 void Inset::draw_entries() {
   const double way = case_.distance * scale_;
   origin_.x -= way / 2;
@@ -220,7 +222,7 @@ void Inset::draw_entries() {
   add_distance(a, b, {(a.x + b.x) / 2, a.y - 9}, "middle");
 }
 
-// 1, 2 or 5 times a power of ten.
+// The bar's length is 1, 2 or 5 times a power of ten.
 void Inset::add_scale_bar() {
   const double most = 90 / scale_, power = std::pow(10, std::floor(std::log10(most)));
   const double bar = (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1) * power;

@@ -1,4 +1,4 @@
-// From where a case is looked at, and which obstacles stand out.
+// The viewpoint of a case, and the obstacles that stand out.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@ Axes axes_of(const FindingCase& finding) {
   const Vec& along = finding.along;
   Vec across{-along[1], along[0], 0};
   if (finding.scene.dimension == 3) {
-    // Any at right angles, unless there is an obstacle to choose it by.
+    // Any direction at right angles, unless an obstacle determines it.
     const int smallest =
         static_cast<int>(std::min_element(along.begin(), along.end(),
                                           [](double a, double b) { return std::fabs(a) < std::fabs(b); }) -

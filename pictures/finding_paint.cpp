@@ -1,4 +1,4 @@
-// Colours that a page may set, and what cuts and frames.
+// Colours that a page may set, clips and frames.
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +30,7 @@ std::string outline(Ink stroke, double width) {
                      stroke_of(stroke));
 }
 
-// A picture within the picture cuts what is beyond it, and needs no id.
+// A nested <svg> cuts off everything beyond it, and needs no id.
 void open_clip(Svg& svg, const Panel& panel) {
   svg.raw(
       fmt::format("<svg x=\"{0:.2f}\" y=\"{1:.2f}\" width=\"{2:.2f}\" height=\"{3:.2f}\" "

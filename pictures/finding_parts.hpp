@@ -15,16 +15,16 @@ struct Ink {
   const char *variable, *otherwise;
 };
 
-// Told apart by the colour-blind: after Okabe and Ito.
+// Colours of Okabe and Ito, which colour-blind people can tell apart.
 inline constexpr Ink kExactInk{"--exact", "#0072b2"}, kGivenInk{"--given", "#d55e00"},
     kInk{"--ink", "#222222"}, kFaintInk{"--faint", "#8c8c8c"}, kPaper{"--paper", "#ffffff"};
 inline constexpr const char* kGivenDashes = " stroke-dasharray=\"7 5\"";
 
-/// Attributes: what is filled and stroked with which ink. As a property for browsers, and for programs that
-/// know no variables as a plain attribute.
+/// Attributes that fill and stroke with these inks: as a property for browsers, and as a plain attribute for
+/// programs that do not know variables.
 std::string paint(Ink fill);
 std::string paint(Ink fill, Ink stroke, double width);
-std::string outline(Ink stroke, double width);  ///< fills nothing, and does not say so
+std::string outline(Ink stroke, double width);  ///< sets no fill attribute, not even "none"
 
 struct Panel {
   double left, top, width, height;
@@ -34,7 +34,7 @@ struct Panel {
   double middle() const { return top + height / 2; }
 };
 
-/// What is drawn until close_clip() is seen in the panel only.
+/// Everything drawn until close_clip() is visible only inside the panel.
 void open_clip(Svg& svg, const Panel& panel);
 void close_clip(Svg& svg);
 void frame(Svg& svg, const Panel& panel, const std::string& style);
@@ -42,51 +42,51 @@ void frame(Svg& svg, const Panel& panel, const std::string& style);
 /// The following shapes until close() have this text under the mouse.
 void open_hint(Svg& svg, const std::string& words);
 
-/// Within reach of any picture: no infinity, no nonsense.
+/// Limits a coordinate to the range of any picture; no infinity or NaN.
 double on_paper(double pixels);
 
-/// The flight from left to right, the obstacle in question (in space) above it.
+/// The flight goes from left to right; in 3D the obstacle in question is above it.
 struct Axes {
   Vec along, across, depth;
 };
 Axes axes_of(const FindingCase& finding);
 
-/// What an obstacle looks like from afar, in lengths; angles towards +up.
+/// The outline of an obstacle seen from afar, in the unit of length; angles towards +up.
 EllipseShape shadow_of(const Atom& atom, int dimension, const Vec& right, const Vec& up);
 
-/// What a plane cuts out of an obstacle: seen from the foot of its centre there.
+/// The section of an obstacle by a plane, relative to the foot of its centre there.
 struct ShapeSection {
   Point centre;
   EllipseShape shape;
 };
 
-/// The plane of `along` and `across`, which the centre stands `depth` in front of, in space; nothing if it
-/// misses the obstacle.
+/// The section by the plane of `along` and `across`, in 3D, with the centre `depth` in front of it; nothing
+/// if the plane misses the obstacle.
 std::optional<ShapeSection> section_of(const Atom& atom, const Axes& axes, double depth);
 
-/// The ink of an obstacle: exact, given, or in question for another reason; nothing for its neighbours.
+/// The ink of an obstacle that is exact, given, or in question for another reason; nothing for neighbours.
 std::optional<Ink> ink_of(const FindingCase& finding, const ObstacleId& id);
 
 /// The obstacles that have an ink, each once.
 std::vector<ObstacleId> marked_obstacles(const FindingCase& finding);
 
-/// The same decision, place and distances in words, for the mouse.
+/// The same decision, place and distances in words, shown under the mouse.
 std::string hint_of(const FindingCase& finding, const ObstacleId& id);
 
-/// The exponent of the unit of length in which a scene is of ordinary size; mostly 0.
+/// The exponent of the unit of length in which a scene has ordinary size; 0 in most cases.
 int length_exponent(const Scene& scene);
 
-/// Divides all lengths by 2^exponent; false if that cannot be done without a rounding.
+/// Divides all lengths by 2^exponent; false if that is not possible without rounding.
 bool scale_lengths(int exponent, Scene& scene, Query& query);
 
-/// What the panel of the flight leaves to be said and pointed at.
+/// Notes and positions that the panel of the flight passes on.
 struct FlightPanel {
   std::vector<std::string> notes;
-  std::optional<Point> at;  ///< where the inset looks
+  std::optional<Point> at;  ///< the place that the inset shows
   double scale = 0;         ///< pixels per unit of length
 };
 
-/// The place that the inset is about.
+/// The place that the inset shows.
 oracle::PlaceOnLine place_in_question(const FindingCase& finding);
 
 FlightPanel draw_flight(Svg& svg, const FindingCase& finding, const Panel& panel);
@@ -94,7 +94,7 @@ FlightPanel draw_flight(Svg& svg, const FindingCase& finding, const Panel& panel
 /// Returns the pixels per radius of the obstacle in question, along the flight.
 double draw_inset(Svg& svg, const FindingCase& finding, const Axes& axes, const Panel& panel);
 
-/// Along the flight: how the obstacles stand beside it.
+/// The view along the flight, with the obstacles beside it.
 void draw_side_view(Svg& svg, const FindingCase& finding, const Axes& axes, const Panel& panel);
 
 }  // namespace lorentz::pictures

@@ -1,4 +1,4 @@
-// Obstacles as ellipses: cut by a plane, or as their shadows.
+// Obstacles as ellipses: sections by a plane, or shadows.
 #include <cmath>
 
 #include "pictures/drawing_parts.hpp"

@@ -1,4 +1,4 @@
-// Along the flight, which is a point then: the obstacles around it, as shadows.
+// The view along the flight, which appears as a point, with the shadows of the obstacles around it.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@ namespace {
 
 struct SeenFromAside {
   ObstacleId obstacle;
-  double x, y;  // of its centre, in lengths
+  double x, y;  // of its centre, in the unit of length
   EllipseShape shape;
 };
 

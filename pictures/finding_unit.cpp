@@ -1,5 +1,5 @@
-// Scenes whose lengths are near the ends of binary64's range, in another unit: squares and cubes of lengths
-// are numbers then.
+// Scenes whose lengths are near the ends of binary64's range are drawn in another unit, so that squares and
+// cubes of lengths stay in range.
 #include <cmath>
 
 #include "pictures/finding_parts.hpp"
@@ -7,7 +7,7 @@
 namespace lorentz::pictures {
 namespace {
 
-// Times 2^exponent, or nothing if that changes a bit.
+// Multiplies by 2^exponent; fails if that changes a bit.
 class Scaling {
  public:
   explicit Scaling(int exponent) : exponent_(exponent) {}

@@ -1,4 +1,4 @@
-// Flights as lines: how long they are drawn, and what they hit.
+// Flights as lines: their drawn lengths, and the obstacles that they hit.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -19,7 +19,8 @@ double length_of(const DrawnFlight& flight) {
   return flight.answer.outcome == Outcome::hit ? flight.answer.time.value_or(0) * speed_of(flight.query) : 0;
 }
 
-// So long a flight is drawn to its end: nine of ten are, and those that are not much longer than these.
+// The greatest length at which a flight is drawn to its end. Nine of ten flights are shorter; so are those
+// that are not much longer than these.
 double longest_drawn(const std::vector<DrawnFlight>& flights, double cell) {
   const double most = kLongestFlight * cell;
   std::vector<double> lengths;
@@ -33,7 +34,7 @@ double longest_drawn(const std::vector<DrawnFlight>& flights, double cell) {
   return end == lengths.begin() ? most : *(end - 1);
 }
 
-// To its hit, or cut there; one that never ends is three cells long.
+// The line to the flight's hit, or cut at `longest`; a flight that never ends is three cells long.
 DrawnLine line_of(const DrawnFlight& flight, double longest, double cell) {
   const Query& query = flight.query;
   DrawnLine line{query.x, query.x, true, &flight};
@@ -79,7 +80,7 @@ std::vector<DrawnLine> lines_of(const Scene& scene, const std::vector<DrawnFligh
 }
 
 std::vector<DrawnLine> lines_in_window(const Scene& scene, const std::vector<DrawnFlight>& flights) {
-  constexpr double kFar = 1e12;  // cells: beyond any window with obstacles in it
+  constexpr double kFar = 1e12;  // cells: beyond any window that contains obstacles
   std::vector<DrawnLine> lines;
   for (const DrawnFlight& flight : flights)
     lines.push_back(line_of(flight, kFar * cell_size(scene), cell_size(scene)));

@@ -8,13 +8,13 @@
 namespace lorentz::pictures {
 namespace {
 
-// Told apart by the colour-blind too (after Okabe & Ito), and dark enough for thin lines.
+// Colours that colour-blind people can tell apart (after Okabe & Ito), and dark enough for thin lines.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#aa4499", "#7a5c00", "#444444"};
 constexpr const char* kGrey = "#777777";
 constexpr double kLetterSize = 20;  // font size, so that it is 10 at half the width
-constexpr double kAdvance = 0.56;   // of a letter, in font sizes, about
+constexpr double kAdvance = 0.56;   // approximate width of a letter, in font sizes
 
-// UTF-8: each letter has one byte that is not a continuation.
+// In UTF-8 each letter has one byte that is not a continuation byte.
 std::size_t letters_in(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
@@ -32,7 +32,7 @@ double round_step(double least) {
   return 10 * decade;
 }
 
-// What is on one axis: powers of ten; or, linear, from 0 on.
+// The range of one axis: powers of ten, or for a linear axis from 0 on.
 struct AxisRange {
   AxisScale axes = AxisScale::logarithmic;
   double low = std::numeric_limits<double>::infinity(), high = 0;
@@ -51,7 +51,7 @@ struct AxisRange {
     return axes == AxisScale::linear ? (x - low) / (high - low) : std::log10(x / low) / decades();
   }
 
-  // Ends at a digit times a power of ten, and so that no point is on the frame.
+  // Lets the range end at a digit times a power of ten, with no point on the frame.
   void round() {
     if (axes == AxisScale::linear) {
       const double step = round_step(1.02 * high / 10);
@@ -83,7 +83,7 @@ struct Frame {
   bool can_show(const Point& point) const { return t.can_show(point.x) && value.can_show(point.y); }
 };
 
-// Measured points have to be seen, curves only where there are points, and somewhat beyond.
+// Measured points must be visible; curves only where there are points, and somewhat beyond.
 void set_ranges(const FreePathPlot& plot, Frame& frame) {
   for (const PlotSeries& series : plot.series)
     for (const MeasuredPoint& point : series.points)
@@ -119,7 +119,7 @@ std::string stroke(const char* colour, double width, const char* more = "") {
   return fmt::format("stroke=\"{}\" stroke-width=\"{}\" {}", colour, width, more);
 }
 
-// A tick on one axis at x, and its number, if it has one; a grid line, if its colour is given.
+// A tick on one axis at x, its number if it has one, and a grid line if its colour is given.
 struct Tick {
   double x, length;
   const char* grid = nullptr;
@@ -140,12 +140,12 @@ void add_tick(Svg& svg, const Frame& frame, bool along_t, const Tick& tick) {
 
 constexpr const char *kGrid = "#d4d4d4", *kLightGrid = "#ebebeb";
 
-// Along one axis, so far apart are numbers at least, in pixels.
+// The smallest distance between numbers along an axis, in pixels.
 double apart(bool along_t) {
   return along_t ? 62 : 34;
 }
 
-// Decades; within them 2 and 5 too, if there is room for them.
+// Adds decades, and within them 2 and 5 if there is room.
 void add_decades(Svg& svg, const Frame& frame, bool along_t, double pixels) {
   const AxisRange& range = along_t ? frame.t : frame.value;
   const double decade = pixels / range.decades();
@@ -166,7 +166,7 @@ void add_decades(Svg& svg, const Frame& frame, bool along_t, double pixels) {
     }
 }
 
-// Round numbers, evenly.
+// Adds round numbers at equal distances.
 void add_steps(Svg& svg, const Frame& frame, bool along_t, double pixels) {
   const AxisRange& range = along_t ? frame.t : frame.value;
   const double step = round_step(range.high * apart(along_t) / pixels);
@@ -174,7 +174,7 @@ void add_steps(Svg& svg, const Frame& frame, bool along_t, double pixels) {
     add_tick(svg, frame, along_t, {i * step, 9, kGrid, fmt::format("{:.4g}", i * step)});
 }
 
-// Grid, ticks and their numbers.
+// Adds grid, ticks and their numbers.
 void add_axis(Svg& svg, const Frame& frame, bool along_t) {
   const double pixels = along_t ? frame.right - frame.left : frame.bottom - frame.top;
   if (frame.t.axes == AxisScale::linear)
@@ -227,7 +227,7 @@ void add_marker(Svg& svg, Point at, std::size_t series) {
   }
 }
 
-// A series' points and their error bars, nearest to the reader.
+// Adds a series' points and their error bars, in front of everything else.
 void add_series(Svg& svg, const Frame& frame, const PlotSeries& series, std::size_t number) {
   const std::string bar = stroke(colour_of(static_cast<int>(number)), 1.6);
   for (const MeasuredPoint& point : series.points) {
@@ -247,7 +247,7 @@ std::string style_of(const PlotCurve& curve) {
   return stroke(colour_of(curve.series), 2.2, curve.dashed ? "stroke-dasharray=\"9 6\"" : "");
 }
 
-// What is outside of the frame is cut off by it.
+// The frame cuts off the parts outside.
 void add_curve(Svg& svg, const Frame& frame, const PlotCurve& curve) {
   std::vector<Point> line;
   for (const Point& point : curve.points)
@@ -272,7 +272,7 @@ std::size_t points_in(const LegendBox& box, const Frame& frame, const FreePathPl
   return count;
 }
 
-// In the corner where it hides the fewest points, which are drawn beneath it.
+// The legend's place: the corner where it hides the fewest points, which are drawn beneath it.
 LegendBox legend_box(const Frame& frame, const FreePathPlot& plot) {
   std::size_t longest = 0, rows = plot.series.size();
   for (const PlotSeries& series : plot.series) longest = std::max(longest, letters_in(series.name));
@@ -314,7 +314,7 @@ void add_legend(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
   }
 }
 
-// In letters so small that it fits.
+// Adds a text, in a font small enough to fit.
 void add_words(Svg& svg, Point at, const std::string& words, double size, double room, const char* style) {
   const double fits = room / (kAdvance * static_cast<double>(std::max<std::size_t>(1, letters_in(words))));
   svg.text(at, words, fmt::format("font-size=\"{:.1f}\" {}", std::min(size, fits), style));

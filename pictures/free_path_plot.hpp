@@ -1,4 +1,4 @@
-// A picture of free paths: measured points and curves of theory over t, both axes logarithmic, or linear.
+// A picture of free paths: measured points and curves of theory over t, with both axes logarithmic or linear.
 #pragma once
 
 #include <string>
@@ -8,9 +8,8 @@
 
 namespace lorentz::pictures {
 
-/// A measured value with its standard error. What is not finite cannot be shown and is left out, as is, where
-/// axes are logarithmic, what is not above 0; an error bar that reaches down to 0 goes down to the edge of
-/// the picture.
+/// A measured value with its standard error. Values that are not finite are left out; on logarithmic axes
+/// also those that are not above 0. An error bar that reaches 0 extends to the edge of the picture.
 struct MeasuredPoint {
   double t = 0, value = 0, error = 0;
 };
@@ -23,13 +22,13 @@ struct PlotSeries {
 
 /// A line through (t, value), in the colour of the series `series` (-1: grey), solid or dashed.
 struct PlotCurve {
-  std::string name;  ///< for the legend; empty: not in it
+  std::string name;  ///< for the legend; empty: not in the legend
   std::vector<Point> points;
   int series = -1;
   bool dashed = false;
 };
 
-/// Linear ones begin at 0, and show nothing below it.
+/// Linear axes begin at 0, and show nothing below it.
 enum class AxisScale { logarithmic, linear };
 
 struct FreePathPlot {
@@ -41,8 +40,8 @@ struct FreePathPlot {
   double width = 800, height = 600;  ///< in pixels; legible at half of that
 };
 
-/// The picture as SVG. The axes hold all measured points; of curves that reach further as much as is worth
-/// showing. An std::invalid_argument if there is nothing to show.
+/// The picture as SVG. The axes contain all measured points; curves that reach further are cut where there is
+/// nothing more worth showing. Throws std::invalid_argument if there is nothing to show.
 std::string draw_free_paths(const FreePathPlot& plot);
 
 }  // namespace lorentz::pictures

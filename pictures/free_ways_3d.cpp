@@ -12,7 +12,7 @@ Vec minus(const Vec& a, const Vec& b) {
   return sum(a, scaled(b, -1));
 }
 
-// A corner more than one would need: around the whole block in a plane.
+// A square in the plane, large enough to contain the whole block.
 Facet square_on(const Vec& normal, double level, const DrawnBlock& block) {
   const Vec unit = scaled(normal, 1 / length(normal));
   const Vec side = std::fabs(unit[0]) < 0.7 ? Vec{1, 0, 0} : Vec{0, 1, 0};
@@ -28,7 +28,7 @@ Facet square_on(const Vec& normal, double level, const DrawnBlock& block) {
   return facet;
 }
 
-// The shares of a line p + t v that are in the block.
+// The range of t for which the line p + t v is in the block.
 bool part_in_block(const DrawnBlock& block, const Vec& p, const Vec& v, double& first, double& last) {
   first = -1e300, last = 1e300;
   for (const Vec& row : dual_of(block.edges, 3)) {
@@ -64,7 +64,7 @@ Facet part_beside(const Facet& facet, const Vec& normal, double level, int sign)
 
 std::vector<Facet> faces_of(const Scene& scene, const FreeWay& layer, std::size_t number,
                             const DrawnBlock& block) {
-  // One lattice's planes are 1 apart in normal.x.
+  // The planes of a single lattice are 1 apart in normal.x.
   double middle = dot(layer.vector, layer.point);
   if (scene.lattices.size() == 1) middle += std::round(dot(layer.vector, block.centre()) - middle);
   std::vector<Facet> faces;

@@ -1,4 +1,4 @@
-// Layers and cylinders that are free for ever, cut to a block of cells. Private to pictures/.
+// Layers and cylinders that are free forever, cut to a block of cells. Private to pictures/.
 #pragma once
 
 #include <optional>
@@ -21,18 +21,18 @@ struct Facet {
   std::vector<Vec> corners;
   Vec normal{};
   double level = 0;
-  std::size_t way = 0;  ///< its number
+  std::size_t way = 0;  ///< number of its free way
 };
 
-/// The two faces of a layer in the block, of its translates the nearest to the block's middle; fewer if they
-/// miss it.
+/// The two faces of a layer in the block, for the translate nearest to the block's middle; fewer if they miss
+/// the block.
 std::vector<Facet> faces_of(const Scene& scene, const FreeWay& layer, std::size_t number,
                             const DrawnBlock& block);
 
 /// The part of the facet where sign * (normal.x - level) >= 0.
 Facet part_beside(const Facet& facet, const Vec& normal, double level, int sign);
 
-/// Where a cylinder's middle line runs through the block, of its translates along that which does so longest.
+/// The part of a cylinder's middle line in the block, for the translate with the longest part.
 struct Axis {
   Vec from{}, to{};
 };

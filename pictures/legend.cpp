@@ -17,7 +17,7 @@ std::string name_of(const Scene& scene, const Placed& obstacle) {
 
 namespace {
 
-// Entries side by side in columns, row by row.
+// Entries in columns, row by row.
 class LegendColumns {
  public:
   LegendColumns(double top, double space, std::size_t longest_label)

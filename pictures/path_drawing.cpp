@@ -42,7 +42,7 @@ EllipseShape shape_of(const Atom& atom, double scale) {
   return ellipse_of({scale * a[0], scale * b[0], 0}, {-scale * a[1], -scale * b[1], 0});
 }
 
-// Those at the edge are cut there. False if there are too many.
+// Adds the obstacles; those at the edge are cut there. False if there are too many.
 bool add_passed_obstacles(Svg& svg, const PathDrawing& drawing, const PathFrame& frame) {
   bool cut = false;
   const std::vector<Placed> obstacles = obstacles_in(drawing.scene, frame.box, cut);
@@ -68,7 +68,7 @@ void add_path(Svg& svg, const std::vector<Point>& points, const char* colour_of_
   svg.ellipse(points.back(), {4, 4, 0}, fmt::format("fill=\"{}\"", colour_of_it));
 }
 
-// Lines of text beneath.
+// Adds the lines of text below the picture.
 double add_notes(Svg& svg, const PathDrawing& drawing, double top, bool all_obstacles) {
   const auto note = [&](const std::string& words, const char* its_colour) {
     svg.text({kMargin, top += kLegendLine}, words, fmt::format("fill=\"{}\" font-size=\"15\"", its_colour));

@@ -1,4 +1,4 @@
-// What both kinds of pictures share.
+// The common parts of 2D and 3D pictures.
 #include "pictures/scene_drawing.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace lorentz::pictures {
 
-// So that few cells are looked at: pairs are reduced until none gets shorter.
+// Reduces pairs of vectors until none gets shorter, so that few cells are examined.
 std::array<Vec, 3> short_vectors(const Lattice& lattice, int dimension) {
   std::array<Vec, 3> u = lattice.vectors;
   constexpr int kMostSteps = 10'000;
@@ -37,10 +37,10 @@ double reach_of(const Atom& atom, int dimension) {
   return principal_semiaxes(atom, dimension)[0];
 }
 
-// Looks at no more cells than this, whatever the scene is.
+// The largest number of cells that are examined, whatever the scene is.
 constexpr double kMostCells = 300'000;
 
-// One atom's obstacles in the box.
+// Adds one atom's obstacles in the box.
 void add_obstacles(const Scene& scene, Placed obstacle, const std::array<Vec, 3>& u, const Extent& box,
                    std::vector<Placed>& found, bool& cut) {
   const int d = scene.dimension;
@@ -149,7 +149,7 @@ std::size_t colour_index(const Scene& scene, const Placed& obstacle) {
   return index;
 }
 
-// Told apart by the colour-blind too: after Paul Tol's "muted" and "bright" schemes.
+// Colours that colour-blind people can tell apart, after Paul Tol's "muted" and "bright" schemes.
 const Colour& colour(std::size_t index) {
   static constexpr Colour kColours[] = {{"#4477aa", "#284b70", "#b9d0e8"}, {"#ddaa33", "#8a6514", "#f7e3b0"},
                                         {"#44aa88", "#1f6650", "#b8e6d6"}, {"#aa4499", "#6b2460", "#e8bfe1"},

@@ -1,4 +1,4 @@
-// Pictures of 2D scenes: a window on the plane.
+// Pictures of 2D scenes, as a window on the plane.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@
 namespace lorentz::pictures {
 namespace {
 
-// The plane on paper: y upwards.
+// The plane on paper, with y upwards.
 struct PaperWindow {
   Extent box;
   double scale = 1;  // pixels per unit of length
@@ -20,7 +20,7 @@ struct PaperWindow {
   double width() const { return scale * (box.high[0] - box.low[0]); }
   double height() const { return scale * (box.high[1] - box.low[1]); }
 
-  // As large as the page has room for, in its middle.
+  // Makes the picture as large as the page allows, in its middle.
   void fit(const Page& page) {
     scale = std::min(page.width / (box.high[0] - box.low[0]), page.height / (box.high[1] - box.low[1]));
     left = kMargin + (page.width - width()) / 2;
@@ -33,7 +33,7 @@ std::array<Vec, 4> corners_of(const Scene& scene, const Vec& corner) {
   return {corner, sum(corner, u[0]), sum(sum(corner, u[0]), u[1]), sum(corner, u[1])};
 }
 
-// About 4 by 4 cells around `corner`'s, smaller if that held too many obstacles.
+// Half the width of about 4 by 4 cells; less if these would hold too many obstacles.
 double half_width(const Scene& scene) {
   const double cell = cell_size(scene);
   double expected = 0;
@@ -42,8 +42,8 @@ double half_width(const Scene& scene) {
   return 2 * cell * std::min(1.0, std::sqrt(static_cast<double>(kMostDrawn) / expected));
 }
 
-// Those cells, or all flights that end; those that go on do so beyond the picture, unless there are no
-// others.
+// The box of these cells, or of all flights that end. Flights that go on are cut by the picture, unless there
+// are no others.
 Extent box_for(const Scene& scene, const Vec& corner, const std::vector<DrawnLine>& lines) {
   const auto& u = scene.lattices[0].vectors;
   const double cell = cell_size(scene);
@@ -73,7 +73,7 @@ Extent box_for(const Scene& scene, const Vec& corner, const std::vector<DrawnLin
   return box;
 }
 
-// The first lattice's cells, faint, unless there are too many to tell apart.
+// Adds the first lattice's cells, faint, unless there are too many to tell apart.
 void add_grid(Svg& svg, const Scene& scene, const PaperWindow& window, const Vec& corner) {
   const auto& u = scene.lattices[0].vectors;
   const auto rows = dual_of(u, 2);
@@ -113,7 +113,7 @@ void add_disc(Svg& svg, const Scene& scene, const PaperWindow& window, const Pla
                                 c.fill, c.dark, line));
 }
 
-// The part of a segment that is in the box, as its shares; false if there is none.
+// The part of a segment that is in the box, as fractions of its length; false if there is none.
 bool part_in(const Extent& box, const Vec& from, const Vec& to, double& first, double& last) {
   first = 0, last = 1;
   for (const int k : {0, 1}) {
@@ -129,11 +129,11 @@ bool part_in(const Extent& box, const Vec& from, const Vec& to, double& first, d
   return first <= last;
 }
 
-// What of a flight is in the window: an arrow if it goes on beyond.
+// Adds the part of a flight in the window; an arrow if it goes on beyond.
 void add_way(Svg& svg, const PaperWindow& window, const DrawnLine& line, Legend& legend) {
   const Extent& box = window.box;
   Vec to = line.to;
-  if (!line.ends) {  // to somewhere beyond
+  if (!line.ends) {  // goes on to a point beyond the window
     const double size = std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1]);
     const Vec& v = line.flight->query.v;
     const Vec start = plus(line.from, -1, box.centre());
@@ -156,7 +156,7 @@ void add_way(Svg& svg, const PaperWindow& window, const DrawnLine& line, Legend&
   if (first == 0) svg.ellipse(start, {3, 3, 0}, fmt::format("fill=\"white\" {}", stroke));
 }
 
-// A corridor, with its translates if these come from one lattice: strips, one every area / |vector|.
+// Adds a corridor, with its translates if there is only one lattice: strips at distances of area / |vector|.
 bool add_corridor(Svg& svg, const Scene& scene, const PaperWindow& window, const FreeWay& way,
                   const char* colour) {
   const double length = std::hypot(way.vector[0], way.vector[1]);
@@ -254,7 +254,7 @@ void Picture2D::add_contents() {
 Drawing Picture2D::draw() {
   constexpr double kTallest = 1000;
   legend_.notes = drawing_.remarks;
-  Legend about = legend_;  // with all that may come
+  Legend about = legend_;  // with everything that may be added
   about.hits = about.goes_on = !lines_.empty();
   for (std::size_t i = 0; i < options_.ways.size(); ++i) about.ways.push_back(i);
   window_.fit(Page(scene_, options_, about, kTallest));

@@ -1,5 +1,5 @@
-// Pictures of 3D scenes: orthographic projection along a direction in which nothing lines up, the farthest
-// obstacle first. Of edges and flights, what an obstacle hides is drawn faint.
+// Pictures of 3D scenes: orthographic projection along a direction in which nothing lines up, with the
+// farthest obstacle drawn first. Parts of edges and flights that an obstacle hides are drawn faint.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTallest3D = 900;
 
-// Directions to the right, upwards and towards the eye: seen from a little to the right of the y axis and
+// Directions to the right, upwards and towards the eye. The eye is a little to the right of the y axis, and
 // above.
 struct Eye {
   Vec right, up, towards;
@@ -29,7 +29,7 @@ struct Eye {
   Vec operator()(const Vec& p) const { return {dot(right, p), dot(up, p), dot(towards, p)}; }
 };
 
-// An obstacle seen.
+// An obstacle as it is seen.
 struct SeenObstacle {
   Placed placed;
   bool hit;
@@ -83,7 +83,7 @@ class Picture3D {
   const Scene& scene_;
   const DrawOptions& options_;
   ShownCell cell_;
-  double cells_ = 1;  ///< of these along each edge of the block
+  double cells_ = 1;  ///< number of these along each edge of the block
   Legend legend_;
   Eye eye_;
   Drawing drawing_;
@@ -91,13 +91,13 @@ class Picture3D {
   std::vector<DrawnLine> lines_;
   Vec corner_{};
   std::vector<SeenObstacle> seen_;
-  std::vector<std::vector<std::array<Vec, 3>>> inverses_;  // of each atom's matrix, as rows
+  std::vector<std::vector<std::array<Vec, 3>>> inverses_;  // inverse of each atom's matrix, as rows
   Extent box_;                                             // of the picture, seen from the eye
   double scale_ = 1, top_ = 0;
 };
 
-// The obstacles with centres in a block of 2 x 2 x 2 primitive cells, or in a cube, or on its boundary, and
-// those that are hit.
+// Chooses the obstacles with centres in, or on the boundary of, a block of 2 x 2 x 2 primitive cells or a
+// cube, and those that are hit.
 void Picture3D::choose_obstacles() {
   const auto& u = cell_.vectors;
   double expected = 0;
@@ -153,7 +153,7 @@ void Picture3D::choose_obstacles() {
   }
 }
 
-// What the legend will have to say.
+// Fills in what the legend must explain.
 void Picture3D::explain() {
   for (const SeenObstacle& seen : seen_) legend_.atoms.insert({seen.placed.lattice, seen.placed.atom});
   if (scene_.lattices[0].missing == 0)
@@ -178,7 +178,7 @@ void Picture3D::explain() {
     legend_.notes.push_back("Of the obstacles beyond the block of cells, only those that are hit are drawn.");
 }
 
-// Beyond the block at both ends: one sees that it goes through.
+// Extended beyond the block at both ends, to show that it goes through.
 Axis longer(const Axis& axis) {
   const Vec more = scaled(plus(axis.to, -1, axis.from), 0.15);
   return {plus(axis.from, -1, more), sum(axis.to, more)};
@@ -221,12 +221,12 @@ void Picture3D::fit() {
   const Page page(scene_, options_, legend_, kTallest3D);
   top_ = page.top;
   scale_ = std::min(page.width / wide, page.height / tall);
-  const double spare = page.width / scale_ - wide;  // a tall picture stands in the middle
+  const double spare = page.width / scale_ - wide;  // a tall picture is centred
   box_.low[0] -= spare / 2;
   box_.high[0] += spare / 2;
 }
 
-// True if an obstacle lies between the point and the eye, or holds the point.
+// True if an obstacle lies between the point and the eye, or contains the point.
 bool Picture3D::is_hidden(const Vec& point) const {
   constexpr double kSlack = 1e-6;
   const Vec view = eye_(point);
@@ -245,7 +245,7 @@ bool Picture3D::is_hidden(const Vec& point) const {
   return false;
 }
 
-// In pieces: full where it can be seen, faint where not.
+// Adds a line in pieces: full where it is visible, faint where it is hidden.
 void Picture3D::add_line(const Vec& from, const Vec& to, const Pen& pen) {
   const Vec way = plus(to, -1, from);
   const double length = scale_ * std::hypot(dot(way, eye_.right), dot(way, eye_.up));
@@ -286,8 +286,8 @@ std::string shades() {
   return shades + "</defs>\n";
 }
 
-// No obstacle crosses a face of a free layer: those beyond it first, then the face, then those before it. The
-// other faces are cut in two by it.
+// No obstacle crosses a face of a free layer. So the obstacles beyond it come first, then the face, then the
+// obstacles before it. It cuts the other faces in two.
 void Picture3D::add_contents(const std::vector<SeenObstacle>& obstacles, std::vector<Facet> facets) {
   if (facets.empty()) {
     for (const SeenObstacle& seen : obstacles) add_obstacle(seen);

@@ -8,7 +8,7 @@
 namespace lorentz::pictures {
 namespace {
 
-// What would be printed as -0.00 is 0.
+// 0 for numbers that would be printed as -0.00.
 double plain(double value) {
   return std::fabs(value) < 0.005 ? 0 : value;
 }

@@ -1,4 +1,4 @@
-// A picture as SVG text: lengths in pixels, x to the right, y DOWN (who draws turns the y axis).
+// A picture as SVG text: lengths in pixels, x to the right, y DOWN (callers must turn the y axis).
 #pragma once
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ struct Point {
   double x = 0, y = 0;
 };
 
-/// An ellipse about a centre: its semiaxes, and the angle from the x axis to the first in radians, towards
+/// An ellipse about a centre: its semiaxes, and the angle in radians from the x axis to the first, towards
 /// +y.
 struct EllipseShape {
   double rx = 0, ry = 0, angle = 0;
@@ -32,7 +32,7 @@ class Svg {
   /// A line with a head of this size at its end.
   void arrow(Point from, Point to, double head, const std::string& colour, double width);
 
-  /// What is drawn until close() belongs together; `attributes` hold for all of it.
+  /// Everything drawn until close() forms a group; `attributes` hold for all of it.
   void open(const std::string& attributes);
   void close();
 

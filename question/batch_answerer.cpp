@@ -9,7 +9,7 @@
 namespace lorentz::question {
 namespace {
 
-// So many that threads have something to share, and so few that answers come soon.
+// Enough that threads have something to share, and few enough that answers come soon.
 constexpr std::size_t kGathered = 8192;
 
 constexpr double kForEver = std::numeric_limits<double>::infinity();
@@ -81,7 +81,7 @@ Reply BatchAnswerer::reply_to(std::size_t i) const {
   return {.answer = answer_of(flight), .stage = flight.stage};
 }
 
-// Queries with a flaw, those that are uncertain, and what more is wanted than a flight says.
+// Answers an invalid or uncertain query, or a request that needs more than a flight contains.
 Reply BatchAnswerer::single(const Query& query, double max_time) const {
   if (why_not_) return {Answer::unsupported_because("batch " + *why_not_)};
   Reply reply;

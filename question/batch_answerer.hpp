@@ -1,4 +1,4 @@
-// The batch engines as answerers: queries are gathered, and flown together.
+// The batch engines as answerers: they gather queries and fly them together.
 #pragma once
 
 #include <optional>
@@ -17,19 +17,19 @@ class BatchAnswerer : public Answerer {
   void ask(const Id& id, const Query& query) final;
   void ask_until(const Id& id, const Query& query, double max_time) final;
   bool takes_limits() const final { return true; }
-  std::uint64_t batch_size() const final { return 100; }  // some vectors full, and some lanes of one more
+  std::uint64_t batch_size() const final { return 100; }  // several full vectors, and some lanes of one more
   void ask_text(const Id& id, const std::string& text) final;
   void drain() final;
   void finish() final { drain(); }
   bool idle(int) final;
 
  protected:
-  /// Flies all that was gathered.
+  /// Flies all gathered queries.
   virtual void fly();
-  /// What came of the query number i of these, if it is certain.
+  /// The reply to gathered query i, if it is certain.
   virtual Reply reply_to(std::size_t i) const;
 
-  /// Null for a scene that it cannot do.
+  /// Null for a scene beyond the engine.
   const Batch* batch() const { return engine_ ? engine_->batch() : nullptr; }
   const QueryTable& queries() const { return queries_; }
   Flight flight(std::size_t i) const { return flights_[i]; }
@@ -43,7 +43,7 @@ class BatchAnswerer : public Answerer {
   const oracle::Request request_;
   const int jobs_;
   std::optional<std::string> why_not_;  ///< the scene is beyond the engine
-  std::optional<ManyFlights> engine_;   ///< nothing: the same
+  std::optional<ManyFlights> engine_;   ///< nothing in that case
   QueryTable queries_;
   FlightTable flights_;
   std::vector<std::size_t> uncertain_;

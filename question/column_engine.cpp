@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kNoTimeLimit = std::numeric_limits<double>::infinity();
 
-// That with which alone an engine of this kind decides; nothing is known of the others.
+// The one stage with which an engine of this kind decides; unknown for the others.
 std::uint8_t usual_stage(const Traits& traits) {
   return traits.is_exact && !traits.uses_reduction ? AnswerRows::kExactStage : AnswerRows::kNoStage;
 }
@@ -64,7 +64,7 @@ void ColumnEngine::fly(std::size_t first, const QueryRows& queries, AnswerRows& 
                  [](Stage stage) { return static_cast<std::uint8_t>(stage); });
 }
 
-// What a flight leaves open: columns that mean nothing with its outcome.
+// Sets what a flight leaves open: the columns that have no meaning for its outcome.
 void ColumnEngine::finish(std::size_t first, const QueryRows& queries, std::size_t i, AnswerRows& answers) {
   const std::size_t row = first + i;
   const Outcome outcome = answers.outcome[row];
@@ -91,7 +91,7 @@ void ColumnEngine::answer_from(std::size_t first, const QueryRows& queries, Answ
   set_limits(queries);
   uncertain_.clear();
   if (together_) fly(first, queries, answers);
-  // Of nearly all rows a flight wrote all there is to say.
+  // For nearly all rows the flight has written everything already.
   const bool is_plain = together_ && limits_.empty() && uncertain_.empty() && queries.flaws.empty() &&
                         queries.large_from.empty();
   std::size_t uncertain = 0, flaw = 0, large = 0;

@@ -1,4 +1,4 @@
-// An engine of this program, asked by columns: the batch engines fly them together, the others row by row.
+// An engine of this program, asked by columns: the batch engines fly rows together, the others one by one.
 #pragma once
 
 #include <optional>
@@ -13,14 +13,14 @@ namespace lorentz::question {
 
 class ColumnEngine {
  public:
-  /// `engine` must be one of this program's. `max_time` is an upper bound for the limits of all rows. `jobs`:
-  /// threads, of the batch engines.
+  /// `engine` must be one of this program. `max_time` is an upper bound for the limits of all rows. `jobs`:
+  /// the number of threads, for the batch engines.
   ColumnEngine(const EngineInfo& engine, const Scene& scene, std::optional<double> max_time, int jobs);
 
-  /// The same answers as of its answerer; rows with a flaw are errors.
+  /// Gives the same answers as the engine's answerer; invalid rows are answered with errors.
   void answer(const QueryRows& queries, AnswerRows& answers);
 
-  /// The same into the rows from `first` on, which must be there: of answers that are filled part by part.
+  /// The same into the rows from `first` on, which must exist; for answers that are filled part by part.
   void answer_from(std::size_t first, const QueryRows& queries, AnswerRows& answers);
 
  private:
@@ -35,7 +35,7 @@ class ColumnEngine {
   const Traits traits_;
   const std::optional<double> max_time_;
   const int jobs_;
-  std::optional<ManyFlights> together_;  // nothing: asked row by row
+  std::optional<ManyFlights> together_;  // nothing: rows are asked one by one
   const FirstHit single_;
 
   std::vector<double> limits_;  // empty: no row has one

@@ -18,10 +18,10 @@ namespace {
 
 constexpr std::size_t kWrittenAtOnce = std::size_t{1}
                                        << 16;      // queries are written out in pieces of this size
-constexpr std::size_t kAskedBetweenSteps = 256;    // a step costs some microseconds
+constexpr std::size_t kAskedBetweenSteps = 256;    // because a step costs a few microseconds
 constexpr double kPatience = 0.5;                  // seconds
-constexpr double kBetweenLooks = 0.1;              // seconds: whether it is enough
-constexpr std::chrono::milliseconds kGrace{1000};  // to end in, once it is told to or has closed its output
+constexpr double kBetweenLooks = 0.1;              // seconds between calls of AnswererOptions::enough
+constexpr std::chrono::milliseconds kGrace{1000};  // to end, once its input or its output is closed
 constexpr std::size_t kRecent = 64;
 
 }  // namespace
@@ -34,19 +34,19 @@ struct CommandEngine::Run {
   LineBuffer lines;
   std::string to_write;
   std::size_t given = 0;        // queries, in all
-  std::size_t outstanding = 0;  // given and without an answer: so many from the front of open_
+  std::size_t outstanding = 0;  // given and without an answer: the first `outstanding` of open_
   std::size_t answers = 0, answers_before_end = 0;
   std::shared_ptr<const Scene> scene;
   std::uint64_t first_of_scene = 0;  // number of the first query after the last scene line
-  bool greeting = false;  // it has one query only, to see whether it answers that with more to come
-  bool ending = false;    // gets no more, and its input is closed as soon as all is written
+  bool greeting = false;             // it has one query only, to see whether it answers with more to come
+  bool ending = false;               // gets no more queries; its input is closed as soon as all is written
   bool told_for_silence = false, stopped_reading = false, at_end = false;
-  bool has_ended = false;          // and what it spent is counted
+  bool has_ended = false;          // and its processor time is counted
   std::string instead;             // what it wrote where the first outstanding answer should have been
-  std::optional<Answer> nameless;  // an error with id null, of the scene or of its first query
+  std::optional<Answer> nameless;  // an error with id null, about the scene or its first query
   Clock::time_point started = Clock::now();
   std::optional<Clock::time_point> first_answer;
-  Clock::time_point last_answer = started;  // or the time at which something became outstanding
+  Clock::time_point last_answer = started;  // or when something became outstanding
   Clock::time_point last_move = started;    // an answer, or something written
 };
 
@@ -106,12 +106,12 @@ bool CommandEngine::idle(int descriptor) {
 // ---- one step
 
 void CommandEngine::step(Wait wait, int other_descriptor) {
-  // It may have ended of itself meanwhile; then the next query is not to blame.
+  // The program may have ended by itself meanwhile; then the next query is not at fault.
   if (run_ && run_->outstanding == 0 && run_->given > 0) read();
   if (!run_ && open_.empty()) return;
   if (is_enough()) return abandon();
   if (!run_) start();
-  const std::shared_ptr<Run> run = run_;  // what follows may end it
+  const std::shared_ptr<Run> run = run_;  // keeps it alive if it ends below
   encode();
   if (wait == Wait::for_good && run->outstanding == open_.size()) run->ending = true;
   wait_for_pipes(wait, other_descriptor);
@@ -125,8 +125,8 @@ void CommandEngine::start() {
   run_->greeting = manner_ == Manner::unknown && limit_ == kNoLimit;
 }
 
-// A program that owes nothing may end by itself. That one is too slow for the time there is, is no fault of
-// it, unless it never gave any answer.
+// A program that owes nothing gets time to end by itself. Being too slow for the available time is not a
+// fault, unless it never gave any answer.
 void CommandEngine::abandon() {
   const bool owes = run_ && run_->outstanding > 0;
   if (owes && !ever_answered_)
@@ -139,7 +139,7 @@ void CommandEngine::abandon() {
   open_.clear();
 }
 
-// Puts queries into words, as many as may be given and a piece of text holds.
+// Writes queries as text, up to the number that may be given and the size of a piece.
 void CommandEngine::encode() {
   Run& run = *run_;
   const std::size_t most = run.greeting ? 1 : limit_;
@@ -175,7 +175,7 @@ void CommandEngine::write() {
   Run& run = *run_;
   if (run.to_write.empty()) return;
   const auto count = run.process.write(run.to_write);
-  if (!count) {  // it closed its input; what it has read already it may still answer
+  if (!count) {  // it closed its input, but may still answer what it has read
     run.stopped_reading = run.ending = true;
     run.to_write.clear();
   } else if (*count > 0) {
@@ -196,7 +196,7 @@ void CommandEngine::read() {
 
 // ---- the clock
 
-// How long a program may be silent before it is told the end, in case it waits for that.
+// How long a program may be silent before its input is closed, in case it waits for that.
 CommandEngine::Seconds CommandEngine::patience(Wait wait) const {
   const bool at_once = manner_ == Manner::at_end || (manner_ == Manner::in_blocks && wait == Wait::for_all);
   if (at_once) return Seconds(0);
@@ -235,7 +235,7 @@ void CommandEngine::look_at_clock(Wait wait) {
     return run_failed(fmt::format("{}gave no answer within {:.4g} s",
                                   run.stopped_reading ? "closed its input and " : "", timeout().count()));
   if (manner_ == Manner::line_by_line || run.ending || wait == Wait::no || !run.to_write.empty()) return;
-  // Queries that come drop by drop do not keep it from being told.
+  // A trickle of new queries does not prevent this.
   const bool long_since = now - run.last_answer >= timeout() / 2;
   if (!silent_for(patience(wait)) && !long_since) return;
   const bool more_to_give = run.outstanding < open_.size();
@@ -249,12 +249,12 @@ void CommandEngine::look_at_clock(Wait wait) {
 namespace {
 
 std::string shown(std::string_view text) {
-  // As it is: where the message becomes part of an answer its quotes are escaped, once.
+  // Quotes are not escaped here: that happens once, where the message becomes part of an answer.
   constexpr std::size_t kShown = 120;
   return printable(shortened(text, kShown));
 }
 
-// The number that the id is, or 0: of a text, with its quotes, of what is negative, and of what is too large.
+// The id as a number; 0 for a text (with its quotes), a negative number, or one that is too large.
 std::uint64_t number_of(const Id& id) {
   std::uint64_t number = 0;
   std::from_chars(id.data(), id.data() + id.size(), number);
@@ -263,7 +263,7 @@ std::uint64_t number_of(const Id& id) {
 
 }  // namespace
 
-// Told once a key, or the end of the line that has it.
+// Reports each unknown key once; with --strict it makes the line invalid.
 void CommandEngine::see_unknown_key(const std::string& key) {
   constexpr std::size_t kMostKeys = 20;
   if (options_.strict) throw InputError("the key " + json_quoted(key) + " is not known");
@@ -299,7 +299,7 @@ bool CommandEngine::take_own_time(const LineReader::Line& line) {
   return true;
 }
 
-// Something that is no answer to anything. Whether it stands in the place of one, the next answer shows.
+// Takes a line that answers nothing. The next answer shows whether it stands in the place of an answer.
 void CommandEngine::take_no_answer(const std::string& what) {
   run_->instead = what;
   complain(what, run_->outstanding > 0 ? &open_.front() : nullptr);
@@ -323,7 +323,8 @@ void CommandEngine::take_answer(const Id& id, Answer& answer, std::size_t compon
     answer_first_with_error(flaw);
 }
 
-// An error without an id is for the first query that waits; but after a scene line it may be for that.
+// An error without an id is for the first query that waits. Directly after a scene line it may be for the
+// scene.
 void CommandEngine::take_nameless(Answer& answer) {
   if (run_->nameless) settle_nameless();
   if (first_number_ == run_->first_of_scene)
@@ -338,7 +339,7 @@ void CommandEngine::settle_nameless() {
   answer_first(answer);
 }
 
-// An answer to a query that is done.
+// Takes an answer to an earlier query, which is settled already.
 void CommandEngine::take_unasked(std::uint64_t number) {
   const std::uint64_t back = first_number_ - number;
   const OpenQuery* asked = back <= recent_.size() ? &recent_[recent_.size() - back] : nullptr;
@@ -347,7 +348,7 @@ void CommandEngine::take_unasked(std::uint64_t number) {
   complain(late ? "answered this query after a later one" : "answered this query again", asked);
 }
 
-// The first query gets no answer: one to a later query came.
+// The first query gets no answer, because an answer to a later one came.
 void CommandEngine::pass_over() {
   Run& run = *run_;
   std::string what = "gave no answer to this query before that to a later one";
@@ -427,7 +428,7 @@ std::optional<double> CommandEngine::processor_seconds() const {
   return spent_ + (run_ && !run_->has_ended ? run_->process.processor_seconds() : 0);
 }
 
-// Its output has ended, or it was told to end long ago.
+// Its output has ended, or its input was closed long ago.
 void CommandEngine::run_is_over() {
   const std::shared_ptr<Run> run = run_;
   if (run->nameless) settle_nameless();
@@ -448,12 +449,12 @@ void CommandEngine::run_is_over() {
   run_.reset();
 }
 
-// It answered everything. What does that say about the next run?
+// It answered everything. What the run showed is used for the next one.
 void CommandEngine::learn_from_run() {
   const Run& run = *run_;
   if (limit_ != kNoLimit) limit_ = limit_ < kWindow ? 2 * limit_ : kNoLimit;
   if (!run.told_for_silence || manner_ != Manner::unknown || !run.first_answer) return;
-  // Perhaps it only takes its time to begin. It gets that time once; then its silence means something.
+  // It may only be slow to start. It gets that time once; after that silence counts.
   const double longest = std::max(options_.timeout, options_.start_timeout);
   first_patience_ = std::max(first_patience_,
                              std::min(1.5 * Seconds(*run.first_answer - run.started), Seconds(longest / 2)));
@@ -485,8 +486,8 @@ void CommandEngine::run_failed(const std::string& what) {
   give_up();
 }
 
-// The rest goes unasked, up to the next scene: what it failed on may have been this one. That is one more
-// start, if it was ever any good.
+// The rest is not asked, up to the next scene: the failures may have been due to this one. The next scene
+// gets one more start if the program ever answered.
 void CommandEngine::give_up() {
   while (!open_.empty()) {
     if (open_.front().scene != given_up_in_ && ever_answered_) {
@@ -511,7 +512,7 @@ void CommandEngine::tell(const std::string& what) const {
   complaints_.tell(what);
 }
 
-// Says what went wrong, with a stream that shows it again.
+// Reports what went wrong, with a stream that reproduces it.
 void CommandEngine::complain(const std::string& what, const OpenQuery* asked) {
   failed_ = true;
   if (!asked) return complaints_.add(what);

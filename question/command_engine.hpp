@@ -1,5 +1,5 @@
-// `cmd:COMMAND`: another program as an engine. It reads a query stream and writes an answer stream; what it
-// is asked, and what is made of its faults, is in docs/command_engines.md.
+// `cmd:COMMAND`: another program as an engine, which reads a query stream and writes an answer stream.
+// docs/command_engines.md says what it is asked and how its faults are treated.
 #pragma once
 
 #include <chrono>
@@ -18,17 +18,18 @@
 
 namespace lorentz::question {
 
-/// Keeps many queries on their way to the program and takes its answers as they come, writing and reading by
-/// turns, as the pipes allow. The program's ids are running numbers, whatever the user's are. Every query
-/// gets one answer, in order: where the program gave none, an `error` that says what it did instead.
+/// Keeps many queries in flight and takes the program's answers as they come; it writes and reads by turns,
+/// as the pipes allow. The program sees running numbers as ids, whatever the user's ids are. Every query gets
+/// one answer, in order. If the program gives none, the answer is an `error` that says what the program did
+/// instead.
 ///
-/// A program that dies or falls silent is started anew for the queries after the one at fault. Which one that
-/// was is plain if it answers line by line: the first without an answer. If it keeps answers back, some of
-/// them were lost with it: then the next start gets one query only, the one after that two, ..., each start
-/// is told the end at once, and the one at fault is the query that it failed on alone.
+/// A program that dies or falls silent is started again for the queries after the one at fault. If it answers
+/// line by line, the query at fault is the first without an answer. If it holds answers back, some of them
+/// were lost with it. Then the next start gets only one query, the one after that two, ...; the input of each
+/// is closed at once, and the query at fault is the one on which the program fails alone.
 class CommandEngine final : public Answerer {
  public:
-  /// Queries on their way at most.
+  /// The largest number of queries in flight.
   static constexpr std::size_t kWindow = 4096;
 
   CommandEngine(std::string command, const AnswererOptions& options);
@@ -58,28 +59,28 @@ class CommandEngine final : public Answerer {
     Id id;
     Query query;
     std::shared_ptr<const Scene> scene;
-    std::string text = {};     // in place of the query, where it is none
+    std::string text = {};     // in place of an invalid query
     bool passed_over = false;  // it got no answer
   };
   void add(OpenQuery asked);
   static void append_line(std::string& out, const Id& id, const OpenQuery& asked);
 
-  // When a program lets go of its answers, as far as we have seen.
+  // When the program writes its answers, as far as observed.
   enum class Manner {
     unknown,
-    line_by_line,  // once it answered all it had been asked, with more to come
-    in_blocks,     // it needs to be told the end for the last answers,
-    at_end         // or for any
+    line_by_line,  // it has once answered all it had been asked, with more to come
+    in_blocks,     // it writes the last answers only after the end of its input
+    at_end         // it writes all answers only after the end of its input
   };
 
-  struct Run;  // of the program
+  struct Run;  // one life of the program
 
-  // Everything happens in steps: write what it takes, read what it gives, look at the clock.
+  // Everything happens in steps: write what the program takes, read what it gives, look at the clock.
   enum class Wait {
     no,
     yes,
-    for_all,  // nothing is asked before all answers are there,
-    for_good  // nor afterwards
+    for_all,  // nothing is asked before all answers have come
+    for_good  // nor is anything asked afterwards
   };
   void step(Wait wait, int other_descriptor = -1);
   void start();
@@ -121,25 +122,25 @@ class CommandEngine final : public Answerer {
   EngineComplaints complaints_;
   ExchangeReader reader_;
   std::shared_ptr<const Scene> scene_;
-  std::deque<OpenQuery> open_;      // without an answer, in order
+  std::deque<OpenQuery> open_;      // queries without an answer, in order
   std::uint64_t first_number_ = 1;  // of open_.front(); the program knows the queries by these
-  std::deque<OpenQuery> recent_;    // the last ones before: should it answer one again, or late
+  std::deque<OpenQuery> recent_;    // the last ones before, in case it answers one again or late
 
-  std::shared_ptr<Run> run_;  // or null: it is started when there is something to ask
+  std::shared_ptr<Run> run_;  // null while there is nothing to ask
   Manner manner_ = Manner::unknown;
-  const Seconds patience_;        // of silence, before a program of unknown manner is told the end
+  const Seconds patience_;        // of silence, before the input of a program of unknown manner is closed
   Seconds first_patience_;        // the same before it answers anything: it may be slow to start
-  Seconds slowest_start_{0};      // to a first answer
-  double spent_ = 0;              // seconds of processors, of former runs
+  Seconds slowest_start_{0};      // until a first answer
+  double spent_ = 0;              // processor seconds of former runs
   std::string last_words_;        // of former runs
-  int silent_runs_ = 0;           // that had to be told the end before the last answers came
-  std::size_t limit_ = kNoLimit;  // queries for the next run, while the one at fault is sought
+  int silent_runs_ = 0;           // whose last answers came only after the end of their input
+  std::size_t limit_ = kNoLimit;  // queries for the next run, during the search for the one at fault
   int failures_in_row_ = 0;
   bool failed_ = false, ever_answered_ = false;
-  std::optional<OwnTime> own_time_;           // of all runs that told it
-  std::shared_ptr<const Scene> given_up_in_;  // or null: it is not given up
+  std::optional<OwnTime> own_time_;           // of all runs that reported it
+  std::shared_ptr<const Scene> given_up_in_;  // null unless it is given up
 
-  std::set<std::string> unknown_keys_;  // that were told of
+  std::set<std::string> unknown_keys_;  // that were reported
 };
 
 }  // namespace lorentz::question

@@ -26,7 +26,7 @@ void EngineComplaints::add(const std::string& what, const Scene& scene, std::str
   if (told_scene_ != scene) append_scene_line(stream, scene);
   if (stream.size() > kMostOfScene) stream = shortened(stream, kMostOfScene) + '\n';
   told_scene_ = scene;
-  line.pop_back();  // its end
+  line.pop_back();  // the line end
   tell(fmt::format("{}:\n{}{}", what, stream, line));
 }
 

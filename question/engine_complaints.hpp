@@ -1,4 +1,4 @@
-// What goes wrong with an engine of somebody else's, told on stderr.
+// Reports on stderr what goes wrong with an engine outside this program.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace lorentz::question {
 
-/// Tells of the first kMost failures, with a stream that shows them again, and how many more there were.
+/// Reports the first kMost failures, each with a stream that reproduces it, and how many more there were.
 class EngineComplaints {
  public:
   static constexpr std::size_t kMost = 20;
@@ -18,14 +18,14 @@ class EngineComplaints {
   EngineComplaints(std::string engine, const Listener& listener)
       : engine_(std::move(engine)), listener_(listener) {}
 
-  /// What is no failure.
+  /// Reports something that is not a failure.
   void tell(const std::string& what) const;
 
   void add(const std::string& what);
-  /// `line`: the query at fault, as a stream has it. The scene is told where it is another than the last time.
+  /// `line`: the query at fault, as in a stream. The scene is reported if it differs from the last time.
   void add(const std::string& what, const Scene& scene, std::string line);
 
-  /// No more are to come.
+  /// Must be called after the last failure.
   void finish() const;
 
  private:

@@ -24,7 +24,7 @@ void add_detail(const Query& query, const Scene& scene, Answer& answer) {
   if (answer.outcome != Outcome::hit || !answer.time) return;
   if (flaw_of(Query{query.x, query.v, answer.obstacle}, scene)) return;
   const Detail detail = collision_detail(scene, query, answer);
-  // Outside the range of binary64 no detail is added. The oracle has it.
+  // No detail is added outside the range of binary64. The oracle has it.
   if (std::isfinite(detail.point[0] + detail.point[1] + detail.point[2] + detail.impact_parameter))
     answer.detail = detail;
 }
@@ -70,7 +70,7 @@ FirstHit ask_walk(const Scene& scene) {
   };
 }
 
-// An engine that is asked one at a time, as an answerer.
+// The answerer of an engine that is asked one query at a time.
 class SingleAnswerer final : public Answerer {
  public:
   SingleAnswerer(std::function<FirstHit(const Scene&)> make, const oracle::Request& request)
@@ -113,7 +113,7 @@ EngineInfo fast(const std::string& name, const Traits& traits = {}) {
                        [name](const Scene& scene) { return first_hits_of(make_engine(name, scene), scene); });
 }
 
-// Those of the fast library have their table in src/engines/make_engine.cpp.
+// The engines of the fast library have their table in src/engines/make_engine.cpp.
 std::vector<EngineInfo> table() {
   const Traits of_reduction{.leaves_undecided = true, .uses_reduction = true};
   std::vector<EngineInfo> all;
@@ -155,7 +155,7 @@ const EngineInfo* own_engine(std::string_view name) {
 
 namespace {
 
-// Whose introduction is bad is said in front.
+// The name of an engine whose introduction is bad is put in front of the message.
 template <class Read>
 std::optional<Introduction> read_of(const std::string& name, const Read& read) {
   try {
@@ -182,7 +182,7 @@ EngineInfo command_named(const std::string& name) {
 EngineInfo library_named(const std::string& name) {
   const std::string file = name.substr(kLibrary.size());
   if (file.empty()) throw InputError("lib: needs the path of a shared library behind it");
-  const std::string claim = claim_line_of_library(file);  // and it can be loaded
+  const std::string claim = claim_line_of_library(file);  // also checks that it can be loaded
   EngineInfo engine{name, {}, EngineInfo::Kind::library};
   engine.answerer = [file](const AnswererOptions& options) {
     return std::make_unique<LibraryEngine>(file, options);

@@ -1,5 +1,4 @@
-// Everything that answers queries: the binary64 engines, the oracle, walk, other programs, and functions of a
-// caller's.
+// All engines by name: the binary64 engines, the oracle, walk, other programs, and functions of the caller.
 #pragma once
 
 #include <functional>
@@ -17,42 +16,43 @@
 
 namespace lorentz::question {
 
-/// Answers the queries of one scene, into an answer that is there already. `digits` are the oracle's only; a
-/// detail that binary64 cannot compute is left out.
+/// Answers the queries of one scene, into an existing answer. Only the oracle gives `digits`. A detail that
+/// binary64 cannot compute is left out.
 using FirstHit = std::function<void(const Query&, const oracle::Request&, Answer&)>;
 
-/// What an answerer is like, for those who treat its answers accordingly.
+/// Properties of an engine that decide how its answers are treated.
 struct Traits {
   bool is_exact = false;          ///< its answers rest on exact arithmetic
-  bool knows_digits = false;      ///< of times, beyond those of a binary64
-  bool leaves_undecided = false;  ///< on purpose: `undecided` is what it says of hard queries, no failure
-  bool uses_reduction = false;    ///< so that `certified`, which rests on `reduction`, cannot judge it
-  bool in_bulk = false;           ///< slow one at a time: its answerer gathers queries
+  bool knows_digits = false;      ///< gives digits of times beyond those of a binary64
+  bool leaves_undecided = false;  ///< on purpose: `undecided` for a hard query is not a failure
+  bool uses_reduction = false;    ///< so `certified`, which rests on `reduction`, cannot judge it
+  bool in_bulk = false;           ///< slow with one query at a time, so its answerer gathers queries
 };
 
 /// An engine as a value. Its name is looked up once, where a user gives it.
 struct EngineInfo {
   enum class Kind {
-    own,      ///< of this program
+    own,      ///< an engine of this program
     command,  ///< `cmd:COMMAND`: another program, which reads a query stream and writes an answer stream
     library,  ///< `lib:FILE.so`: a shared library with the interface of <lorentz/engine.h>
-    guest     ///< a function of the caller's
+    guest     ///< a function of the caller
   };
   std::string name;
-  Traits traits = {};  ///< all false of a command and a library; of a guest only in_bulk is true
+  Traits traits = {};  ///< all false for a command or a library; for a guest only in_bulk is true
   Kind kind = Kind::own;
-  /// One at a time, for a scene without flaws; a batch engine is the engine of single flights that it agrees
-  /// with. Empty but for `own`: others would be slow that way.
+  /// Answers one query at a time in a valid scene. A batch engine uses the engine of single flights that it
+  /// agrees with. Empty unless the kind is `own`, because the others would be slow this way.
   std::function<FirstHit(const Scene&)> first_hit = {};
-  /// Many at a time. Any number of threads may call it, each for itself.
+  /// Makes an answerer, for many queries at a time. Any number of threads may call it; each uses its own
+  /// answerer.
   std::function<std::unique_ptr<Answerer>(const AnswererOptions&)> answerer = {};
 
-  /// What it says of itself. Empty where it has nothing to say: of an engine of this program, or a guest.
+  /// Returns its introduction. Empty for an engine of this program and for a guest.
   std::function<std::optional<Introduction>()> introduce = {};
 
   bool is_own() const { return kind == Kind::own; }
   bool is_command() const { return kind == Kind::command; }
-  /// In a process of its own, which takes time to start, and may die or hang.
+  /// True if it runs in a process of its own, which takes time to start, and may die or hang.
   bool runs_apart() const { return kind == Kind::command || kind == Kind::library; }
 };
 
@@ -63,28 +63,28 @@ const std::vector<EngineInfo>& own_engines();
 std::vector<std::string> own_names();
 std::string names_for_help();
 
-/// The one with this name, or null.
+/// The engine of this program with this name, or null.
 const EngineInfo* own_engine(std::string_view name);
 
-/// An engine of this program, a command, or a library. Throws InputError for an unknown name, or a command that is
-/// empty; FileError for a library that cannot be loaded.
+/// An engine of this program, a command, or a library. Throws InputError for an unknown name or an empty
+/// command, FileError for a library that cannot be loaded.
 EngineInfo engine_named(const std::string& name);
 
-/// The engines in arguments like `reduction,published`. A command and a file may contain commas: from `cmd:` or `lib:`
-/// on an argument is taken whole. Throws as engine_named.
+/// The engines in arguments like `reduction,published`. Commands and files may contain commas: from `cmd:` or
+/// `lib:` on an argument is taken whole. Throws as engine_named.
 std::vector<EngineInfo> engines_named(const std::vector<std::string>& arguments);
 
 /// Their names.
 std::vector<std::string> names_of(const std::vector<EngineInfo>& engines);
 
-/// The same arguments as names.
+/// The names in the same arguments.
 std::vector<std::string> names_in(const std::vector<std::string>& arguments);
 
-/// A function of the caller's by a name of its own. Throws InputError if another engine has it.
+/// A function of the caller, as an engine with a name of its own. Throws InputError if the name is taken.
 EngineInfo guest_engine(std::string name,
                         std::function<std::unique_ptr<Answerer>(const AnswererOptions&)> make);
 
-/// Adds the detail to a hit of an obstacle of the scene, with a time, where binary64 can compute it.
+/// Adds the detail to a hit that has a time and an obstacle of the scene, if binary64 can compute it.
 void add_detail(const Query& query, const Scene& scene, Answer& answer);
 
 }  // namespace lorentz::question

@@ -26,7 +26,7 @@ Judgement judgement_of_invalid(const Answer& given) {
 bool is_later(const Question& question) {
   const Answer& exact = question.exact;
   if (exact.outcome != Outcome::hit) return exact.outcome == Outcome::never;
-  // The exact time lies between the neighbours of the rounded one.
+  // The exact time lies between the neighbours of the rounded time, which therefore decides all other limits.
   if (*exact.time != question.max_time) return question.max_time < *exact.time;
   oracle::Request request;
   request.max_time = question.max_time;
@@ -41,7 +41,7 @@ Judgement judgement_of(const Question& question, const Answer& given, double ulp
     if (says_later || (says_something && is_later(question)))
       return {says_later && is_later(question) ? Verdict::agree : Verdict::wrong};
   }
-  // Answers that are the same need no judge, which many scenes therefore never get.
+  // Equal answers need no judge, so many scenes never get one.
   const Answer& exact = question.exact;
   if (given.outcome == Outcome::hit && exact.outcome == Outcome::hit && same_answer(given, exact))
     return std::isfinite(*exact.time) ? Judgement{Verdict::agree, 0.0} : Judgement{Verdict::agree};
@@ -68,7 +68,7 @@ void ask_all(const Source& source, Answerer& answerer,
     place = next->place;
     open.push_back(std::move(*next));
     const Question& asked = open.back();
-    const Id id = asked.id;  // its reply may come at once, and take it away
+    const Id id = asked.id;  // its reply may come at once and remove it
     if (!asked.is_query())
       answerer.ask_text(id, std::string(asked.text));
     else if (asked.has_limit())
@@ -105,7 +105,7 @@ void examine(std::span<const Question> questions, std::span<const std::unique_pt
              double ulps, const Sink& sink) {
   if (answerers.size() == 1) return examine(all_of(questions), *answerers[0], ulps, sink);
   for (const Question& question : questions)
-    question.place->judge();  // made here, for threads may only read it
+    question.place->judge();  // made here, because threads may only read it
   struct Came {
     Reply reply;
     Judgement judgement;
@@ -124,7 +124,7 @@ namespace {
 
 constexpr const char* kExactAnswers = "exact answers";
 
-// In the order of places, so that each batch engine is prepared once.
+// Asks in the order of places, so that each batch engine is prepared once.
 void answer_by_certified(std::span<Question> questions, const Listener& listener, int jobs) {
   std::vector<Question*> order;
   for (Question& question : questions) order.push_back(&question);

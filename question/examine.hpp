@@ -9,13 +9,13 @@
 
 namespace lorentz::question {
 
-/// Asks all questions of the source, waits for the replies, and passes each on with its question, in the order
-/// of the questions.
+/// Asks all questions of the source, waits for the replies, and passes each reply on with its question, in
+/// the order of the questions.
 void ask_all(const Source& source, Answerer& answerer,
              const std::function<void(const Question&, Reply&)>& take);
 
-/// Judges an answer with the tolerance `ulps`. The right answer to an invalid question is `error`. At the
-/// question's limit nothing is ill-posed: an engine that is asked with one knows its times.
+/// Judges an answer with the tolerance `ulps`. An invalid question must be answered with `error`. No answer
+/// is ill-posed at the question's limit, because an engine that is asked with a limit knows its times.
 oracle::Judgement judgement_of(const Question& question, const Answer& given, double ulps);
 
 /// True if nothing is entered before the question's limit.
@@ -32,11 +32,11 @@ struct Judged {
 };
 using Sink = std::function<void(const Judged&)>;
 
-/// Asks all questions of the source. The sink gets them in their order.
+/// Asks all questions of the source and judges the replies. The sink gets them in the order of the questions.
 void examine(const Source& source, Answerer& answerer, double ulps, const Sink& sink);
 
-/// The same with one thread per answerer, each of which is asked one stretch of the questions. This thread calls the
-/// sink, in the order of the questions.
+/// The same with one thread per answerer; each is asked one stretch of the questions. The calling thread
+/// calls the sink, in the order of the questions.
 void examine(std::span<const Question> questions, std::span<const std::unique_ptr<Answerer>> answerers,
              double ulps, const Sink& sink);
 

@@ -1,4 +1,5 @@
-// How many instructions this thread has executed, where the processor counts them and the system tells.
+// Counts the instructions that this thread executes, if the processor counts them and the system reports
+// them.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@ namespace lorentz::question {
 
 class InstructionCounter {
  public:
-  /// Counts nothing yet.
+  /// Does not count yet.
   InstructionCounter();
   ~InstructionCounter();
   InstructionCounter(const InstructionCounter&) = delete;
@@ -17,8 +18,9 @@ class InstructionCounter {
   void resume();
   void pause();
 
-  /// Of this thread, outside of the kernel, while it counted. Nothing where counting is not possible, or not
-  /// allowed (Linux: /proc/sys/kernel/perf_event_paranoid above 2, a virtual machine without counters).
+  /// The instructions of this thread, outside the kernel, while it counted. Nothing if counting is not
+  /// possible or not allowed (Linux: /proc/sys/kernel/perf_event_paranoid above 2, a virtual machine without
+  /// counters).
   std::optional<std::uint64_t> count() const;
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::chrono::seconds kToIntroduce{10};
 
-// The object that is the line's first member, if that has this key.
+// Reads the object that is the line's first member, if that has this key.
 template <class Read>
 bool read_first(std::string_view line, std::string_view key, const Read& read) {
   const std::string_view rest = line.substr(std::min(line.find_first_not_of(" \t{"), line.size()));
@@ -71,7 +71,7 @@ std::optional<Introduction> introduction_in(std::string_view line) {
 }
 
 std::optional<Introduction> introduction_of_command(const std::string& command) {
-  Process process("{ " + command + "\n} 2>/dev/null");  // what it complains of is said when it is asked
+  Process process("{ " + command + "\n} 2>/dev/null");  // its complaints are shown when it is asked queries
   process.close_input();
   LineBuffer lines;
   LineReader::Line line;

@@ -1,4 +1,4 @@
-// What another program says of itself, and of the time that its own calls took (docs/command_engines.md).
+// What another program reports about itself, and about the time of its own calls (docs/command_engines.md).
 #pragma once
 
 #include <optional>
@@ -10,19 +10,21 @@
 
 namespace lorentz::question {
 
-/// `{"engine":{"name":..,"version":..,"precision":..,"time_tolerance":..,"dimensions":[..]}}`: each may be left out.
+/// `{"engine":{"name":..,"version":..,"precision":..,"time_tolerance":..,"dimensions":[..]}}`; each key may
+/// be left out.
 struct Introduction {
   std::string name = {}, version = {};
   std::optional<NumberFormat> precision = {};
   std::optional<double> time_tolerance = {};  ///< as Claim::time_tolerance
-  std::vector<int> dimensions = {};           ///< empty: not said
+  std::vector<int> dimensions = {};           ///< empty: not stated
 };
 
-/// Nothing if the line does not begin with an object whose first key is "engine". Throws InputError for one that
-/// says something impossible.
+/// Reads an introduction. Returns nothing if the line is not an object whose first key is "engine". Throws
+/// InputError for impossible values.
 std::optional<Introduction> introduction_in(std::string_view line);
 
-/// What the program says when its input is empty. Nothing if it says nothing, fails, or does not end in ten seconds.
+/// The introduction that the program writes when its input is empty. Nothing if it writes none, fails, or
+/// does not end in ten seconds.
 std::optional<Introduction> introduction_of_command(const std::string& command);
 
 /// The time of an engine's own calls, without pipes and text.
@@ -30,11 +32,11 @@ struct OwnTime {
   double seconds = 0;
   double queries = 0;
 
-  std::optional<double> ns_per_query() const;  ///< nothing without queries
+  std::optional<double> ns_per_query() const;  ///< nothing if there were no queries
 };
 
-/// `{"engine_time":{"seconds":..,"queries":..}}`. Nothing if the line is another; throws InputError for numbers that
-/// cannot be.
+/// Reads `{"engine_time":{"seconds":..,"queries":..}}`. Returns nothing for another line; throws InputError
+/// for impossible numbers.
 std::optional<OwnTime> own_time_in(std::string_view line);
 
 }  // namespace lorentz::question

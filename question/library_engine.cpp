@@ -14,8 +14,8 @@
 namespace lorentz::question {
 namespace {
 
-constexpr std::size_t kFirstBlock = 1;     // what fails on it is at fault
-constexpr double kMostBlockSeconds = 0.5;  // soon enough for those who wait, and for the timeout
+constexpr std::size_t kFirstBlock = 1;     // a query that fails alone is at fault
+constexpr double kMostBlockSeconds = 0.5;  // soon enough for users who wait, and for the timeout
 
 bool has_narrow_cell(const ObstacleId& obstacle) {
   return std::all_of(obstacle.cell.begin(), obstacle.cell.end(),
@@ -30,14 +30,14 @@ LibraryEngine::LibraryEngine(std::string file, const AnswererOptions& options)
       complaints_("lib:" + file_, options.listener),
       block_(kFirstBlock) {}
 
-// ---- what is asked
+// ---- queries
 
 void LibraryEngine::enter(const Scene&) {
   drain();
   is_prepared_ = false;
   why_not_.reset();
   if (!given_up_ || !ever_answered_) return;
-  given_up_ = false;  // what it failed on may have been the scene: one more start
+  given_up_ = false;  // the failures may have been due to the scene: one more start
   failures_in_row_ = AnswererOptions::kMostFailuresInRow - 1;
 }
 
@@ -94,7 +94,7 @@ HostPatience LibraryEngine::patience() const {
   return {seconds, options_.enough};
 }
 
-// A machine that is busy is no fault of the library.
+// A busy machine is not the library's fault.
 HostPatience LibraryEngine::loading_patience() const {
   return {std::max(patience().seconds, AnswererOptions::kDefaultTimeout), options_.enough};
 }
@@ -125,7 +125,7 @@ void LibraryEngine::answer_some() {
   if (took.count() < most / 2 && rows == block_) block_ = std::min(2 * block_, SharedQueries::kMost);
 }
 
-// The library loaded, and the scene prepared. Where that fails the first query that waits has the fault.
+// Loads the library and prepares the scene. If that fails, the first query that waits is blamed.
 bool LibraryEngine::get_ready() {
   if (suspect_ == delivered_ && !is_fresh_) process_.reset();
   if (!process_) {
@@ -195,7 +195,7 @@ void LibraryEngine::take_answers(std::size_t rows) {
   }
 }
 
-// What is wrong with a row, or nothing. The library may write to it still, so everything is read once.
+// Returns what is wrong with a row, or nothing. Each value is read once, because the library may still write.
 std::string LibraryEngine::read_row(std::size_t row, Answer& answer) const {
   const SharedAnswers& rows = process_->answers();
   const std::int32_t outcome = rows.outcome[row];
@@ -245,9 +245,9 @@ std::string LibraryEngine::read_obstacle(std::size_t row, ObstacleId& obstacle) 
   return {};
 }
 
-// ---- what goes wrong
+// ---- failures
 
-// It died or fell silent with so many rows to answer.
+// The library died or fell silent with `rows` rows to answer.
 void LibraryEngine::failed_on(std::size_t rows, const std::string& what) {
   const bool alone = rows == 1 && is_fresh_;
   const std::size_t answered = process_->answered_in_order(rows);
@@ -263,7 +263,7 @@ void LibraryEngine::failed_on(std::size_t rows, const std::string& what) {
     ask_again_in_halves(rows);
 }
 
-// All rows were answered before it failed: which one is to blame is not plain.
+// All rows were answered before it failed, so it is not clear which one is at fault.
 void LibraryEngine::ask_again_in_halves(std::size_t rows) {
   complain(
       fmt::format("{} on this query, or on one of the {} after it; they are asked again, fewer at a time",
@@ -291,8 +291,8 @@ void LibraryEngine::give_up_all() {
         Origin::not_asked);
 }
 
-// What is owed gets no answer. A library that is too slow for the time there is, is no fault of it, unless it never gave
-// any answer.
+// Open queries get no answer. Being too slow for the available time is not a fault, unless the library never
+// gave any answer.
 void LibraryEngine::abandon() {
   if (process_ && !ever_answered_) complain("gave no answer in all the time there was");
   process_.reset();

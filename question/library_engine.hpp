@@ -1,4 +1,5 @@
-// `lib:FILE.so`: a shared library as an engine, asked by columns in a process of its own; docs/command_engines.md.
+// `lib:FILE.so`: a shared library as an engine, asked by columns in a process of its own
+// (docs/command_engines.md).
 #pragma once
 
 #include <cstdint>
@@ -12,11 +13,12 @@
 
 namespace lorentz::question {
 
-/// Queries are gathered and asked in blocks, small ones first. Every query gets one answer, in order: where the library
-/// gave none, an `error` that says what it did instead.
+/// Queries are gathered and asked in blocks, small ones first. Every query gets one answer, in order. If the
+/// library gives none, the answer is an `error` that says what the library did instead.
 ///
-/// A library that dies or falls silent is loaded anew. The query at fault is the one that it fails on alone, as the
-/// first after it was loaded. The first row that it had not answered is tried so, after those before it.
+/// A library that dies or falls silent is loaded again. The query at fault is the one on which it fails
+/// alone, as the first after loading. The first row without an answer is tried this way, after the rows
+/// before it.
 class LibraryEngine final : public Answerer {
  public:
   LibraryEngine(std::string file, const AnswererOptions& options);
@@ -64,17 +66,17 @@ class LibraryEngine final : public Answerer {
   const std::string file_;
   const AnswererOptions options_;
   EngineComplaints complaints_;
-  std::deque<Waiting> waiting_;  // without an answer, in order
+  std::deque<Waiting> waiting_;  // queries without an answer, in order
   std::uint64_t delivered_ = 0;
 
   std::optional<LibraryProcess> process_;
-  bool is_prepared_ = false;            // the process, for the scene
-  bool is_fresh_ = false;               // it was asked nothing yet
+  bool is_prepared_ = false;            // the process is prepared for the scene
+  bool is_fresh_ = false;               // it has not been asked anything yet
   std::optional<std::string> why_not_;  // the scene is not supported
 
-  std::size_t block_;                     // rows of the next
+  std::size_t block_;                     // rows of the next block
   std::optional<std::uint64_t> suspect_;  // the query with this number is asked alone
-  std::string suspicion_;                 // what happened where it was not alone
+  std::string suspicion_;                 // what happened when it was not alone
   int failures_in_row_ = 0;
   bool failed_ = false, ever_answered_ = false, given_up_ = false;
   OwnTime own_time_;

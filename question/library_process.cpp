@@ -22,11 +22,11 @@
 namespace lorentz::question {
 namespace {
 
-constexpr double kLookSeconds = 0.1;  // between looks at the clock and at the answers
+constexpr double kLookSeconds = 0.1;  // between checks of the clock and the answers
 constexpr std::chrono::milliseconds kTimeToEnd{1000};
 constexpr std::size_t kBothSizes = sizeof(SharedQueries) + sizeof(SharedAnswers);
 
-// A file without a name, whose descriptor lies above those that a child has.
+// A file without a name. Its descriptor lies above those that a child has.
 class NamelessFile {
  public:
   explicit NamelessFile(const char* name) {
@@ -53,13 +53,13 @@ int file_of(std::string_view bytes) {
   return file.descriptor();
 }
 
-// The program that loads libraries, as a file. It stays until this program ends.
+// The program that loads libraries, as a file. It exists until this program ends.
 const std::string& host_file() {
   static const std::string path = fmt::format("/proc/self/fd/{}", file_of(library_host_program()));
   return path;
 }
 
-// A name without a slash would be looked for where the system has its libraries.
+// The system would look for a name without a slash among its own libraries.
 std::string path_of(const std::string& file) {
   return file.find('/') == std::string::npos ? "./" + file : file;
 }
@@ -120,7 +120,7 @@ std::string died(const Ending& ending) {
 
 }  // namespace
 
-// Both processes write to it and read from it.
+// The memory that both processes share.
 struct LibraryProcess::Memory {
   Memory() : file("lorentz_library_rows") {
     if (ftruncate(file.descriptor(), kBothSizes) == 0)
@@ -176,7 +176,7 @@ HostReply LibraryProcess::exchange(const std::string& order, std::size_t rows, c
     ::poll(pipes, 2, static_cast<int>(std::ceil(1000 * std::min(kLookSeconds, patience.seconds))));
     if (!to_write.empty()) {
       const std::optional<std::size_t> count = process_.write(to_write);
-      to_write.remove_prefix(count.value_or(to_write.size()));  // it does not read: it ends
+      to_write.remove_prefix(count.value_or(to_write.size()));  // the process no longer reads: it is ending
       if (count && *count > 0) last_move = Clock::now();
     }
     if (take_report(reply)) return reply;
@@ -189,7 +189,7 @@ HostReply LibraryProcess::exchange(const std::string& order, std::size_t rows, c
   }
 }
 
-// True if there is no more to wait for.
+// True if there is nothing more to wait for.
 bool LibraryProcess::take_report(HostReply& reply) {
   char piece[4096];
   ssize_t count = 0;

@@ -12,12 +12,12 @@
 
 namespace lorentz::question {
 
-/// What came of an order to the process.
+/// The process's reply to an order.
 struct HostReply {
   enum class Fate {
-    reported,  ///< as `report` and `text` say
+    reported,  ///< see `report` and `text`
     failed,    ///< it died, or was silent too long; `text` says how: "died (exit 3)"
-    enough     ///< it was not waited for to the end
+    enough     ///< the wait was broken off
   };
   Fate fate = Fate::reported;
   HostReport report{};
@@ -26,16 +26,16 @@ struct HostReply {
   bool is(HostReport::Kind kind) const { return fate == Fate::reported && report.kind == kind; }
 };
 
-/// How long one waits for a reply.
+/// How long to wait for a reply.
 struct HostPatience {
-  double seconds;                ///< of silence; a row that is answered breaks it
-  std::function<bool()> enough;  ///< asked often; may be empty
+  double seconds;                ///< of silence; an answered row ends it
+  std::function<bool()> enough;  ///< called often, true breaks the wait off; may be empty
 };
 
-/// For one thread. After a reply that failed, or was not waited for, nothing more is ordered.
+/// For one thread. After a reply that failed, or a wait that was broken off, no more orders may be given.
 class LibraryProcess {
  public:
-  /// Throws FileError if no process can be started. load() comes first.
+  /// Throws FileError if no process can be started. load() must be called first.
   explicit LibraryProcess(const std::string& file);
   ~LibraryProcess();
   LibraryProcess(const LibraryProcess&) = delete;
@@ -43,16 +43,16 @@ class LibraryProcess {
 
   HostReply load(const HostPatience& patience);
   HostReply prepare(const Scene& scene, int threads, const HostPatience& patience);
-  /// The first rows of queries().
+  /// Has the first `rows` rows of queries() answered.
   HostReply answer(std::size_t rows, const HostPatience& patience);
 
-  /// The memory of both; answers() is the library's to write, now and later.
+  /// The memory that both processes share. The library may write to answers() at any time.
   SharedQueries& queries() { return *queries_; }
   const SharedAnswers& answers() const { return *answers_; }
-  /// How many of the first rows were answered before the first that was not.
+  /// The number of rows before the first that is not answered.
   std::size_t answered_in_order(std::size_t rows) const;
 
-  /// Lets it release what it has, and end.
+  /// Lets the library release its resources, and the process end.
   Ending end();
 
  private:
@@ -68,7 +68,7 @@ class LibraryProcess {
   std::string received_;
 };
 
-/// Loads the library, and lets it go. Returns the line by which it says what it claims, or an empty text. Throws
+/// Loads the library and unloads it again. Returns the line with its claim, or an empty text. Throws
 /// FileError, with the remedy, if it cannot be loaded.
 std::string claim_line_of_library(const std::string& file);
 

@@ -1,4 +1,4 @@
-// What long work tells whoever waits for it: a person at a terminal, or nobody.
+// Callbacks for the progress and the messages of long work.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +7,15 @@
 
 namespace lorentz::question {
 
-/// Each may be empty: then nobody is told.
+/// Each may be empty.
 struct Listener {
-  /// `done` of `total` of what `what` names are done. Called often.
+  /// `done` of `total` items are done; `what` names them. Called often.
   std::function<void(const std::string& what, std::size_t done, std::size_t total)> progress;
   /// Something that a person should know, without a line end.
   std::function<void(const std::string& text)> message;
 };
 
-/// `done` of `total` are done, for a listener who may not listen.
+/// Reports that `done` of `total` are done, if the listener has a callback for it.
 inline void report(const Listener& listener, const std::string& what, std::size_t done, std::size_t total) {
   if (listener.progress) listener.progress(what, done, total);
 }

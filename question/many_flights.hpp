@@ -1,4 +1,4 @@
-// Many flights asked for at once: of the engines that fly them together, and of any engine.
+// Many flights at once: by the engines that fly them together, and by any engine.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,10 @@ namespace lorentz::question {
 /// `batch` or `certified-batch` in one scene. Any number of threads may share it.
 class ManyFlights {
  public:
-  /// `batch` needs a scene that Reduction does (Reduction::beyond).
+  /// `batch` needs a scene that Reduction supports (Reduction::beyond).
   ManyFlights(bool certified, const Scene& scene);
 
-  /// `uncertain`: the queries that are still to be asked one by one, in order; empty of `batch`.
+  /// `uncertain` gets the queries that must still be asked one by one, in order; empty for `batch`.
   void fly(const QueryColumns& queries, const FlightColumns& flights, std::vector<std::size_t>& uncertain,
            int jobs = 1) const;
 
@@ -34,7 +34,7 @@ class ColumnFlyer {
  public:
   ColumnFlyer(const EngineInfo& engine, const Scene& scene);
 
-  /// Outcomes and times. What together has none is asked alone.
+  /// Gives outcomes and times. Queries that stay uncertain together are asked one by one.
   void fly(const QueryColumns& queries, FlightTable& flights) const;
 
  private:

@@ -68,7 +68,7 @@ bool LineBuffer::next(LineReader::Line& line) {
 std::string Ending::text() const {
   switch (how) {
     case How::exited:
-      // What the shell makes of its command's end.
+      // The status by which the shell reports how its command ended.
       if (code == 127) return "exit 127, no such command";
       if (code > 128 && code <= 128 + SIGRTMAX)
         return fmt::format("exit {}, signal {}, {}", code, code - 128, strsignal(code - 128));
@@ -83,7 +83,7 @@ std::string Ending::text() const {
 
 namespace {
 
-// The groups that live now, for the signal handler.
+// The groups that run now, for the signal handler.
 std::array<std::atomic<pid_t>, 64> live_groups;
 
 void replace_group(pid_t old_group, pid_t new_group) {
@@ -102,9 +102,9 @@ void kill_programs() {
 
 namespace {
 
-// A program in a group of its own does not get the terminal's Ctrl-C, so it is passed on, and then does here
-// what it would have done.
-// What these signals did before: their default, or a handler that ends the program, too.
+// A program in a group of its own does not get the terminal's Ctrl-C. Therefore these signals first kill the
+// groups, and then do here what they would have done. `former` is what they did before: their default, or a
+// handler that ends the program, too.
 constexpr std::array kEndings{SIGINT, SIGTERM, SIGHUP, SIGPIPE};
 std::array<struct sigaction, kEndings.size()> former;
 
@@ -115,7 +115,7 @@ void kill_groups_and_die(int signal_number) {
   raise(signal_number);  // blocked until the handler returns
 }
 
-// Whoever comes once only (SA_RESETHAND) ends the program; who means to come again has other plans with it.
+// A one-shot handler (SA_RESETHAND) is taken to end the program; one that stays installed is not.
 bool ends_the_program(const struct sigaction& action) {
   return action.sa_handler == SIG_DFL || (action.sa_handler != SIG_IGN && (action.sa_flags & SA_RESETHAND));
 }
@@ -133,8 +133,9 @@ void handle_signals_once() {
   (void)done;
 }
 
-// Descriptors above those of standard input, output and error, even where we were started without these:
-// they are put in the child's places one after the other, and none may lie in another's way.
+// The descriptors lie above those of standard input, output and error, even if this program was started
+// without these. They are moved into the child's places one after the other, and none may lie in another's
+// way.
 struct Pipe {
   int to_read = -1, to_write = -1;
 
@@ -155,7 +156,8 @@ struct Pipe {
   bool is_open() const { return to_read >= 0 && to_write >= 0; }
 };
 
-// While this lives this thread takes no ending: a program is started and its group is noted, or neither.
+// Blocks these signals in this thread while it lives, so that a program is started and its group is noted, or
+// neither.
 struct Undisturbed {
   sigset_t before;
 
@@ -170,7 +172,7 @@ struct Undisturbed {
 
 constexpr int kInherited = 3;
 
-// The new program has the signal mask `mask`.
+// The new program gets the signal mask `mask`.
 int spawn(const Executable& program, const Pipe& in, const Pipe& out, const Pipe& errors,
           const sigset_t& mask, pid_t& pid) {
   posix_spawn_file_actions_t actions;
@@ -244,7 +246,8 @@ void Process::close_input() {
 }
 
 std::optional<std::size_t> Process::write(std::string_view text) {
-  // SIGPIPE is for whoever reads our own output. Here it is blocked, and taken back if this write raised it.
+  // SIGPIPE must only report that our own output is closed. Here it is blocked, and removed if this write
+  // raised it.
   sigset_t pipe_only, before, pending;
   sigemptyset(&pipe_only);
   sigaddset(&pipe_only, SIGPIPE);
@@ -266,8 +269,8 @@ double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-// What a process spent, by its clock; and what its line in /proc/PID/stat says, in hundredths of a second, of itself
-// and of the children that it waited for. 0 if it is not of this group.
+// Processor seconds of a process, by its clock if it has one, and of the children that it waited for, by its
+// line in /proc/PID/stat, in hundredths of a second. 0 if it is not of this group.
 double seconds_of(pid_t pid, const std::string& stat, pid_t group) {
   const std::size_t name_end = stat.rfind(')');
   long of_group = 0, own[2] = {}, children[2] = {};
@@ -292,7 +295,7 @@ double Process::processor_seconds() const {
   double seconds = 0;
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator("/proc", none)) {
-    const int pid = std::atoi(entry.path().filename().c_str());  // 0: no process
+    const int pid = std::atoi(entry.path().filename().c_str());  // 0: not a process
     std::string stat;
     if (pid > 0 && std::getline(std::ifstream(entry.path() / "stat"), stat))
       seconds += seconds_of(pid, stat, pid_);
@@ -305,7 +308,8 @@ Ending Process::end(std::chrono::milliseconds grace) {
   close_input();
   const auto until = std::chrono::steady_clock::now() + grace;
   siginfo_t info{};
-  // It stays a zombie until the group is killed, so that the group's number cannot be another's by then.
+  // The program stays a zombie until the group is killed, so that the group's number cannot belong to another
+  // by then.
   for (auto pause = std::chrono::microseconds(100);;
        pause = std::min(2 * pause, std::chrono::microseconds(10000))) {
     info.si_pid = 0;

@@ -14,24 +14,23 @@
 
 namespace lorentz::question {
 
-/// Lines out of what a descriptor gives bit by bit. Memory stays bounded: of a line beyond kMaxLine the rest
-/// is passed over.
+/// Splits into lines what a descriptor gives piece by piece. Memory stays bounded: a line beyond kMaxLine is
+/// skipped.
 class LineBuffer {
  public:
   static constexpr std::size_t kMaxLine = std::size_t{1} << 20;
 
   enum class Read { some, nothing, end };
 
-  /// What the descriptor, which does not block, has now; `end` for good.
+  /// Reads what the descriptor, which must not block, has now; `end` is final.
   Read read_from(int descriptor);
 
-  /// The next line that is complete, as LineReader has them. After the end, also a last one without a line
-  /// end.
+  /// Gives the next complete line, as LineReader does; after the end also a last line without a line end.
   bool next(LineReader::Line& line);
 
  private:
   std::vector<char> buffer_;
-  std::size_t begin_ = 0, end_ = 0, searched_ = 0;  // unread; of those, known to hold no line end
+  std::size_t begin_ = 0, end_ = 0, searched_ = 0;  // unread: begin_ to end_; searched_: no line end in these
   std::size_t number_ = 0;
   bool at_end_ = false, skipping_ = false;
 };
@@ -50,17 +49,17 @@ struct Ending {
 struct Executable {
   std::string name;  ///< in messages
   std::string file;
-  std::vector<std::string> arguments;  ///< the first is the name that it sees
-  int inherited = -1;                  ///< a descriptor that is its number 3; -1: it has none
+  std::vector<std::string> arguments;  ///< the first is the name that the program sees
+  int inherited = -1;                  ///< a descriptor that becomes its number 3; -1: none
 };
 
 /// A program that runs in a process group of its own, with pipes to its standard input and from its standard
-/// output and error; what it writes to the latter is passed on to ours. The group is killed when this object goes,
-/// and when one of the common signals ends this program.
+/// output and error. Its standard error is passed on to ours. The group is killed when this object is
+/// destroyed, and when one of the common signals ends this program.
 class Process {
  public:
-  /// By `/bin/sh -c`. Throws FileError if there can be no process. (That the command exists is for the shell to
-  /// find out.)
+  /// Runs the command by `/bin/sh -c`. Throws FileError if no process can be started. (Whether the command
+  /// exists only the shell finds out.)
   explicit Process(const std::string& command);
   /// Throws FileError if it cannot be started.
   explicit Process(const Executable& program);
@@ -70,19 +69,20 @@ class Process {
 
   int input() const { return input_; }    ///< the descriptor to write to, never blocking; -1 when closed
   int output() const { return output_; }  ///< the descriptor to read from, never blocking
-  int errors() const { return errors_; }  ///< that of its standard error, likewise; -1 once it has ended
+  int errors() const { return errors_; }  ///< the same for its standard error; -1 once that has ended
 
-  /// Passes on what it wrote to its standard error, and keeps the last line of it that is not blank.
+  /// Passes on what it wrote to its standard error, and keeps the last line that is not blank.
   void pass_on_errors();
-  /// That line, without its end, and at most kMostWords bytes of it; empty if there is none since the last call.
+  /// That line, without its end and at most kMostWords bytes of it; empty if there was none since the last
+  /// call.
   std::string take_last_words() { return std::exchange(last_words_, {}); }
   static constexpr std::size_t kMostWords = 300;
 
-  /// Seconds that the processors spent on its group until now, those of its children to a hundredth; once it was ended, on the program and
-  /// the children that it waited for.
+  /// Processor seconds of its group until now, those of its children to a hundredth; after end(), of the
+  /// program and the children that it waited for.
   double processor_seconds() const;
 
-  /// Writes as much as the pipe takes and says how much; nothing if the program no longer reads. Raises no
+  /// Writes as much as the pipe takes and returns how much; nothing if the program no longer reads. Raises no
   /// SIGPIPE.
   std::optional<std::size_t> write(std::string_view text);
   void close_input();
@@ -93,11 +93,11 @@ class Process {
  private:
   pid_t pid_ = -1;
   int input_ = -1, output_ = -1, errors_ = -1;
-  std::string last_words_, line_;  // line_: begun, and not ended
-  double spent_ = 0;               // processor_seconds() in the end
+  std::string last_words_, line_;  // line_: the unfinished line
+  double spent_ = 0;               // processor_seconds() at the end
 };
 
-/// Kills the groups of all that run. A signal handler may call it.
+/// Kills the groups of all running programs. A signal handler may call it.
 void kill_programs();
 
 }  // namespace lorentz::question

@@ -1,4 +1,4 @@
-// A question with its exact answer, and the place that it is asked in: a scene with those who judge there.
+// A question with its exact answer, and its place: a scene with its oracle, judge and margins.
 #pragma once
 
 #include <cmath>
@@ -19,9 +19,9 @@
 
 namespace lorentz::question {
 
-/// A scene without flaws, and whose answers are the truth in it. Oracle, judge and margins are made when they
-/// are first needed: many scenes never need one. One thread must make each; after that any number of threads
-/// may use it.
+/// A valid scene, and the engine whose answers are the truth in it. Oracle, judge and margins are made when
+/// they are first needed, because many scenes never need one. One thread must make each; after that any
+/// number of threads may use it.
 class Place {
  public:
   /// Judge and margins count in ulps of the claim's precision.
@@ -33,7 +33,7 @@ class Place {
 
   const Scene& scene() const { return scene_; }
   const Claim& claim() const { return claim_; }
-  /// Do the scene and this query consist of numbers of the claim's precision?
+  /// True if the scene and this query consist of numbers of the claim's precision.
   bool has_numbers_for(const Query& query) const {
     return is_in_its_numbers_ && consists_of(query, claim_.precision);
   }
@@ -41,22 +41,22 @@ class Place {
   const oracle::Judge& judge() const { return made(judge_, claim_); }
   const oracle::Margins& margins() const { return made(margins_, claim_.precision); }
 
-  /// The true answer to a query without flaws.
+  /// The true answer to a valid query.
   Answer exact(const Query& query, const oracle::Request& request = {}) const {
     return truth_ == Truth::oracle ? oracle().first_hit(query, request)
                                    : made(certified_).first_hit(query, request);
   }
 
-  /// What became of a question in this scene.
+  /// Records the result of a question in this scene.
   void note(bool is_unsupported) { ++asked_, unsupported_ += is_unsupported; }
   void note_time(double seconds) { seconds_ += seconds; }
 
-  /// The engine is another program, which failed here again and again.
+  /// Records that the engine is another program, which failed here again and again.
   void give_up() { given_up_ = true; }
   bool is_given_up() const { return given_up_; }
 
-  /// The engine did none of the first questions here, or took very long, or was given up: it is asked no more
-  /// of them.
+  /// True if the engine should be asked no more questions here: it supported none of the first kEnough, took
+  /// more than kSlowSeconds each on average, or was given up.
   bool is_beyond_engine() const {
     return given_up_ || (asked_ >= kEnough &&
                          (unsupported_ == asked_ || seconds_ > kSlowSeconds * static_cast<double>(asked_)));
@@ -91,19 +91,19 @@ struct Question {
   Query query = {};
   Answer exact = {};       ///< without the limit
   std::string where = {};  ///< where it comes from, in words: "drawn, square, r = 0.1"
-  /// Of an invalid question, in place of the query: its line without braces and id.
+  /// For an invalid question, in place of the query: its line without braces and id.
   std::string text = {};
   Id id = "null";
   std::vector<std::string> tags = {};  ///< of a golden record
   std::optional<double> margin = {};   ///< of a golden record
-  /// The limit: entered before it, or `later`.
+  /// The limit: the answer is `later` if nothing is entered before it.
   double max_time = std::numeric_limits<double>::infinity();
-  double condition = 0;  ///< Margins::condition of the exact answer; 0 if it was not asked for
+  double condition = 0;  ///< Margins::condition of the exact answer; 0 if not computed
   bool is_query() const { return text.empty(); }
   bool has_limit() const { return std::isfinite(max_time); }
 };
 
-/// Questions of one place, with their numbers as ids, without answers.
+/// Questions of one place, numbered from 0 by their ids, without answers.
 inline std::vector<Question> questions_of(const std::shared_ptr<Place>& place,
                                           const std::vector<Query>& queries) {
   std::vector<Question> questions;

@@ -15,7 +15,7 @@ namespace {
 using Questions = std::span<const Question>;
 using SteadyClock = std::chrono::steady_clock;
 constexpr std::size_t kBlock = 16;
-constexpr double kEnoughSeconds = 10;  // no further rounds after that, nor blocks of a round
+constexpr double kEnoughSeconds = 10;  // after this no further rounds, nor blocks of a round
 
 struct Round {
   double total_ns = 0;
@@ -31,14 +31,14 @@ double ns_since(SteadyClock::time_point start) {
   return std::chrono::duration<double, std::nano>(SteadyClock::now() - start).count();
 }
 
-// That this thread spent until now.
+// Processor time of this thread until now.
 double thread_ns() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
 }
 
-// An engine that is asked one at a time; `first_hits` has its function for each question.
+// An engine that is asked one query at a time; `first_hits` has its function for each question.
 Round run_round(Questions questions, const std::vector<const FirstHit*>& first_hits, const std::string& name,
                 const Listener& listener) {
   Round round;
@@ -76,7 +76,7 @@ struct ColumnsThere {
   QueryTable queries = {};
 };
 
-// A query whose `from` has no place in columns is left out: there is hardly ever one.
+// A query whose `from` does not fit into columns is left out; such queries are rare.
 std::deque<ColumnsThere> columns_of(Questions questions, const EngineInfo& engine) {
   std::deque<ColumnsThere> all;
   for (const Question& question : questions) {
@@ -87,7 +87,7 @@ std::deque<ColumnsThere> columns_of(Questions questions, const EngineInfo& engin
   return all;
 }
 
-// A batch engine. What is timed is what it is for: columns to columns.
+// A batch engine. Timed is the task that it is made for: columns to columns.
 Round run_round(const std::deque<ColumnsThere>& all, const std::string& name, const Listener& listener) {
   constexpr std::size_t kTogether = 1024;  // their columns stay in the cache
   Round round;
@@ -112,7 +112,7 @@ Round run_round(const std::deque<ColumnsThere>& all, const std::string& name, co
   return round;
 }
 
-// A library: the time of its own calls. Those for a part are few.
+// A library, timed by its own calls. It needs few of them for a part.
 Round run_round_by_own_time(Questions questions, Answerer& program) {
   constexpr std::size_t kPart = 256;
   Round round;
@@ -134,7 +134,7 @@ Round run_round_by_own_time(Questions questions, Answerer& program) {
   return round;
 }
 
-// Another program, or a function of the caller's.
+// Another program, or a function of the caller.
 Round run_round(Questions questions, Answerer& program, const std::string& name, const Listener& listener) {
   std::size_t answered = 0;
   program.on_reply([&](Reply&) { report(listener, name, ++answered, questions.size()); });
@@ -152,7 +152,7 @@ Round run_round(Questions questions, Answerer& program, const std::string& name,
   return round;
 }
 
-// An engine, ready for every place, and what it did in each round.
+// An engine, ready for every place, and its times in each round.
 class Entrant {
  public:
   Entrant(Questions questions, const EngineInfo& engine, Answerer* running, const RaceOptions& options)
@@ -191,7 +191,7 @@ class Entrant {
   }
   bool failed() const { return program_ && program_->failed(); }
 
-  /// Ends the program, if it began here, and takes the times from the median round.
+  /// Ends the program, if it was started here, and takes the times from the median round.
   Speed finish() {
     if (own_) own_->finish();
     Speed speed;
@@ -219,9 +219,9 @@ class Entrant {
   const bool is_library_;
   std::map<const Place*, FirstHit> by_place_;
   std::vector<const FirstHit*> first_hits_;
-  std::deque<ColumnsThere> columns_;  // in place of these
+  std::deque<ColumnsThere> columns_;  // instead of these, for a batch engine
   std::unique_ptr<Answerer> own_;
-  Answerer* program_ = nullptr;  // likewise
+  Answerer* program_ = nullptr;  // likewise, for another program or a function of the caller
   std::vector<Round> rounds_;
 };
 
@@ -236,7 +236,7 @@ std::vector<Speed> race(Questions questions, const std::vector<EngineInfo>& engi
     entrants.push_back(std::make_unique<Entrant>(questions.first(std::min(most, questions.size())),
                                                  engines[i], running, options));
   }
-  // In turn, so that what slows the machine down for a while slows all of them.
+  // In turn, so that a temporary slowdown of the machine affects all of them.
   const auto start = SteadyClock::now();
   for (int round = 0; round < options.rounds && ns_since(start) < 1e9 * kEnoughSeconds; ++round)
     for (const auto& entrant : entrants)

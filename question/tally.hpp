@@ -1,4 +1,4 @@
-// How many of an engine's answers are right, wrong, .., and how exact their times are.
+// Counts how many of an engine's answers are right, wrong, .., and keeps how exact their times are.
 #pragma once
 
 #include <optional>
@@ -9,20 +9,19 @@
 
 namespace lorentz::question {
 
-/// The value that this share of the values does not exceed; 0 of none.
+/// The value that this share of the values does not exceed; 0 if there are no values.
 double quantile(std::vector<double> values, double share);
 
 /// How long an engine takes.
 struct Speed {
-  double ns_per_query = 0;         ///< mean over the queries, in the median round; 0: not timed
-  double ns_median = 0;            ///< median over blocks of 16 queries (of a batch engine 1024) of a
-                                   ///< block's mean; of another program, whose answers come when they come,
-                                   ///< the mean
-  double ns_low = 0, ns_high = 0;  ///< the quartiles of the same
-  std::optional<double> processor_ns = {};  ///< the same mean in the time of processors, where it is known
+  double ns_per_query = 0;  ///< mean over the queries, in the median round; 0: not timed
+  double ns_median = 0;  ///< median of the means of blocks of 16 queries (1024 for a batch engine, 256 for a
+                         ///< library); for a command, whose answers come at irregular times, the mean
+  double ns_low = 0, ns_high = 0;           ///< the quartiles of these means
+  std::optional<double> processor_ns = {};  ///< ns_per_query in processor time, if known
   std::optional<double> instructions =
-      {};                             ///< a query, where InstructionCounter counts; not of another program
-  std::optional<double> own_ns = {};  ///< a query, of the engine's own calls, as it says itself (OwnTime)
+      {};                             ///< per query, if InstructionCounter counts; not for another program
+  std::optional<double> own_ns = {};  ///< per query, in the engine's own calls, as it reports (OwnTime)
   bool failed = false;                ///< another program that broke on the way
 };
 
@@ -31,18 +30,19 @@ struct Tally {
   std::string name;
   std::size_t queries = 0, agree = 0, ill_posed = 0, wrong = 0, undecided = 0, unsupported = 0, error = 0,
               missing = 0;
-  std::size_t wrong_time = 0;      ///< of those that agree: their time is beyond its tolerance
-  std::size_t other_quantity = 0;  ///< of wrong times: no rounding explains them
+  std::size_t wrong_time = 0;      ///< of those that agree: the time is beyond its tolerance
+  std::size_t other_quantity = 0;  ///< of the wrong times: no rounding explains them
   bool failed = false;             ///< another program that broke on the way
   std::size_t timed_hits = 0;      ///< hits of the right obstacle with a time that could be measured
   std::vector<double> ulps;        ///< errors of these times
-  std::vector<double> wrong_ulps, wrong_conditions;  ///< of wrong times: in ulps, in units of the condition
+  std::vector<double> wrong_ulps, wrong_conditions;  ///< errors of wrong times: in ulps, in units of the
+                                                     ///< condition
   Speed speed;
 
   void count(const oracle::Judgement& judgement);
-  void add(const Tally& other);       ///< its counts and errors; not its name and speed
+  void add(const Tally& other);       ///< adds counts and errors, but not name and speed
   double ulp_at(double share) const;  ///< the error that this share of the hits does not exceed
-  double mean_ulp() const;            ///< 0 of none, as is the largest
+  double mean_ulp() const;            ///< 0 if there are none, like max_ulp()
   double max_ulp() const;
 };
 

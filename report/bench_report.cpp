@@ -80,7 +80,7 @@ std::string fits_text(const std::vector<BenchFit>& fits) {
   return table.text() + '\n';
 }
 
-// What one engine did over all cells of the table.
+// The results of one engine over all cells of the table.
 class Summary {
  public:
   void add(const Cell& cell) {
@@ -126,7 +126,7 @@ class Summary {
   }
 
  private:
-  // Where it begins to fail.
+  // Says where the engine begins to fail.
   std::string edge_text() const {
     std::optional<int> last;
     for (const auto& [decade, call] : calls_.by_decade())

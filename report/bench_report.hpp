@@ -1,4 +1,4 @@
-// What `lorentz bench` says of its cells: a table and conclusions for people, CSV, and the report as JSON.
+// The output of `lorentz bench`: a table and conclusions for people, CSV, and the report as JSON.
 #pragma once
 
 #include <string>
@@ -10,23 +10,23 @@
 
 namespace lorentz::report {
 
-/// The median time of an engine as a power of the radius, in one scene, of one difficulty.
+/// The median time of an engine as a power of the radius, in one scene and at one difficulty.
 struct BenchFit {
   std::string scene, engine, difficulty;
   PowerFit fit;
 };
 
-/// Of all that were measured at three radii or more up to 0.01: of larger ones the obstacles, not the space
-/// between them, decide the time.
+/// Fits for all that were measured at three or more radii up to 0.01. At larger radii the obstacles, not the
+/// space between them, determine the time.
 std::vector<BenchFit> bench_fits(const std::vector<Cell>& cells);
 
-/// Table, fits, and one conclusion an engine.
+/// Table, fits, and one conclusion per engine.
 std::string bench_text(const std::vector<Cell>& cells, const std::vector<std::string>& engines);
 
-/// One line a cell that was measured, and a header.
+/// A header, and one line per measured cell.
 std::string bench_csv(const std::vector<Cell>& cells);
 
-/// One JSON object; `manifest` is one, too. All were judged by the claim.
+/// One JSON object; `manifest` is one, too. All cells were judged by the claim.
 std::string bench_json(const std::vector<Cell>& cells, const std::string& manifest, const Claim& claim = {});
 
 }  // namespace lorentz::report

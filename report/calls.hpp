@@ -1,4 +1,4 @@
-// Where an engine begins to fail: its answers by the decade of what makes a question hard.
+// Where an engine begins to fail: its answers by the decade of a measure of difficulty.
 #pragma once
 
 #include <map>
@@ -13,17 +13,18 @@ namespace lorentz::report {
 /// Answers from 10^decade to 10^(decade + 1).
 struct Call {
   std::size_t right = 0, ill_posed = 0, wrong = 0, undecided = 0;
-  double radii_off = 0;  ///< the largest error of a time, along the ray
+  double radii_off = 0;  ///< the largest error of a time, along the ray, in radii
 
   std::size_t total() const { return right + ill_posed + wrong + undecided; }
   friend bool operator==(const Call&, const Call&) = default;
 };
 
-/// By decade. A tolerance shows as an edge: wrong below, right above.
+/// Answers by decade. A tolerance shows as an edge: wrong below, right above.
 class Calls {
  public:
-  /// Of an answer that is right or undecided the obstacle in question is the one that is hit, of others the
-  /// one that is passed over or named. Nothing to tell: no size, or 0, or another verdict than the four.
+  /// Adds an answer. For a right or undecided answer the obstacle in question is the one that is hit; for
+  /// others it is the one that is passed over or named. Ignores an answer without a size, with size 0, or
+  /// with another verdict than the four.
   void add(std::optional<double> size, oracle::Verdict verdict, std::optional<double> radii_off = {});
   void add(const Calls& others);
   void add(int decade, const Call& call);
@@ -35,10 +36,10 @@ class Calls {
   std::map<int, Call> by_decade_;
 };
 
-/// An array of objects, one a decade, its keys as the members are called.
+/// An array of objects, one per decade; the keys are the members' names.
 void append_json(std::string& out, const Calls& calls);
 
-/// What append_json wrote. Throws InputError and json::Error.
+/// Reads what append_json wrote. Throws InputError and json::Error.
 Calls calls_of(json::Array array);
 
 }  // namespace lorentz::report

@@ -20,7 +20,7 @@ void add_worst(json::Members& object, const Worst& worst) {
 }  // namespace
 
 void append_json(std::string& out, const Cell& cell) {
-  // null for all that was not measured
+  // null for everything that was not measured
   const auto measured = [&](const auto& value) { return cell.skipped ? std::nullopt : std::optional(value); };
   json::append(out, [&](json::Members& object) {
     object.add("scene", cell.scene, "radius", cell.radius, "dimension", cell.dimension, "difficulty",
@@ -47,7 +47,7 @@ std::string text(json::Value value) {
   return std::string(value.text());
 }
 
-// What append_number wrote.
+// Reads what append_number wrote.
 double number(json::Value value) {
   if (value.type() == json::Type::string && value.text() == "inf") return HUGE_VAL;
   return read_number(value, "a number");
@@ -160,7 +160,7 @@ bool fits(const Histogram& h, std::size_t most) {
                            : std::ilogb(h.max) == h.first + static_cast<int>(h.counts.size()) - 1);
 }
 
-// No more of each verdict than the cell has.
+// True if the calls have no more of each verdict than the cell.
 bool fits(const Calls& calls, const Cell& cell) {
   Call all;
   for (const auto& [decade, call] : calls.by_decade()) {

@@ -1,5 +1,5 @@
-// A cell of a table of speed against error: what one engine did with the queries of one scene, at one radius,
-// of one difficulty.
+// A cell of a table of speed against error: the results of one engine on the queries of one scene, at one
+// radius and one difficulty.
 #pragma once
 
 #include <optional>
@@ -12,20 +12,20 @@
 
 namespace lorentz::report {
 
-/// Nanoseconds a query.
+/// Nanoseconds per query.
 struct CellTimes {
-  double median = 0, q1 = 0, q3 = 0;  ///< over blocks of queries, of a block's mean
+  double median = 0, q1 = 0, q3 = 0;  ///< over the means of blocks of queries
   double mean = 0;
 
   friend bool operator==(const CellTimes&, const CellTimes&) = default;
 };
 
-/// The input that an engine did worst with: wrong before ill-posed before the right obstacle with the largest
+/// The input with an engine's worst answer: wrong before ill-posed before the right obstacle with the largest
 /// error of its time.
 struct Worst {
   std::string verdict;         ///< "wrong", "ill-posed", "wrong-time" or "agree"
-  std::optional<double> ulps;  ///< error of the time, where the obstacle is right
-  std::string query;           ///< as JSON, its numbers hexadecimal
+  std::optional<double> ulps;  ///< error of the time, if the obstacle is right
+  std::string query;           ///< as JSON, with hexadecimal numbers
   std::string command;         ///< a shell line that shows it
 
   friend bool operator==(const Worst&, const Worst&) = default;
@@ -33,14 +33,14 @@ struct Worst {
 
 struct Cell {
   std::string scene;
-  std::optional<double> radius;  ///< none: the scene's own sizes
+  std::optional<double> radius;  ///< nothing: the scene's own sizes
   int dimension = 2;
   std::string difficulty, engine;
   std::size_t queries = 0;
-  bool skipped = false;         ///< too slow, or all is unsupported: of what follows only that is known
-  std::optional<CellTimes> ns;  ///< empty if the program broke
-  std::optional<double> instructions;  ///< a query, where the processor counts them
-  double mean_path = 0;                ///< mean time of the flights that hit, 0 if none does
+  bool skipped = false;         ///< too slow, or all unsupported: of the members below only this is known
+  std::optional<CellTimes> ns;  ///< empty if the program failed
+  std::optional<double> instructions;  ///< per query, if the processor counts them
+  double mean_path = 0;                ///< mean time of the flights that hit; 0 if none does
   Share undecided, ill_posed, wrong, wrong_time;
   std::size_t unsupported = 0, error = 0, missing = 0;
   Histogram ulps;        ///< errors of the times of right hits, in ulps
@@ -51,14 +51,14 @@ struct Cell {
   friend bool operator==(const Cell&, const Cell&) = default;
 };
 
-/// An object, its keys as the members are called; of a skipped cell null for what was not measured.
+/// An object; the keys are the members' names. A skipped cell has null for all that was not measured.
 void append_json(std::string& out, const Cell& cell);
 
-/// What append_json wrote. Throws InputError.
+/// Reads what append_json wrote. Throws InputError.
 Cell cell_of(std::string_view json);
 
-/// Why no engine can have come to this with up to `most` queries, or nothing: counts that do not fit
-/// together, bounds that are not those of their counts, times and errors out of order.
+/// Says why no engine can have this result for up to `most` queries; empty if one can. Flaws are inconsistent
+/// counts, bounds that do not belong to their counts, and times and errors out of order.
 std::string flaw_of(const Cell& cell, std::size_t most);
 
 }  // namespace lorentz::report

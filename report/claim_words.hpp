@@ -1,4 +1,4 @@
-// By which claim an engine was judged, in words, as arguments and as JSON.
+// The claim by which an engine was judged: in words, as arguments and as JSON.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace lorentz::report {
 
-/// ", in binary32, times within 1e-4"; empty of binary64 and times judged by ulps.
+/// ", in binary32, times within 1e-4"; empty for binary64 and times judged by ulps.
 std::string words_of(const Claim& claim);
 
-/// " in binary64, times by ulps": always both.
+/// " in binary64, times by ulps": always has both.
 std::string full_words_of(const Claim& claim);
 
-/// As arguments, each with a space before it; empty of no claim.
+/// As arguments, each with a space before it; empty if nothing is claimed.
 std::string arguments_of(const Claim& claim);
 
 void add_claim(json::Members& object, const Claim& claim);

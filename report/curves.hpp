@@ -13,18 +13,18 @@ namespace lorentz::report {
 struct FreePathCurve {
   struct CurvePoint {
     double t = 0;
-    double survival = 0;           ///< as it was flown
+    double survival = 0;           ///< of the engine's flights
     std::optional<double> exact;   ///< of the same flights
-    std::optional<double> theory;  ///< of the law
+    std::optional<double> theory;  ///< by the law
   };
   std::string scene, engine;
-  std::optional<double> radius;  ///< none: the scene's own sizes
+  std::optional<double> radius;  ///< nothing: the scene's own sizes
   std::string from;              ///< "surface" or "uniform": where flights start
-  std::string law;               ///< that `theory` is of, and when it holds; empty: none is known
+  std::string law;               ///< the law behind `theory`, and when it holds; empty: no law is known
   std::vector<CurvePoint> points;
 };
 
-/// The share of trajectories with so many right collisions, or more.
+/// The share of trajectories with at least this number of right collisions.
 struct SurvivalCurve {
   struct CurvePoint {
     std::size_t collisions = 0;
@@ -36,7 +36,7 @@ struct SurvivalCurve {
   std::vector<CurvePoint> points;
 };
 
-/// An object, its keys as the members are called; `low` and `high` stand for `bounds`.
+/// An object; the keys are the members' names, but `low` and `high` stand for `bounds`.
 void append_json(std::string& out, const FreePathCurve& curve);
 void append_json(std::string& out, const SurvivalCurve& curve);
 

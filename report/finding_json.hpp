@@ -1,4 +1,4 @@
-// The parts of a finding, as reports (docs/page.md) and shell lines have them.
+// The parts of a finding, in the form of reports (docs/page.md) and shell lines.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace lorentz::report {
 
-/// {"scene":{..}}, a line of a query stream without its end.
+/// {"scene":{..}}: a line of a query stream, without the line end.
 std::string scene_line(const Scene& scene);
 
-/// The members of a query without braces and id, its numbers in hexadecimal.
+/// The members of a query without braces and id, with hexadecimal numbers.
 std::string query_members(const Query& query, const Components& count);
 
 /// The shell command that prints a query stream: the scene, and the query `times` times.
 std::string printed(const Scene& scene, const std::string& query_members, std::size_t times = 1);
 
-/// The lines of a text in which all of them end.
+/// The lines of a text; each must end with a line end.
 std::vector<std::string> lines_of(const std::string& text);
 
 }  // namespace lorentz::report

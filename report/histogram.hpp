@@ -10,13 +10,13 @@ namespace lorentz::report {
 struct Histogram {
   std::size_t exact = 0;              ///< errors of zero
   int first = 0;                      ///< counts[i] errors are in [2^(first + i), 2^(first + i + 1))
-  std::vector<std::size_t> counts;    ///< neither its first nor its last is zero
-  double mean = 0, p99 = 0, max = 0;  ///< of all errors, those of zero too; 0 of none
+  std::vector<std::size_t> counts;    ///< neither the first nor the last is zero
+  double mean = 0, p99 = 0, max = 0;  ///< of all errors, including zeros; 0 if there are none
 
   friend bool operator==(const Histogram&, const Histogram&) = default;
 };
 
-/// Of finite errors, none below zero; others are an std::invalid_argument.
+/// The errors must be finite and not below zero; throws std::invalid_argument otherwise.
 Histogram histogram_of(const std::vector<double>& errors);
 
 /// {"exact":2,"first":-3,"counts":[1,0,4],"mean":..,"p99":..,"max":..}.

@@ -59,8 +59,8 @@ std::string rest_of(std::size_t all, std::size_t shown) {
   return all > shown ? fmt::format("... and {} more (--limit {} shows them)\n", all - shown, all) : "";
 }
 
-// A * behind points that rounding took out of the channel. What is nothing but the rounding of another
-// component shows as 0.
+// Points that rounding has moved out of the channel are followed by a *. A component that is only the
+// rounding error of another one is shown as 0.
 std::string point_text(Vec point, bool inside, int dimension) {
   double largest = 0;
   for (const double component : point) largest = std::max(largest, std::fabs(component));

@@ -1,4 +1,4 @@
-// What there is to say of the channels of a scene, and of the closed directions of rows.
+// Reports on the channels of a scene, and on the closed directions of rows.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@ namespace lorentz::report {
 /// Finite, infinite with the number of directions, or not known. `limited`: narrow channels were left out.
 std::string verdict_of(const oracle::Horizon& horizon, bool limited);
 
-/// All of it for people, `limit` rows of a table at most.
+/// The whole report for people, with at most `limit` rows in a table.
 std::string text_of(const oracle::Horizon& horizon, std::size_t limit, bool limited);
 
-/// All of it as one JSON object, of a scene of this name.
+/// The whole report as one JSON object, for a scene of this name.
 std::string json_of(const oracle::Horizon& horizon, const std::string& scene, bool limited);
 
-/// Of one direction through a layer.
+/// The report on one direction through a layer.
 std::string text_of(const oracle::OpenDirection& found);
 std::string json_of(const oracle::OpenDirection& found, const std::string& scene, const Vec& direction);
 

@@ -15,7 +15,7 @@
 namespace lorentz::report {
 namespace {
 
-// As Linux calls it; the word of whom builds for another system stands in the field `system`.
+// The name that Linux gives. On another system only the field `system` describes the machine.
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);)

@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view kPlace = "%REPORT%";
 constexpr std::string_view kLineSeparator = "\u2028", kParagraphSeparator = "\u2029";
 
-// Outside its strings JSON has none of these characters, so that an escape is the same text.
+// JSON has these characters only inside strings, so the escape stands for the same text.
 std::string embedded(std::string_view json) {
   std::string out;
   out.reserve(json.size() + json.size() / 16);

@@ -6,12 +6,12 @@
 
 namespace lorentz::report {
 
-/// Whether this program has the page in it: its script is bundled when the program is built, which needs npm.
+/// True if this program contains the page. Its script is bundled when the program is built, which needs npm.
 bool has_page();
 
-/// The page that shows a report, which is one JSON object in UTF-8 and is embedded as it is, but for the
-/// characters that HTML or scripts would take for their own: these are written as JSON escapes.
-/// Throws FileError if this program has no page.
+/// The page that shows a report. The report is one JSON object in UTF-8. It is embedded unchanged, except
+/// that characters with a meaning in HTML or scripts are written as JSON escapes. Throws FileError if this
+/// program has no page.
 std::string page(std::string_view report_json);
 
 }  // namespace lorentz::report

@@ -1,5 +1,4 @@
-// The page without its report, as report/web/build.mjs makes it. Empty in a program that was built without
-// npm.
+// The page without its report, made by report/web/build.mjs. Empty in a program that was built without npm.
 #pragma once
 
 #include <string_view>

@@ -9,7 +9,7 @@
 namespace lorentz::report {
 namespace {
 
-// The t that Student's t of so many degrees of freedom exceeds in absolute value with a chance of 5 %.
+// The t that Student's t with `degrees` degrees of freedom exceeds in absolute value with probability 5 %.
 double student_t(double degrees) {
   const double x = beta_quantile(degrees / 2, 0.5, 0.05);  // degrees / (degrees + t^2)
   return std::sqrt(degrees * (1 - x) / x);

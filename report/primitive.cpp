@@ -16,7 +16,7 @@ std::string literal(const Texts& numbers) {
   return fmt::format("{{{}}}", fmt::join(numbers, ", "));
 }
 
-// The size of an obstacle as C++, with what it stands for behind it.
+// The size of an obstacle as C++, with its meaning as a comment.
 std::string size_literal(const Atom& atom, int dimension) {
   if (atom.is_ball()) return fmt::format("r = {:a};  // the ball", atom.radius);
   std::string text = fmt::format("a[{0}][{0}] = {{", dimension);

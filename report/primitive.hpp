@@ -1,4 +1,4 @@
-// The one question that a finding comes down to, for people to copy: a ray, and one ball or ellipsoid.
+// The one question to which a finding reduces, for people to copy: a ray, and one ball or ellipsoid.
 #pragma once
 
 #include <optional>
@@ -8,14 +8,14 @@
 
 namespace lorentz::report {
 
-/// Every number exactly, the truth about it, and a snippet of C++ that has the same numbers.
+/// All numbers exactly, the true answer, and a snippet of C++ with the same numbers.
 struct Primitive {
   std::string
       json;  ///< origin, direction, centre, radius or semiaxes (hexadecimal), discriminant, entry_time
   std::string cpp;
 };
 
-/// Of an obstacle that exists.
+/// The obstacle must exist.
 Primitive primitive_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
                        const ObstacleId& obstacle);
 

@@ -1,4 +1,4 @@
-// A query for people to copy, to the bit.
+// A query for people to copy, exact to the bit.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace lorentz::report {
 
-/// The first components, as "0x1.8p-1".
+/// The first `dimension` components, as "0x1.8p-1".
 std::vector<std::string> hexadecimal(const Vec& a, int dimension);
 
-/// {"x":["0x1.8p-1","0x0p+0"],"v":[..]} with `from` where there is one, as the exchange format reads it. A 2D
-/// query has two components.
+/// {"x":["0x1.8p-1","0x0p+0"],"v":[..]}, with `from` if the query has it, in the exchange format. A 2D query
+/// has two components.
 std::string hexadecimal_query(const Query& query, const Components& count);
 
 }  // namespace lorentz::report

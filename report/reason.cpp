@@ -59,7 +59,7 @@ std::string decision_text(const oracle::HardestDecision& decision, const Compone
 
 namespace {
 
-// The answer names another obstacle than the exact one, and that is why it is wrong.
+// The case that the answer is wrong because of the obstacle that it names.
 std::optional<Dispute> about_named(const oracle::Approach& approach, const Answer& given,
                                    const std::string& name) {
   if (given.outcome == Outcome::inside)

@@ -9,7 +9,7 @@
 
 namespace lorentz::report {
 
-/// "3.5 ulps". What is 2^20 ulps or more is said to be that: beyond it they tell nothing, as of times near 0.
+/// "3.5 ulps"; from 2^20 on "2^20 ulps or more", because larger numbers say nothing, as for times near 0.
 std::string ulps_text(double ulps);
 
 /// "lattice 0, atom 1, cell (2, -1)".
@@ -18,27 +18,27 @@ std::string name_of(const ObstacleId& obstacle, const Components& count);
 /// The decision that an exact answer rests on with the smallest margin, in a sentence.
 std::string decision_text(const oracle::HardestDecision& decision, const Components& count);
 
-/// What an answer comes down to that names another obstacle or outcome than the exact one.
+/// The disagreement with an answer that names another obstacle or outcome than the exact one.
 struct Dispute {
-  ObstacleId obstacle;  ///< the one in question: missed by the line though named, or passed over
-  /// By so many of its radii the line misses it, or (below 0) meets it; of a start in question x lies outside
-  /// or inside of it.
+  ObstacleId obstacle;  ///< the one in question: named though the line misses it, or passed over
+  /// By how many of its radii the line misses it, or (below 0) meets it. If the start is in question: by how
+  /// many x lies outside or inside it.
   double radii = 0;
   std::string text;  ///< a sentence
 };
 
-/// Nothing if the two agree but for a time, or if an answer names no obstacle of the scene. `decisive` is the
-/// obstacle that the judgement rests on (Judgement::obstacle), the exact one if it is not known.
+/// Nothing if the two agree except for a time, or if an answer names no obstacle of the scene. `decisive` is
+/// the obstacle that the judgement rests on (Judgement::obstacle), or the exact one if that is not known.
 std::optional<Dispute> dispute_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
                                   const Answer& exact, const Answer& given,
                                   const std::optional<ObstacleId>& decisive);
 
-/// The obstacle that such an answer is judged by, with the usual tolerance; nothing if the exact answer names
-/// none.
+/// The obstacle by which such an answer is judged, with the usual tolerance; nothing if the exact answer
+/// names none.
 std::optional<ObstacleId> decisive_of(const Scene& scene, const Query& query, const Answer& exact,
                                       const Answer& given);
 
-/// The dispute, and the decision that is hard, a line each; both lines end. Empty if the two agree.
+/// The dispute and the hard decision, one line each, with line ends. Empty if the two agree.
 std::string reason_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
                       const Answer& exact, const Answer& given, const std::optional<ObstacleId>& decisive,
                       const std::string& indent);

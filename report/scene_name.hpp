@@ -1,4 +1,4 @@
-// What a scene is called in a report.
+// The name of a scene in a report.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// How often something happened, and how sure one can be of it.
+// How often something happened, and how certain its frequency is.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,7 @@
 
 namespace lorentz::report {
 
-/// `count` of some number of independent trials; the share of all trials that this is lies between `low` and
-/// `high`.
+/// `count` events in a number of independent trials; the true share of events lies between `low` and `high`.
 struct Share {
   std::size_t count = 0;
   double low = 0, high = 1;
@@ -15,13 +14,14 @@ struct Share {
   friend bool operator==(const Share&, const Share&) = default;
 };
 
-/// With the bounds of Clopper and Pearson (Biometrika 26, 1934) at 95 %, exact whatever the count: were the
-/// share at `low`, so many or more would be seen with 2.5 %; were it at `high`, so few or fewer. Of no trials
-/// nothing is known: 0 to 1. `count` above `total` is an std::invalid_argument.
+/// The bounds are those of Clopper and Pearson (Biometrika 26, 1934) at 95 %, exact for every count: if the
+/// share were `low`, `count` or more events would be seen with probability 2.5 %; if it were `high`, `count`
+/// or fewer. Without trials nothing is known: 0 to 1. Throws std::invalid_argument if `count` exceeds
+/// `total`.
 Share share_of(std::size_t count, std::size_t total);
 
-/// What is known, with 95 %, of a share of which none was seen in `total` independent trials: it is at most
-/// this. About 3 / total; 1 of no trials.
+/// The upper bound, at 95 %, of a share if no event was seen in `total` independent trials. About 3 / total;
+/// 1 without trials.
 double bound_of_none(std::size_t total);
 
 /// {"count":3,"low":1e-4,"high":2e-3}

@@ -11,19 +11,19 @@ namespace lorentz::report {
 class Table {
  public:
   explicit Table(std::vector<std::string> header) : rows_{std::move(header)} {}
-  /// Escapes what acts on a terminal.
+  /// Escapes characters that act on a terminal.
   void add(std::vector<std::string> row) {
     for (std::string& text : row) text = printable(text);
     rows_.push_back(std::move(row));
   }
 
-  /// The last column is prose: to the left.
+  /// The last column is prose and is aligned to the left.
   Table& with_prose() {
     prose_ = true;
     return *this;
   }
 
-  /// The first column to the left, the others to the right, a rule under the header.
+  /// The first column is aligned to the left, the others to the right; the header is underlined.
   std::string text() const;
 
  private:

@@ -15,13 +15,13 @@
 namespace lorentz::runs {
 namespace {
 
-// How SQLite is to open a file.
+// How SQLite must open a file.
 struct Opening {
   std::string name;
   int flags;
 };
 
-// A path as SQLite takes it in a URI.
+// A path in the form that SQLite accepts in a URI.
 std::string uri_of(const std::string& path) {
   std::string uri = "file:";
   for (const char c : path) {
@@ -32,8 +32,8 @@ std::string uri_of(const std::string& path) {
   return uri;
 }
 
-// SQLite reads a file that is written ahead, or a plain one, without writing; but for one that is to be written
-// ahead and whose files for that are missing (a copy of the file alone): that it must be told to take as it is.
+// SQLite reads a plain file, or one with a write-ahead log, without writing. A file that should have a log
+// but lacks it (a copy of the file alone) must be opened as immutable.
 Opening reading(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(path + ": " + std::strerror(errno));
@@ -57,7 +57,7 @@ std::int64_t number_of(const Connection& connection, const char* sql) {
   return statement.step() ? statement.integer() : 0;
 }
 
-// Tables, indices and what else there is, by name; white space counts nothing.
+// Tables, indices and all other objects, by name; white space is ignored.
 std::vector<std::string> schema_of(const Connection& connection) {
   Statement row(connection,
                 "SELECT type || ' ' || name || ' ' || tbl_name || ' ' || ifnull(sql, '') FROM "
@@ -90,7 +90,7 @@ Database::Database(const std::string& path, Access access, const FileKind& kind)
 
 Database::~Database() {
   if (!writes_ || !is_file_) return;
-  // A plain file from here on, unless somebody is reading it.
+  // Makes it a plain file, unless another process is reading it.
   if (in_transaction_) sqlite3_exec(connection_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
   if (is_ahead_)
     sqlite3_exec(connection_.handle(), "PRAGMA journal_mode = DELETE", nullptr, nullptr, nullptr);
@@ -99,7 +99,7 @@ Database::~Database() {
 void Database::set_up(const FileKind& kind) {
   const bool is_empty = number_of(connection_, "SELECT count(*) FROM sqlite_master") == 0;
   if (!is_empty || !writes_) check(kind);
-  if (!writes_) return connection_.run("BEGIN");  // all that is read is of one moment
+  if (!writes_) return connection_.run("BEGIN");  // everything that is read is of one moment
   if (!is_empty) return;
   write_ahead();
   const std::string mark = "BEGIN; PRAGMA application_id = " + std::to_string(kind.application) +
@@ -107,7 +107,7 @@ void Database::set_up(const FileKind& kind) {
   connection_.run((mark + kind.schema + "COMMIT;").c_str());
 }
 
-// Before anything is changed, or believed.
+// Called before anything is changed or trusted.
 void Database::check(const FileKind& kind) const {
   if (number_of(connection_, "PRAGMA application_id") != kind.application)
     throw FileError(path() + ": is a database, but no " + kind.name);
@@ -121,7 +121,7 @@ void Database::check(const FileKind& kind) const {
                     "copy from before, or name another store");
 }
 
-// From the first write on, so that a file that is refused stays as it is.
+// Starts at the first write, so that a file that is refused stays unchanged.
 void Database::write_ahead() {
   if (is_ahead_) return;
   is_ahead_ = true;

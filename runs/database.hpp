@@ -1,5 +1,5 @@
-// A SQLite file that a run is kept in: written ahead while the run writes it, so that whoever is killed loses at
-// most what was not yet committed, and never the file; a plain file otherwise.
+// A SQLite file that keeps a run. While the run writes it, it has a write-ahead log, so that a killed process
+// loses at most what was not yet committed, and never the file. Otherwise it is a plain file.
 #pragma once
 
 #include <memory>
@@ -11,27 +11,27 @@
 namespace lorentz::runs {
 
 enum class Access {
-  write,    ///< makes the file if there is none; nobody else may write
-  read,     ///< changes and makes no file; another process may write meanwhile
-  settled,  ///< the same, of what nobody else may be writing
+  write,    ///< creates the file if it is missing; no other process may write
+  read,     ///< changes and creates no file; another process may write meanwhile
+  settled,  ///< the same, but no other process may be writing
 };
 
 /// Files of one kind.
 struct FileKind {
   std::string name;     ///< "store of lorentz fuzz"
-  int application = 0;  ///< tells them from other databases
+  int application = 0;  ///< distinguishes them from other databases
   int format = 1;
   const char* schema = "";  ///< the SQL that makes their tables
   std::string busy = "another process is writing this store; wait for it, stop it, or name another file";
 };
 
-/// For one thread. Everything throws FileError if the file does not do what it should.
+/// For one thread. All functions throw FileError if the file is unusable.
 class Database {
  public:
   static constexpr const char* kMemory = ":memory:";
 
-  /// The path kMemory is a store that goes with this object. A file must have the tables of the kind, and
-  /// nothing else; what it has of views and triggers never runs.
+  /// The path kMemory names a store that lives as long as this object. A file must have the tables of the
+  /// kind and nothing else; its views and triggers never run.
   Database(const std::string& path, Access access, const FileKind& kind);
   ~Database();
   Database(const Database&) = delete;
@@ -40,7 +40,7 @@ class Database {
   const std::string& path() const { return connection_.path(); }
   const Connection& connection() const { return connection_; }
 
-  /// Writes from begin() on become durable together, by commit().
+  /// Writes from begin() on become durable together at commit().
   void begin();
   void commit();
 

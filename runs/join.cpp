@@ -7,7 +7,7 @@
 namespace lorentz::runs {
 namespace {
 
-// What Open MPI, and what others tell the processes that they start.
+// The number that Open MPI, or another MPI, gives to the processes that it starts.
 int processes_started() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
     if (const char* size = std::getenv(name)) return std::atoi(size);

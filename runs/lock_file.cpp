@@ -15,7 +15,7 @@ namespace lorentz::runs {
 
 namespace {
 
-// Also of a link to a file that is not there yet.
+// Also follows a link to a file that does not exist yet.
 std::string without_links(const std::string& file) {
   namespace fs = std::filesystem;
   constexpr int kMostLinks = 40;
@@ -48,13 +48,13 @@ LockFile::~LockFile() {
   close();
 }
 
-// A lock has nothing in it: what has is somebody's file, which would be removed.
+// A lock is empty. A file with content belongs to the user, and would be removed.
 bool LockFile::is_empty_file() const {
   struct stat ours {};
   return ::fstat(lock_, &ours) == 0 && S_ISREG(ours.st_mode) && ours.st_size == 0;
 }
 
-// Not one that another process removed between our opening and locking it.
+// False if another process removed the file between our opening and locking it.
 bool LockFile::is_the_one_there() const {
   struct stat ours {
   }, there{};
@@ -62,10 +62,10 @@ bool LockFile::is_the_one_there() const {
 }
 
 void LockFile::close() {
-  ::close(lock_);  // -1 is refused, and nothing else happens
+  ::close(lock_);  // -1 is refused without further effect
 }
 
-// A constructor that throws has no destructor.
+// If a constructor throws, its destructor does not run.
 void LockFile::fail(const std::string& what) {
   close();
   throw FileError(what);

@@ -1,18 +1,18 @@
-// One process at a time writes a file.
+// Lets only one process at a time write a file.
 #pragma once
 
 #include <string>
 
 namespace lorentz::runs {
 
-/// FILE.lock, beside the file that a path means (links are followed): held by the process that writes the
-/// file, and removed with it. The system releases it however the process ends. (A lock on the file itself
-/// would get in the way of SQLite's own, and would stay with the old file where a new one takes its place.)
-/// A reader that only wants no other process to write makes no file: without a lock file there is no writer.
+/// FILE.lock, beside the file to which a path leads (links are followed). The process that writes the file
+/// holds it, and removes it at the end. The system releases it however the process ends. (A lock on the file
+/// itself would interfere with SQLite's own, and would stay with the old file if a new one takes its place.)
+/// A reader that only excludes writers creates no file: without a lock file there is no writer.
 class LockFile {
  public:
-  /// Throws FileError: if another process holds it, the file's name and `busy`; if FILE.lock is there and is
-  /// no lock, for it has something in it.
+  /// Throws FileError if another process holds the lock (with the file's name and `busy`), or if FILE.lock
+  /// exists and is not a lock, because it is not empty.
   LockFile(const std::string& file, bool writes, const std::string& busy);
   ~LockFile();
   LockFile(const LockFile&) = delete;

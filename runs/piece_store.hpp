@@ -1,4 +1,4 @@
-// What is done of a run, piece by piece, in one file (--store).
+// The finished pieces of a run, in one file (--store).
 #pragma once
 
 #include <cstdint>
@@ -12,26 +12,26 @@
 
 namespace lorentz::runs {
 
-/// All that the pieces of a run depend on, as names and values. Runs are the same if all of it is the same.
+/// Everything on which the pieces of a run depend, as names and values. Two runs are the same if all of it is
+/// equal.
 using Plan = std::vector<std::pair<std::string, std::string>>;
 
-/// Reads one piece; what it throws as an InputError is told with file and piece.
+/// Reads one piece. If it throws InputError, the message is extended by file and piece.
 using ReadPiece = std::function<void(const std::string& piece)>;
 
-/// What to do about a file that cannot be believed.
+/// The remedy for a file that cannot be trusted.
 inline constexpr const char* kRemedy =
     "; take a copy from before, or name another file (this one stays as it is)";
 
-/// The pieces of a run, texts whose meaning the run knows, in their order. Each has a checksum that begins with
-/// that of the one before, and with the plan: what was changed, left out or moved is noticed before it is
-/// believed.
+/// The pieces of a run in order; they are texts whose meaning the run knows. Each has a checksum that
+/// continues that of the piece before, beginning with the plan, so that a piece that was changed, left out or
+/// moved is detected before it is trusted.
 class PieceStore {
  public:
-  /// Without a path pieces are kept in memory. With one the file is locked while this lives if it is written,
-  /// and begun if it is not there. `command`: whose run it is ("flights"). `plan` gets the program's version in
-  /// front. Throws InputError for a file of another plan or command, or with damaged
-  /// pieces, FileError for one that is no such file,
-  /// or that another process writes.
+  /// Without a path pieces are kept in memory. A file that is written is locked while this lives, and created
+  /// if it does not exist. `command`: the command of the run ("flights"). The program's version is put in
+  /// front of `plan`. Throws InputError for a file of another plan or command, or with damaged pieces;
+  /// FileError for a file of another kind, or one that another process writes.
   PieceStore(const std::optional<std::string>& path, const std::string& command, const Plan& plan,
              Access access = Access::write);
 
@@ -40,9 +40,10 @@ class PieceStore {
   std::uint64_t size() const { return size_; }
   bool is_file() const { return is_file_; }
 
-  /// The store then has this piece alone. Killed at any moment, it has it or those before. Throws FileError.
+  /// Replaces all pieces by this one. If the program is killed, the store has either the new or the old ones.
+  /// Throws FileError.
   void set(const std::string& piece);
-  /// And these besides.
+  /// Adds these pieces.
   void add(const std::vector<std::string>& pieces);
 
  private:

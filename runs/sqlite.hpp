@@ -14,17 +14,17 @@
 
 namespace lorentz::runs {
 
-/// Of a row: a finding's lines are far shorter.
+/// The size limit of a row; a finding's lines are far shorter.
 inline constexpr int kMostBytes = 64 << 20;
 
-/// A value that no store has where it stands.
+/// A value that cannot occur at its place in a store.
 struct BadValue : FileError {
   using FileError::FileError;
 };
 
 class Connection {
  public:
-  /// `name`: what SQLite is to call the path.
+  /// `name`: the path in the form for SQLite.
   Connection(const std::string& path, const std::string& name, int flags) : path_(path) {
     const int status = sqlite3_open_v2(name.c_str(), &handle_, flags, nullptr);
     if (status != SQLITE_OK) {
@@ -33,7 +33,7 @@ class Connection {
       throw FileError(path + ": " + why);
     }
     sqlite3_busy_timeout(handle_, 2000);
-    // A store is data. Whatever else a file brings along must not run, nor take all memory.
+    // A store is data. Nothing else in a file may run, or take all memory.
     for (const auto& [option, on] : {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1},
                                      {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
                                      {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
@@ -66,7 +66,7 @@ class Connection {
   sqlite3* handle_ = nullptr;
 };
 
-/// Bind in the order of the question marks, then step.
+/// Callers bind values in the order of the question marks, then step.
 class Statement {
  public:
   Statement(const Connection& connection, std::string_view sql) : connection_(connection) {
@@ -105,7 +105,7 @@ class Statement {
     column_ = 0;
     return status == SQLITE_ROW;
   }
-  /// Runs a statement without rows, to be bound anew.
+  /// Runs a statement without rows, and prepares it to be bound again.
   void done() {
     step();
     sqlite3_reset(handle_);
@@ -124,7 +124,7 @@ class Statement {
     if (n < 0 || static_cast<std::uint64_t>(n) > most) refuse("is out of its range");
     return static_cast<std::uint64_t>(integer());
   }
-  /// From 0 on.
+  /// A number not below 0.
   int small() { return static_cast<int>(count(std::numeric_limits<int>::max())); }
   double real() { return sqlite3_column_double(handle_, next(SQLITE_FLOAT)); }
   std::optional<double> real_or_null() {

@@ -1,13 +1,12 @@
-// The processes of one run, where mpirun started several. What they say to each other is the business of who
-// derives from this. Nobody but files called *_mpi knows MPI; a program built without it has *_none.cpp in
-// the place of *_mpi.cpp.
+// The processes of one run, if mpirun started several. Derived classes define their messages. Only files
+// called *_mpi use MPI; a program built without it has *_none.cpp in place of *_mpi.cpp.
 #pragma once
 
 #include <memory>
 
 namespace lorentz::runs {
 
-/// Used by the one thread that made it; a process makes one.
+/// For the thread that made it; a process makes only one.
 class World {
  public:
   int rank() const;
@@ -27,8 +26,8 @@ class World {
   std::unique_ptr<Mpi> mpi_;
 };
 
-/// Did mpirun start several processes for this run? Throws InputError if it did, but this program was built
-/// without MPI; `instead` says which options share out work without it.
+/// True if mpirun started several processes for this run. Throws InputError if it did but this program was
+/// built without MPI; `instead` names the options that share out work without it.
 bool are_several(const char* instead);
 
 /// Null if this process runs alone.
@@ -37,7 +36,7 @@ std::unique_ptr<Ranks> join(const char* instead) {
   return are_several(instead) ? std::make_unique<Ranks>() : nullptr;
 }
 
-/// Was this program built with MPI?
+/// True if this program was built with MPI.
 bool has_mpi();
 
 }  // namespace lorentz::runs

@@ -1,4 +1,4 @@
-// The file in which `lorentz bench --store` keeps the cells that are done.
+// The file in which `lorentz bench --store` keeps finished cells.
 #pragma once
 
 #include <map>
@@ -12,23 +12,23 @@
 
 namespace lorentz::question {
 
-/// Scene, radius, difficulty, engine: what tells the cells of a run apart.
+/// Scene, radius, difficulty and engine; they identify a cell of a run.
 using CellKey = std::tuple<std::string, std::optional<double>, std::string, std::string>;
 
 class BenchStore {
  public:
-  /// Without a path nothing is kept in a file. One that is there must be of this run. `words`: what its cells
+  /// Without a path nothing is kept in a file. An existing file must be of this run. `words`: what its cells
   /// depend on besides the plan and the groups. Throws InputError or FileError.
   BenchStore(std::optional<std::string> path, const BenchPlan& plan, const std::vector<BenchGroup>& groups,
              const runs::Plan& words, std::string manifest);
 
-  /// The cells of a group, one an engine in their order, if all of them are there.
+  /// The cells of a group, one per engine in the engines' order, if all of them are stored.
   std::optional<std::vector<report::Cell>> find(const BenchGroup& group) const;
 
-  /// Keeps them; killed at any moment, all or none of them are in the file.
+  /// Stores the cells. If the program is killed, all or none of them are in the file.
   void add(const std::vector<report::Cell>& cells);
 
-  /// Of the run's first part, as JSON.
+  /// The manifest of the run's first part, as JSON.
   const std::string& manifest() const { return manifest_; }
 
  private:

@@ -26,7 +26,7 @@ std::string text_of(double number) {
 
 namespace {
 
-constexpr double kSecondsPerRound = 0.1;  // an engine that would take longer does fewer queries, or none
+constexpr double kSecondsPerRound = 0.1;  // a slower engine gets fewer queries, or none
 constexpr std::size_t kPilot = 16;
 constexpr int kRounds = 5;
 
@@ -41,12 +41,12 @@ std::vector<Question> questions_of(const BenchPlan& plan, const BenchGroup& grou
                                 starts::free_starts(place->scene(), kind, plan.seed, plan.count, format));
 }
 
-// How many of the queries an engine does in the time of a round; by the first few, or the first two if these
-// take so long that there is no hope.
+// How many of the queries an engine answers in the time of a round, estimated from the first kPilot, or from
+// the first two if these already take too long.
 std::size_t affordable(const BenchPlan& plan, const std::vector<Question>& all, const EngineInfo& engine,
                        bool& failed) {
   RaceOptions options;
-  options.rounds = engine.runs_apart() ? 3 : 1;  // the first round of another program has its start in it
+  options.rounds = engine.runs_apart() ? 3 : 1;  // the first round of another program includes its start
   options.timeout = plan.timeout;
   options.listener = plan.listener;
   double count = 0;
@@ -54,7 +54,8 @@ std::size_t affordable(const BenchPlan& plan, const std::vector<Question>& all, 
     options.counts = {pilot};
     const Speed t = race(all, {engine}, options).front();
     failed |= t.failed;
-    // A program that dies is not slow, however busy the machine is; one that is silent would be so each time.
+    // A program that dies is not slow, however busy the machine is; one that is silent would be silent each
+    // time.
     if (t.failed && t.ns_per_query * 1e-9 < plan.timeout / 4) return std::min(all.size(), kFewestQueries);
     count = kSecondsPerRound * 1e9 / std::max(t.ns_per_query, 1.0);
     if (count < kFewestQueries / 8.0) break;
@@ -62,7 +63,7 @@ std::size_t affordable(const BenchPlan& plan, const std::vector<Question>& all, 
   return std::min(all.size(), static_cast<std::size_t>(count));
 }
 
-// What one ulp in each input makes of the time, in its ulps; 0 where there is none.
+// How much one ulp in each input changes the time, in ulps of the time; 0 if there is no time.
 double condition_of(const Question& question) {
   const Answer& exact = question.exact;
   return exact.outcome == Outcome::hit && exact.time
@@ -70,7 +71,7 @@ double condition_of(const Question& question) {
              : 0;
 }
 
-// The mean length of the flights that hit: what a time is to be divided by for one a length, or a cell.
+// The mean length of the flights that hit. Dividing a time by it gives the time per length, or per cell.
 double mean_path(std::span<const Question> questions) {
   double sum = 0;
   std::size_t hits = 0;
@@ -79,7 +80,7 @@ double mean_path(std::span<const Question> questions) {
   return hits > 0 ? sum / static_cast<double>(hits) : 0;
 }
 
-// By so many of its radii the line enters or misses the obstacle in question.
+// By how many of its radii the line enters or misses the obstacle in question.
 std::optional<double> call_of(const Question& question, const oracle::Judgement& judgement) {
   const bool names_one = question.exact.outcome == Outcome::hit;
   if (!judgement.obstacle && !names_one) return std::nullopt;
@@ -87,7 +88,7 @@ std::optional<double> call_of(const Question& question, const oracle::Judgement&
   return question.place->margins().approach(question.query, obstacle).gap;
 }
 
-// Of the answers of one engine what a tally does not keep.
+// What a tally does not keep of one engine's answers.
 class Errors {
  public:
   void add(const Judged& judged) {
@@ -125,7 +126,7 @@ class Errors {
   }
 
  private:
-  // Without the engine. A scene whose numbers were rounded is said in full.
+  // The command without the engine. A scene whose numbers were rounded is written in full.
   std::string command_of(const BenchGroup& group, const std::string& query) const {
     const Place& place = *question_.place;
     if (place.claim() == Claim())
@@ -166,10 +167,10 @@ void fill(report::Cell& cell, const Tally& t) {
   cell.error = t.error;
   cell.missing = t.missing;
   cell.ulps = report::histogram_of(t.ulps);
-  cell.skipped = cell.unsupported == cell.queries;  // how fast it refuses means nothing
+  cell.skipped = cell.unsupported == cell.queries;  // the speed of refusals means nothing
 }
 
-// An engine over the questions, judged.
+// Asks an engine the questions and judges its answers.
 void examine_into(report::Cell& cell, Answerer& answerer, const BenchGroup& group,
                   std::span<const Question> questions) {
   Tally tally;
@@ -192,7 +193,7 @@ class Racers {
     engines_.push_back(engine), cells_.push_back(cell), options_.counts.push_back(count);
   }
 
-  /// True if one broke.
+  /// True if an engine failed.
   bool race(const std::vector<Question>& questions, const BenchPlan& plan, std::vector<report::Cell>& cells) {
     options_.rounds = kRounds;
     options_.timeout = plan.timeout;

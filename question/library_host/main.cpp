@@ -1,5 +1,5 @@
-// The process that a library is loaded in (question/library_process.hpp): lorentz_library_host FILE. What the library
-// writes to standard output goes to standard error; how it ends is for the parent to see.
+// The process that loads a library (question/library_process.hpp): lorentz_library_host FILE. What the
+// library writes to standard output goes to standard error. The parent sees how the process ends.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The two pipes, out of the library's way.
+// The two pipes, moved out of the library's way.
 class ParentPipes {
  public:
   ParentPipes()
@@ -30,7 +30,7 @@ class ParentPipes {
     dup2(STDERR_FILENO, STDOUT_FILENO);
   }
 
-  // False when there is no more to come.
+  // False at the end of the input.
   bool read(void* data, std::size_t size) const {
     for (auto* at = static_cast<char*>(data); size > 0;) {
       const ssize_t count = ::read(in_, at, size);
@@ -48,7 +48,7 @@ class ParentPipes {
     for (std::size_t done = 0; done < all.size();) {
       const ssize_t count = ::write(out_, all.data() + done, all.size() - done);
       if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) std::_Exit(EXIT_FAILURE);  // nobody listens
+      if (count <= 0) std::_Exit(EXIT_FAILURE);  // the parent no longer reads
       done += static_cast<std::size_t>(count);
     }
   }
@@ -62,7 +62,7 @@ struct Library {
   decltype(&lorentz_engine_prepare) prepare = nullptr;
   decltype(&lorentz_engine_answer) answer = nullptr;
   decltype(&lorentz_engine_release) release = nullptr;
-  decltype(&lorentz_engine_claim) claim = nullptr;  // may stay so
+  decltype(&lorentz_engine_claim) claim = nullptr;  // null if the library does not export it
 };
 
 template <class Function>
@@ -72,7 +72,7 @@ bool find(void* handle, const char* name, Function& function, std::string& missi
   return function;
 }
 
-// Returns what is in the way, or nothing.
+// Returns why it cannot be loaded, or nothing.
 std::string load(const std::string& file, Library& library) {
   void* const handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle)
@@ -91,7 +91,7 @@ std::string load(const std::string& file, Library& library) {
          std::to_string(LORENTZ_ENGINE_INTERFACE) + "; compile it again with this program's header";
 }
 
-// A scene's arrays, which the library sees until it released what it prepared.
+// A scene's arrays. The library may read them until it has released the engine that it prepared.
 class HostScene {
  public:
   bool read(const ParentPipes& parent, std::int64_t size) {

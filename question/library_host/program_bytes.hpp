@@ -1,4 +1,5 @@
-// The program lorentz_library_host, as bytes: so it is there wherever this library is, in a program or in Python.
+// The program lorentz_library_host, as bytes, so that it is available wherever this library is: in a program
+// or in Python.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// Numbers of any fixed number of binary digits, rounded to nearest after each operation, for the search.
+// Numbers with any fixed number of binary digits, rounded to nearest after each operation, for the search.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>

@@ -1,5 +1,5 @@
-// One algorithm in several precisions, so that what precision costs, and what it buys, can be seen. The
-// algorithm is the published one (docs/published.md), whose binary64 is the engine `published`.
+// One algorithm in several precisions, to show what precision costs and what it gains. The algorithm is the
+// published one (docs/published.md); in binary64 it is the engine `published`.
 #pragma once
 
 #include <memory>
@@ -11,13 +11,14 @@
 
 namespace lorentz::question {
 
-/// "published-float" (binary32), "published-dd" (double-double, some 106 bits), "published-128" and
-/// "published-256" (so many bits).
+/// "published-float" (binary32), "published-dd" (double-double, about 106 bits), "published-128" and
+/// "published-256" (128 and 256 bits).
 std::vector<std::string> precision_names();
 
-/// The engine of this name for a scene without flaws, or null for another name. Everything is computed in its
-/// numbers, from the roots of the start to the time, which is rounded to a binary64 at the end. Scenes other
-/// than one ball in each cell of the unit square or cubic lattice, of radius 1/2 or less, are `unsupported`.
+/// The engine of this name for a valid scene, or null for another name. Everything is computed in its
+/// numbers, from the roots of the start to the time, which is rounded to a binary64 at the end. Only scenes
+/// with one ball of radius 1/2 or less in each cell of the unit square or cubic lattice are supported; others
+/// are `unsupported`.
 std::unique_ptr<Engine> make_precision(std::string_view name, const Scene& scene);
 
 }  // namespace lorentz::question

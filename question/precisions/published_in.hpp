@@ -1,5 +1,5 @@
-// The published algorithm in the unit square and cubic lattice, in numbers of any type. Private to this room
-// and its tests.
+// The published algorithm in the unit square and cubic lattice, in numbers of any type. Private to this
+// folder and its tests.
 #pragma once
 
 #include <lorentz/engine_base.hpp>

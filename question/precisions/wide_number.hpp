@@ -1,5 +1,6 @@
-// What a search needs of double-double numbers besides their arithmetic (src/engines/base): they compare,
-// round to integers, and become answers. In the namespace of the numbers, where templates look for it.
+// What the search needs of double-double numbers besides their arithmetic (src/engines/base): comparisons,
+// rounding to integers, and conversion to answers. It is in the namespace of the numbers, where templates
+// look for it.
 #pragma once
 
 #include <cmath>

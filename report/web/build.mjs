@@ -24,7 +24,8 @@ async function bundled(entry) {
   return { text: result.outputFiles[0].text.trim(), inputs: Object.keys(result.metafile.inputs) };
 }
 
-// The licences of the packages that are bundled, as a comment: who passes a page on passes them on. Each text once.
+// The licences of the bundled packages, as a comment, so that they stay with every copy of the page. Each
+// text once.
 function licences(inputs) {
   const packages = new Map();
   for (const name of new Set(
@@ -42,7 +43,8 @@ function licences(inputs) {
   return `/*!\n${comment}\n*/\n`;
 }
 
-// Pieces are put in by functions: a "$&" in a script is no pattern. The policy allows this one script by its hash.
+// Functions put the pieces in, so that a "$&" in a script is not a pattern. The policy allows this one script
+// by its hash.
 async function page() {
   const [main, { text: style }] = [await bundled("src/main.js"), await bundled("style.css")];
   const script = licences(main.inputs) + main.text;

@@ -1,4 +1,4 @@
-// Cells of a bench: what they are called, groups of them to choose from, the table of all.
+// Cells of a bench: their names, groups to choose from, and the table of all cells.
 import { h, section } from "./dom.js";
 import { choice } from "./controls.js";
 import { swatch } from "./engines.js";
@@ -14,7 +14,7 @@ export const nameOfCell = (cell) => `${cell.scene}, ${radiusText(cell.radius)}, 
 const distinct = (values) => [...new Set(values)];
 const withAll = (options) => (options.length > 1 ? [...options, [ALL, "all"]] : options);
 
-/** Choices of scene, difficulty and (unless `radii` is false) radius; at first those that most engines have. */
+/** Choices of scene, difficulty and (unless `radii` is false) radius; at first those most engines share. */
 export function groupChoices(cells, redraw, { radii = true, all = false } = {}) {
   const first = all ? null : richest(cells);
   const make = (label, key, text) =>
@@ -38,7 +38,7 @@ export function groupChoices(cells, redraw, { radii = true, all = false } = {}) 
   };
 }
 
-/** A cell that is chosen elsewhere is shown: the choices follow it if they leave it out. */
+/** Shows a cell that is chosen elsewhere: the choices change if they leave it out. */
 export function followCells(report, cells, groups, redraw) {
   onSelect((key) => {
     const cell = report.cells[indexOf(key, "cell")];
@@ -48,7 +48,7 @@ export function followCells(report, cells, groups, redraw) {
   });
 }
 
-// The cell whose scene, difficulty and radius most engines share; of equals the one in the middle.
+// The cell whose scene, difficulty and radius most engines share; among equals the middle one.
 function richest(cells) {
   const groups = Map.groupBy(cells, (c) => JSON.stringify([c.scene, c.difficulty, c.radius]));
   const most = Math.max(...[...groups.values()].map((g) => g.length));

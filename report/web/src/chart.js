@@ -1,4 +1,4 @@
-// The frame that every chart has: a heading, its controls, the drawing, the numbers as a table, downloads.
+// The frame of every chart: a heading, its controls, the drawing, the numbers as a table, downloads.
 import { h, newId } from "./dom.js";
 import { legend } from "./engines.js";
 import { saveCsv, saveSvg } from "./download.js";
@@ -9,8 +9,8 @@ import * as Plot from "@observablehq/plot";
 
 /**
  * `draw(width)` gives {svg, points, legend: items of the legend, summary: the chart in a sentence or two,
- * numbers: {columns, rows}}, or null where there is nothing to draw. `controls` are elements; `redraw` of the
- * result is called when they change. `below(drawn)`, if any, makes what is written below.
+ * numbers: {columns, rows}}, or null if there is nothing to draw. `controls` are elements; `redraw` of the
+ * result is called when they change. `below(drawn)`, if given, makes the text below the chart.
  */
 export function chart({ name, title, note, controls = [], draw, below = null, legendLines = false }) {
   const heading = newId("chart"),
@@ -89,7 +89,7 @@ export function chart({ name, title, note, controls = [], draw, below = null, le
   return { element: figure, redraw };
 }
 
-// Plot's drawing, the legend above it (where y is negative), in one SVG.
+// Plot's drawing with the legend above it (where y is negative), in one SVG.
 function withLegend(drawn, width, title, lines) {
   const { svg } = drawn;
   svg.setAttribute("role", "img");
@@ -126,7 +126,8 @@ export function plot(options) {
   });
 }
 
-// Plot leaves out labels of logarithmic ticks where it takes them to be too many: here they have been counted.
+// Plot leaves out labels of logarithmic ticks if it considers them too many. Here their number is chosen
+// already.
 const withoutOwn = (scale) => (scale?.show ? { ...scale, axis: null } : scale);
 const logMarks = (axis, grid, scale) =>
   scale?.show
@@ -136,14 +137,15 @@ const logMarks = (axis, grid, scale) =>
       ]
     : null;
 
-/** A logarithmic axis for these values (what is not above 0 does not count), with about so many ticks. */
+/** A logarithmic axis for these values (those not above 0 are ignored), with about `ticks` ticks. */
 export function logAxis(label, values, ticks, { air = 1.6, show = powerTick } = {}) {
   const positive = values.filter((value) => value > 0 && Number.isFinite(value));
   const domain = positive.length ? [Math.min(...positive) / air, Math.max(...positive) * air] : [0.1, 10];
   return { type: "log", label, domain, ticks: logTicks(domain, Math.max(3, Math.floor(ticks))), show };
 }
 
-// Powers of ten, every so many if there are too many; 1, 2 and 5 (or 1 and 3) times them if there are too few.
+// Powers of ten, or every n-th if there are too many; 1, 2 and 5 (or 1 and 3) times them if there are too
+// few.
 function logTicks([low, high], most) {
   const exponents = [];
   for (let e = Math.ceil(Math.log10(low) - 1e-9); e <= Math.log10(high) + 1e-9; ++e) exponents.push(e);

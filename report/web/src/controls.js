@@ -2,7 +2,7 @@
 import { h, newId } from "./dom.js";
 
 /**
- * A labelled list to choose from, of [value, text]; nothing to see if there is no choice.
+ * A labelled list of [value, text] to choose from; hidden if there is no choice.
  * The result has `element`, `value` (get and set), and calls `onchange`.
  */
 export function choice(label, options, onchange, initial = options[0]?.[0]) {
@@ -40,7 +40,7 @@ export function searchField(label, onchange) {
   return { element: h("span", { class: "control" }, h("label", { for: id }, label), field), field };
 }
 
-/** Pages of a list: `show(page)` is called with the page's number, from 0. */
+/** Controls for the pages of a list: `show(page)` is called with the page's number, from 0. */
 export function pager(label, show) {
   const place = h("span", { class: "place", "aria-live": "polite" });
   const go = (to) => {

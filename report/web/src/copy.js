@@ -1,4 +1,4 @@
-// Buttons with data-copy put that text on the clipboard.
+// Buttons with data-copy copy that text to the clipboard.
 import { announce } from "./dom.js";
 
 async function copy(text) {
@@ -6,7 +6,7 @@ async function copy(text) {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    // no permission, or an old browser: by a selection
+    // no permission, or an old browser: copies a selection instead
     const area = document.createElement("textarea");
     area.value = text;
     document.body.append(area);

@@ -17,7 +17,7 @@ const COUNTS = [
   ["queries", "queries"],
 ];
 
-// What was not asked, or not to the end, and why: three states that are not the same.
+// The rows that were not asked, or not to the end, and why; three different states.
 function leftOut(rows) {
   const told = (row) => (row.scenes_given_up ? `${row.name} (${row.scenes_given_up})` : row.name);
   const named = (state, say) =>
@@ -36,7 +36,7 @@ function leftOut(rows) {
   return items.length ? h("ul", { class: "left-out" }, items) : null;
 }
 
-// Of a golden set: how much of it.
+// How much of a golden set was asked.
 const askedOf = (row) =>
   row.records > row.queries ? ` ${count(row.queries)} of its ${count(row.records)} records were asked.` : "";
 

@@ -1,6 +1,6 @@
-// Elements, made in one place. Texts of a report come from anybody: they are set as text, never as HTML.
+// Makes all elements. Texts of a report may come from anyone, so they are set as text, never as HTML.
 
-/** h("div", {class: "x", onclick: f}, child, ..): children are nodes or texts; what is null or false is left out. */
+/** h("div", {class: "x", onclick: f}, child, ..): children are nodes or texts, without null and false. */
 export function h(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -26,7 +26,7 @@ export function svgElement(tag, attributes = {}, text = null) {
 let last = 0;
 export const newId = (prefix) => `${prefix}-${++last}`;
 
-/** A text for where there is little room. */
+/** A text for places with little room. */
 export const shortened = (text, letters) => (text.length > letters ? `${text.slice(0, letters - 1)}…` : text);
 
 /** A section with a heading; nothing if there is nothing to show in it. */

@@ -1,4 +1,4 @@
-// A chart as a file: SVG as it is seen in the light theme, or its numbers.
+// A chart as a file: SVG in the light theme, or its numbers.
 
 function save(name, type, text) {
   const link = document.createElement("a");
@@ -10,7 +10,7 @@ function save(name, type, text) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-// Colours are variables of the page: a file of its own needs their values.
+// Colours are variables of the page, so a separate file needs their values.
 function withColours(text) {
   const probe = document.createElement("span");
   probe.style.colorScheme = "light";
@@ -40,7 +40,7 @@ export function svgText(svg, title) {
   return withColours(new XMLSerializer().serializeToString(copy));
 }
 
-// What a spreadsheet would take for a formula becomes text: names come from anybody.
+// A text that a spreadsheet would take for a formula is marked as text, because names may come from anyone.
 function csvField(value) {
   if (value === null || value === undefined) return "";
   const text = typeof value === "string" && /^[=+@\t\r-]/.test(value) ? `'${value}` : String(value);

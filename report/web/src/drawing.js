@@ -1,4 +1,5 @@
-// The drawing of a finding: SVG text from the report, made again in the page without anything that acts or loads.
+// The drawing of a finding: SVG text from the report, rebuilt in the page without anything that acts or
+// loads.
 import { svgElement } from "./dom.js";
 
 const ALLOWED = new Set([
@@ -40,7 +41,7 @@ function isHarmless({ name, value }) {
   return !loads(value);
 }
 
-/** The same in SVG, without what is not allowed; null if the element itself is not. */
+/** The same element in SVG, without parts that are not allowed; null if the element itself is not allowed. */
 function rebuilt(element) {
   if (!ALLOWED.has(element.localName) || (element.localName === "style" && loads(element.textContent)))
     return null;
@@ -55,7 +56,7 @@ function rebuilt(element) {
   return copy;
 }
 
-// Two drawings of a page may use the same ids.
+// Makes ids unique, because two drawings of a page may use the same ones.
 function ownIds(svg) {
   const prefix = `d${++drawings}-`;
   const ids = new Set([...svg.querySelectorAll("[id]")].map((e) => e.id));
@@ -79,9 +80,9 @@ function ownIds(svg) {
   }
 }
 
-/** An <svg> element, or null if the text is none. */
+/** An <svg> element, or null if the text is not SVG. */
 export function drawing(text, label) {
-  // Read under names that mean nothing to a browser, so that nothing in it acts before it was looked at.
+  // Parsed under names that mean nothing to a browser, so that nothing in it acts before it is checked.
   const inert = text.replaceAll(SVG, "inert:svg").replaceAll(XHTML, "inert:html");
   const parsed = new DOMParser().parseFromString(inert, "application/xml");
   if (parsed.documentElement.localName !== "svg" || parsed.querySelector("parsererror")) return null;

@@ -1,7 +1,8 @@
-// An engine has one colour, one symbol and one dash wherever it is drawn, whatever else the report has in it.
+// An engine has the same colour, symbol and dash wherever it is drawn, whatever else the report contains.
 import { shortened, svgElement } from "./dom.js";
 
-// The project's own engines have theirs in every report; others take what is left, in the order of their names.
+// The project's engines have fixed ones in every report; others take those that are left, in the order of
+// names.
 const KNOWN = [
   "reduction",
   "published",
@@ -15,7 +16,7 @@ const KNOWN = [
 const SYMBOLS = ["circle", "triangle", "square", "diamond", "star", "wye", "cross", "times"];
 const DASHES = ["", "7 3", "2 3", "9 3 2 3", "4 2", "12 4", "1 3", "6 2 2 2"];
 
-/** Map of name to {colour, symbol, dash}. Beyond eight engines colours come again, with other symbols. */
+/** Map of name to {colour, symbol, dash}. Beyond eight engines colours are repeated, with other symbols. */
 export function looksOf(names) {
   const present = [...new Set(names)].sort();
   const own = present.filter((name) => KNOWN.includes(name));
@@ -33,7 +34,7 @@ export function looksOf(names) {
   ]);
 }
 
-/** A legend as a part of an SVG, so that it goes along when that is downloaded: {group, height}. */
+/** A legend as a part of an SVG, so that it is downloaded with the SVG: {group, height}. */
 export function legend(items, width, { lines = false } = {}) {
   const group = svgElement("g", {
     class: "legend",

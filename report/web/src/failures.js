@@ -1,4 +1,4 @@
-// Who fails what: engines by difficulty (of cells), or causes by place (of findings).
+// Table of failures: engines by difficulty (from cells), or causes by place (from findings).
 import { h, section } from "./dom.js";
 import { swatch } from "./engines.js";
 import { placeOf } from "./findings.js";
@@ -7,7 +7,7 @@ import { count, percent } from "./numbers.js";
 const MOST_ROWS = 30,
   MOST_COLUMNS = 10;
 
-// Darker for more, on a logarithmic scale; the number is there to read.
+// Darker for more, on a logarithmic scale; the number itself is shown as well.
 const shade = (share) =>
   share > 0 ? `--share: ${Math.round(25 + 75 * Math.max(0, 1 + Math.log10(share) / 6))}%` : null;
 
@@ -90,7 +90,8 @@ function top(findings, of, most) {
     .map(([value]) => value);
 }
 
-// Cases, not how often a cause was seen: of that a report says the sum alone, and where its simplest case is from.
+// Counts cases, not how often a cause was seen: for that a report gives only the sum, and the place of its
+// simplest case.
 function ofFindings(findings, only) {
   const causes = top(findings, causeOf, MOST_ROWS),
     places = top(findings, placeOf, MOST_COLUMNS);

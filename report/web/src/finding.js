@@ -1,11 +1,12 @@
-// One finding: what is wrong, drawn; given and exact side by side; the query in hexadecimal; how to see it again.
+// One finding: the fault, drawn; given and exact answer side by side; the query in hexadecimal; how to
+// reproduce it.
 import { h } from "./dom.js";
 import { drawing } from "./drawing.js";
 import { count, fromHexadecimal, isNumber, number, ulps } from "./numbers.js";
 import { select, selected } from "./selection.js";
 import { verdictOf } from "./verdicts.js";
 
-/** What a finding is called by people. */
+/** The title of a finding, for people. */
 export const titleOf = (finding) => finding.title ?? finding.cause ?? "–";
 
 export function findingCard(finding, i, total) {
@@ -87,7 +88,7 @@ function facts(finding, i, total) {
     .join(" · ");
 }
 
-/** Of which radii it is off by so many. */
+/** The unit of a finding's error in radii. */
 export const radiiOf = (finding) => (finding.verdict === "wrong-time" ? "radii along the ray" : "radii");
 
 const textOf = (value) =>
@@ -147,7 +148,7 @@ function reason(lines) {
     : null;
 }
 
-// Numbers of a query, of whatever depth: [["x[0]", "0x1p-1"], ..].
+// The numbers of a query, at any depth: [["x[0]", "0x1p-1"], ..].
 function leaves(value, path) {
   if (Array.isArray(value)) return value.flatMap((v, i) => leaves(v, `${path}[${i}]`));
   if (value && typeof value === "object")
@@ -187,7 +188,7 @@ function query(query) {
   );
 }
 
-// The ray and the one obstacle that decides.
+// The ray and the obstacle that decides.
 function primitive({ primitive: question, primitive_cpp: code }) {
   if (!question || !code) return null;
   return h(

@@ -1,4 +1,4 @@
-// The findings: filtered, in pages, so that ten thousand open as fast as ten.
+// The findings, filtered and in pages, so that ten thousand open as fast as ten.
 import { h, section } from "./dom.js";
 import { choice, pager, searchField } from "./controls.js";
 import { calls } from "./charts/calls.js";
@@ -16,7 +16,7 @@ const SORTS = {
   frequent: ["most frequent first", (f) => -(f.count ?? 1)],
 };
 
-// What is searched in; made once, at the first search.
+// The text that is searched; made once, at the first search.
 const texts = new WeakMap();
 function textOf(finding) {
   if (!texts.has(finding)) {
@@ -26,7 +26,7 @@ function textOf(finding) {
   return texts.get(finding);
 }
 
-// The how-manieth of its cause each finding is: reports name the simplest first.
+// The rank of each finding within its cause; reports name the simplest first.
 function ranks(findings) {
   const seen = new Map();
   return new Map(
@@ -37,7 +37,7 @@ function ranks(findings) {
   );
 }
 
-/** Where a finding is from: "golden grazing, 3500ee96" is from golden grazing. */
+/** The place of a finding: "golden grazing, 3500ee96" is from golden grazing. */
 export const placeOf = (finding) => String(finding.where ?? "").split(", ")[0];
 
 const valueOf = (finding, key) => (key === "where" ? placeOf(finding) : String(finding[key] ?? ""));
@@ -52,7 +52,7 @@ function valuesOf(findings, key) {
 
 const MOST_KINDS = 12;
 
-/** Each cause in a line: what is wrong, told before any case of it; in groups, where findings have them. */
+/** Each cause in a line: says what is wrong before any case is shown; in groups, if findings have them. */
 function kindsOfFault(findings, only) {
   const kinds = [...Map.groupBy(findings, (f) => JSON.stringify([f.cause, f.verdict])).values()];
   const groups = [...Map.groupBy(kinds.slice(0, MOST_KINDS), ([first]) => first.group ?? "")];

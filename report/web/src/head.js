@@ -1,4 +1,4 @@
-// The verdict first, in three lines or in one, then the figures it rests on.
+// The verdict first, in three lines or in one, then the figures on which it rests.
 import { h } from "./dom.js";
 import { drawing } from "./drawing.js";
 import { count, duration, isNumber, percent } from "./numbers.js";
@@ -37,7 +37,7 @@ export function head(report) {
 
 const verdictLine = (line) => h("p", { class: "verdict-line" }, line);
 
-// What was judged, how bad it is, and the worst of it, with its simplest case drawn beside.
+// What was judged, how bad it is, and the worst fault, with a drawing of its simplest case.
 function threeLines({ summary, findings }) {
   const worst = findings?.[summary.finding];
   const picture = worst?.drawing && drawing(worst.drawing, `The simplest case: ${summary.worst}`);

@@ -1,4 +1,4 @@
-// Names beside points, where there is room: no name over another, none out of the frame.
+// Puts names beside points where there is room: names never overlap or leave the frame.
 import { shortened, svgElement } from "./dom.js";
 
 const LETTERS = 24,

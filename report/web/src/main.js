@@ -1,4 +1,4 @@
-// The page: reads the report that is embedded in it, and shows what it has.
+// The page: reads the embedded report, and shows its parts.
 import { h, section } from "./dom.js";
 import { cellsSection } from "./cells.js";
 import { watchCopyButtons } from "./copy.js";

@@ -1,4 +1,4 @@
-// What the report was made with, so that another can make it again.
+// The program and machine that made the report, so that others can reproduce it.
 import { h, section } from "./dom.js";
 import { command } from "./finding.js";
 

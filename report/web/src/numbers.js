@@ -17,7 +17,7 @@ export const superscript = (integer) => [...String(integer)].map((c) => SUPERSCR
 
 export const isNumber = (value) => typeof value === "number" && Number.isFinite(value);
 
-/** Some significant digits; powers of ten where there would be many zeros. */
+/** A number with `digits` significant digits; powers of ten instead of many zeros. */
 export function number(value, digits = 3) {
   if (!isNumber(value)) return "–";
   if (value === 0) return "0";
@@ -31,7 +31,7 @@ export function number(value, digits = 3) {
   return (factor === "1" ? power : factor === "-1" ? `−${power}` : `${factor} × ${power}`).replace("-", "−");
 }
 
-/** Beyond 2^20 they tell nothing, as of times near 0. */
+/** A number of ulps; beyond 2^20 it says nothing, as for times near 0. */
 export const ulps = (value) =>
   !isNumber(value) ? "–" : value < 2 ** 20 ? `${number(value)} ulps` : "2²⁰ ulps or more";
 
@@ -57,7 +57,7 @@ export function duration(ns) {
   return `${number(ns / size)}\u202f${unit}`;
 }
 
-/** A share of 0 to 1. */
+/** A share between 0 and 1. */
 export function percent(share) {
   if (!isNumber(share)) return "–";
   if (share === 0) return "0";
@@ -71,7 +71,7 @@ export function powerTick(value) {
   return exponent >= 0 && exponent <= 3 ? String(10 ** exponent) : `10${superscript(exponent)}`;
 }
 
-/** "0x1.8p-1" as 0.75; NaN if it is no such text. Exact: the digits are those of one binary64. */
+/** "0x1.8p-1" as 0.75; NaN for another text. Exact: the digits are those of one binary64. */
 export function fromHexadecimal(text) {
   const parts = /^\s*([+-]?)0x([0-9a-f]*)\.?([0-9a-f]*)(?:p([+-]?\d+))?\s*$/i.exec(text);
   if (!parts || !(parts[2] + parts[3])) return NaN;

@@ -1,4 +1,5 @@
-// Numbers of a chart's points under the mouse, by the arrow keys, and for screen readers; the chosen point has a ring.
+// Shows the numbers of a chart's points: under the mouse, by the arrow keys, and for screen readers. The
+// chosen point has a ring.
 import { h, svgElement, announce } from "./dom.js";
 import { onSelect, select, selected } from "./selection.js";
 
@@ -6,7 +7,7 @@ const REACH = 28; // pixels from the mouse to a point
 
 /**
  * `frame` is a positioned element with the chart in it. The result is `set(svg, points)`: points are
- * {x, y, key, lines}, in pixels of the SVG; `lines` are what is shown, `key` what is chosen (or null).
+ * {x, y, key, lines}, in pixels of the SVG; `lines` are shown, `key` is the selection (or null).
  */
 export function pointer(frame, label) {
   const tip = h("div", { class: "tip", "aria-hidden": "true", hidden: true });

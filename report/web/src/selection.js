@@ -1,4 +1,4 @@
-// What is chosen, in tables and charts at once: "cell:3", "difficulty:0", "finding:17", or null.
+// The selection, shared by tables and charts: "cell:3", "difficulty:0", "finding:17", or null.
 const listeners = [];
 let chosen = null;
 
@@ -11,7 +11,7 @@ export function select(key, source = null) {
 
 export const onSelect = (listener) => listeners.push(listener);
 
-/** "cell:3" is number 3 of the cells; null if it is another kind of thing. */
+/** "cell:3" is number 3 of the cells; null for another kind. */
 export function indexOf(key, kind) {
   return key?.startsWith(`${kind}:`) ? Number(key.slice(kind.length + 1)) : null;
 }

@@ -1,4 +1,4 @@
-// The little statistics that a page needs; bounds of shares come with the report.
+// The few statistics that a page computes; bounds of shares come with the report.
 
 // Two-sided 95 % points of Student's t for 1 to 30 degrees of freedom.
 const STUDENT = [
@@ -8,7 +8,7 @@ const STUDENT = [
 
 /**
  * y = c x^exponent, by least squares in the logarithms: {exponent, factor, low, high}; low and high are the 95 %
- * interval of the exponent, null where two points leave none. Null if there are not two different x.
+ * interval of the exponent, null if there are only two points. Null unless there are two different x.
  */
 export function powerLaw(points) {
   const n = points.length;
@@ -30,7 +30,7 @@ export function powerLaw(points) {
   };
 }
 
-/** Of points with x and y those that no other beats in both, from the left to the right. */
+/** The points with x and y that no other point beats in both, from left to right. */
 export function paretoFront(points) {
   const front = [];
   for (const point of [...points].sort((a, b) => a.x - b.x || a.y - b.y))
@@ -38,7 +38,7 @@ export function paretoFront(points) {
   return front;
 }
 
-/** Histograms of cells added up: {exact, bins: Map of exponent to count, total, max, p99}; p99 is the largest of theirs. */
+/** Sum of histograms: {exact, bins: Map of exponent to count, total, max, p99}; p99 is the largest of all. */
 export function pooled(histograms) {
   const sum = { exact: 0, bins: new Map(), total: 0, max: 0, p99: 0 };
   for (const histogram of histograms) {

@@ -1,4 +1,5 @@
-// Tables: sorted by a click on a column's name; rows can be chosen, and are marked when a chart's point is.
+// Tables: a click on a column's name sorts them. Rows can be chosen, and are marked when their point in a
+// chart is.
 import { h, newId } from "./dom.js";
 import { pager } from "./controls.js";
 import { number } from "./numbers.js";
@@ -7,7 +8,7 @@ import { onSelect, select, selected } from "./selection.js";
 const scrolling = (label, table) =>
   h("div", { class: "scroll", role: "region", "aria-label": label, tabindex: 0 }, table);
 
-/** Numbers behind a chart: {columns, rows}; the first 200 rows, for there is the CSV. */
+/** Numbers behind a chart: {columns, rows}; only the first 200 rows, because the CSV has all. */
 export function plainTable(label, { columns, rows }) {
   const shown = rows.slice(0, 200);
   const more =
@@ -50,8 +51,8 @@ export function plainTable(label, { columns, rows }) {
 
 /**
  * `columns`: {name, hint, value(row) to sort by, cell(row): text or element,
- * below(row): what stands below it (of the first column), figure: true for numbers}; `rows`
- * have a `key` for the selection. The first column names the row. `size` rows a page.
+ * below(row): the text below it (first column only), figure: true for numbers}; `rows`
+ * have a `key` for the selection. The first column names the row. `size`: rows per page.
  */
 export function choosableTable({ label, columns, rows, size = 25 }) {
   let sorting = { column: null, down: false };

@@ -1,4 +1,4 @@
-// Dark or light: as the system says, until the switch is used.
+// Dark or light: follows the system until the switch is used.
 import { h } from "./dom.js";
 
 export function themeSwitch() {

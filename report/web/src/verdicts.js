@@ -1,4 +1,4 @@
-// What is said of an answer, or of an engine: the word, a sign that needs no colour, the colour.
+// Verdicts on an answer or an engine: the word, a sign that needs no colour, the colour.
 export const VERDICTS = {
   right: { word: "right", sign: "✓", colour: "var(--right)" },
   agree: { word: "agree", sign: "✓", colour: "var(--right)" },
@@ -24,7 +24,7 @@ export const MEANINGS = {
 export const verdictOf = (name) =>
   VERDICTS[name] ?? { word: String(name), sign: "•", colour: "var(--undecided)", symbol: "cross" };
 
-// Keys of counts in the JSON, and of which verdict they are.
+// Keys of counts in the JSON, with their verdicts.
 export const FAULTS = [
   ["wrong", "wrong"],
   ["ill_posed", "ill-posed"],

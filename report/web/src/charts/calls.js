@@ -1,5 +1,6 @@
-// Where the engine begins to fail: of questions alike in number from each row, what became of those of one decade, of
-// how closely the obstacle is met or missed, of distances, or of radii. A tolerance shows as an edge.
+// Where the engine begins to fail: the verdicts by decade of a measure (how closely the obstacle is met or
+// missed, a distance, or a radius), with about the same number of questions from each row. A tolerance shows
+// as an edge.
 import * as Plot from "@observablehq/plot";
 import { chart, plot } from "../chart.js";
 import { choice } from "../controls.js";
@@ -12,7 +13,7 @@ const PARTS = [
   ["undecided", "undecided"],
   ["right", "right"],
 ].map(([key, name]) => ({ key, verdict: verdictOf(name) }));
-const LOWEST = -20; // what is closer is drawn together
+const LOWEST = -20; // closer ones are drawn together
 
 const totalOf = (call) => PARTS.reduce((sum, { key }) => sum + call[key], 0);
 
@@ -35,7 +36,7 @@ const rangeOf = ({ decade }) =>
 
 const CLOSE = "radii by which the line enters or misses the obstacle in question";
 
-/** Of a judged engine, by what makes its questions hard. */
+/** The charts of a judged engine, by measures of difficulty. */
 export function calls(report) {
   const measures = [{ by: CLOSE, decades: report.calls ?? [] }, ...(report.curves ?? [])];
   return chartOf(
@@ -44,7 +45,7 @@ export function calls(report) {
   );
 }
 
-/** Of each engine of a bench, by closeness. */
+/** The charts of a bench's engines, by closeness. */
 export function callsOfCells({ cells }) {
   const engines = [...new Set(cells.map((cell) => cell.engine))];
   const decadesOf = (engine) => cells.filter((c) => c.engine === engine).flatMap((c) => c.calls ?? []);

@@ -1,4 +1,5 @@
-// How close the calls were that an engine got wrong. A tolerance shows as an edge that no finding is beyond.
+// How close the calls were that an engine got wrong. A tolerance shows as an edge beyond which there is no
+// finding.
 import * as Plot from "@observablehq/plot";
 import { shortened } from "../dom.js";
 import { chart, logAxis, plot } from "../chart.js";
@@ -13,7 +14,7 @@ const MEASURES = [
   ["by_ulps", "last bits of the input (ulps)", (f) => ulps(Math.abs(f.by_ulps))],
 ];
 
-// A place in the band of its cause that is the same each time.
+// A position in the band of its cause that is the same each time.
 const spread = (i) => ((i * 0.618034) % 1) - 0.5;
 
 export function closeness(report) {

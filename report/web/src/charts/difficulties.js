@@ -1,4 +1,4 @@
-// Where an engine fails: for each kind of query the shares of answers that are not right.
+// Where an engine fails: for each kind of query, the shares of answers that are not right.
 import * as Plot from "@observablehq/plot";
 import { shortened } from "../dom.js";
 import { chart, logAxis, plot } from "../chart.js";

@@ -1,4 +1,4 @@
-// The distribution of free paths: the share that is longer than t, and theory where there is some.
+// The distribution of free paths: the share longer than t, with theory if there is one.
 import * as Plot from "@observablehq/plot";
 import { chart, logAxis, plot } from "../chart.js";
 import { looksOf } from "../engines.js";
@@ -17,7 +17,7 @@ export function freePaths(report) {
     const points = curves.flatMap((c) =>
       c.points.filter((p) => p.t > 0 && p.survival > 0).map((p) => ({ ...p, name: nameOf(c) })),
     );
-    // Theory goes on where there are no more flights to draw.
+    // Theory also exists beyond the flights, so it is cut where there are none to draw.
     const least = Math.min(...points.map((p) => p.survival)) / 1.6;
     const theory = points.filter((p) => p.theory > least),
       exact = points.filter((p) => p.exact > least);
@@ -78,7 +78,7 @@ export function freePaths(report) {
   return chart({ name: "free-paths", title: "Free paths", draw }).element;
 }
 
-// How far the engine's are from the exact ones of the same flights.
+// How far the engine's shares are from the exact ones of the same flights.
 function said(points, exact) {
   if (!exact.length) return "";
   const apart = (p) => Math.abs(p.survival - p.exact);

@@ -1,4 +1,4 @@
-// Errors of the times of right hits: one histogram an engine, over bins of powers of two.
+// Errors of the times of right hits: one histogram per engine, over bins of powers of two.
 import * as Plot from "@observablehq/plot";
 import { shortened } from "../dom.js";
 import { chart, logAxis, plot } from "../chart.js";
@@ -100,7 +100,7 @@ export function histograms(report, looks) {
   return made.element;
 }
 
-// Every so many powers of two that labels have room.
+// Powers of two at a distance at which labels have room.
 function ticksOf(from, to, withZero, width) {
   const step = Math.max(1, Math.ceil((to - from) / (width / 60)));
   const ticks = withZero ? [from - 1.5] : [];

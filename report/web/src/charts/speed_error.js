@@ -1,4 +1,4 @@
-// Speed against error: each cell a point, and the front of those that no other beats in both.
+// Speed against error: each cell is a point; the front has the points that no other beats in both.
 import * as Plot from "@observablehq/plot";
 import { chart, logAxis, plot } from "../chart.js";
 import { choice } from "../controls.js";
@@ -42,7 +42,7 @@ const ERRORS = [
   share("wrong_time", "wrong in time"),
 ];
 
-// Where no fault was seen, the mark is at the upper bound of the share; an error of 0 is at the lower edge.
+// If no fault was seen, the mark is at the upper bound of the share. An error of 0 is at the lower edge.
 function pointsOf(cells, error) {
   const points = cells.flatMap((cell) => {
     const value = error.of(cell);

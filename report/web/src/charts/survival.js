@@ -1,4 +1,4 @@
-// How long trajectories stay right: the share that agrees with the certified ones, collision by collision.
+// How long trajectories stay right: the share that agrees with the certified ones, by collision.
 import * as Plot from "@observablehq/plot";
 import { chart, plot } from "../chart.js";
 import { choice } from "../controls.js";

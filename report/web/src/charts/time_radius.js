@@ -1,4 +1,5 @@
-// What a query costs as obstacles shrink: time against radius, a power law through each engine's points.
+// The cost of a query as obstacles shrink: time against radius, with a power law through each engine's
+// points.
 import * as Plot from "@observablehq/plot";
 import { h } from "../dom.js";
 import { chart, logAxis, plot } from "../chart.js";
@@ -33,7 +34,7 @@ const signed = (value) => value.toFixed(3).replace("-", "−");
 const interval = (fit) => (fit.low === null ? "" : ` (95 %: ${signed(fit.low)} to ${signed(fit.high)})`);
 const fitText = (fit) => (fit ? `r^${signed(fit.exponent)}${interval(fit)}` : "no fit: one radius");
 
-// The report's own fit, if it has one for this engine: it says over which radii.
+// The report's own fit, if it has one for this engine, over the radii that it gives.
 function fitOf(members, reported) {
   if (!reported) return powerLaw(members.map((p) => [p.x, p.y]));
   const fitted = members.filter((p) => p.x >= reported.from && p.x <= reported.to);
