@@ -56,7 +56,7 @@ Fault of_another_answer(const Question& question, const Answer& given,
                         const std::optional<ObstacleId>& needed) {
   const Query& query = question.query;
   const Answer& exact = question.exact;
-  if (names_obstacle(given) && !exists(question, given.obstacle)) return {Cause::no_such_obstacle};
+  if (names_obstacle(given) && !exists(question, given.obstacle)) return {Cause::no_obstacle};
   if (names_obstacle(given) && query.from == given.obstacle) return {Cause::leaving};
   // A judgement that rests on no obstacle has margin 0: there is a tie, or an obstacle is touched.
   const ObstacleId& decisive = needed                        ? *needed
@@ -65,7 +65,7 @@ Fault of_another_answer(const Question& question, const Answer& given,
   if (given.outcome == Outcome::inside) return of_false_inside(question, given, decisive);
   const oracle::Approach approach = question.place->margins().approach(query, decisive);
   if (exact.outcome == Outcome::inside && approach.start_gap < 0)
-    return {Cause::inside_not_seen, std::fabs(approach.start_gap)};
+    return {Cause::inside_unseen, std::fabs(approach.start_gap)};
   if (given.outcome == Outcome::hit) return of_false_hit(question, given, decisive);
   return graded(Cause::never_for_grazing, Cause::never_for_hit, approach.gap);
 }
@@ -101,7 +101,7 @@ const CauseWords& words_for(Cause cause) {
 
 // The answer names the right obstacle, with a wrong time.
 Diagnosis of_wrong_time(const Question& question, const Answer& given, bool other_quantity) {
-  return {other_quantity ? Cause::other_quantity : Cause::wrong_time, Severity::wrong_time,
+  return {other_quantity ? Cause::not_the_time : Cause::wrong_time, Severity::wrong_time,
           question::radii_off(question, given)};
 }
 
@@ -119,7 +119,7 @@ std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& gi
   if (judgement.verdict == Verdict::missing) return Diagnosis{Cause::no_answer, Severity::error};
   const bool wrong = judgement.verdict == Verdict::wrong;
   if (!wrong && judgement.verdict != Verdict::ill_posed) return std::nullopt;
-  if (!question.is_query()) return Diagnosis{Cause::answered_nonsense, Severity::nonsense};
+  if (!question.is_query()) return Diagnosis{Cause::answers_nonsense, Severity::nonsense};
   const Fault fault = of_another_answer(question, given, judgement.obstacle);
   return Diagnosis{fault.cause, wrong ? Severity::wrong : Severity::ill_posed, fault.by_radii};
 }
@@ -128,7 +128,7 @@ Blame Diagnosis::blame() const {
   if (severity == Severity::ill_posed) return Blame::rounding;
   if (cause == Cause::no_answer) return Blame::ended;
   const bool is_protocol =
-      cause == Cause::bad_line || cause == Cause::answered_nonsense || cause == Cause::refused;
+      cause == Cause::bad_line || cause == Cause::answers_nonsense || cause == Cause::refused;
   return is_protocol ? Blame::protocol : Blame::engine;
 }
 
@@ -189,7 +189,7 @@ std::string sentence_of(Cause cause, std::optional<double> by_radii) {
       return "hits an obstacle that lies behind the start";
     case Cause::leaving:
       return "hits the obstacle that the particle leaves (from), which is to be ignored";
-    case Cause::inside_not_seen:
+    case Cause::inside_unseen:
       return up_to("does not see that the start lies inside an obstacle", "inside");
     case Cause::inside_not_so:
       return up_to("says inside of an obstacle that the start lies outside of", "outside");
@@ -197,9 +197,9 @@ std::string sentence_of(Cause cause, std::optional<double> by_radii) {
       return "names, of several obstacles that contain the start, another than the first by name";
     case Cause::tie:
       return "names, of obstacles that are entered at the same time, another than the first by name";
-    case Cause::no_such_obstacle:
+    case Cause::no_obstacle:
       return "names an obstacle that the scene does not have";
-    case Cause::other_quantity:
+    case Cause::not_the_time:
       return along("gives, for the right obstacle, something else than the time at which it is entered");
     case Cause::wrong_time:
       return along(
@@ -210,7 +210,7 @@ std::string sentence_of(Cause cause, std::optional<double> by_radii) {
       return "gives no answer: it dies, falls silent, or leaves the question out";
     case Cause::bad_line:
       return "writes lines that are not answers";
-    case Cause::answered_nonsense:
+    case Cause::answers_nonsense:
       return "answers invalid questions, where error is right";
   }
   return "";

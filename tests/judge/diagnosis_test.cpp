@@ -83,7 +83,7 @@ TEST_CASE("Each way of being wrong has its name", "[judge][diagnosis]") {
   Question nonsense = along;
   nonsense.text = R"("x":[0.5,0],"v":[0,0])";
   const auto its = diagnosis_of(nonsense, Answer::never(), {oracle::Verdict::wrong});
-  CHECK(its->cause == Cause::answered_nonsense);
+  CHECK(its->cause == Cause::answers_nonsense);
   CHECK(its->severity == Severity::nonsense);
 }
 

@@ -47,7 +47,7 @@ TEST_CASE("The simplest case keeps the cause, where simpler ones go wrong in ano
             examination.example_of({place, query, place->oracle().first_hit(query), "here", ""}))
       met.try_emplace(example->diagnosis.cause, *example);
   REQUIRE(met.contains(Cause::passed_over));
-  REQUIRE(met.contains(Cause::other_quantity));
+  REQUIRE(met.contains(Cause::not_the_time));
   const Example& example = met.at(Cause::passed_over);
   const Example kept = simplest({example, "here", 1, 1e300}, examination, 60);
   CHECK(kept.diagnosis.cause == Cause::passed_over);
