@@ -1,4 +1,4 @@
-// What no engine of this kind can do without, and nothing else.
+// The minimal work of any engine of this kind, and nothing else.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace lorentz {
 
-/// The last convergent p/q of the slope of v before the denominator 1 / (2 r), in plain binary64; returns p +
-/// q.
+/// Computes the last convergent p/q of the slope of v before the denominator 1 / (2 r), in plain binary64.
+/// Returns p + q.
 inline double bare_continued_fraction(const Vec& v, double r) {
   const double a = std::fabs(v[0]), b = std::fabs(v[1]);
   double x = std::min(a, b) / std::max(a, b), term = std::floor(x), rest = x - term;

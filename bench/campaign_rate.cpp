@@ -1,5 +1,6 @@
-// What a campaign costs: cases a second of processor time, by target, by whose answers are the truth, with
-// and without variants. The engine costs next to nothing: it is the engine `certified`.
+// The cost of a campaign: cases per second of processor time, by target and by the judge of the answers, with
+// and without variants. The cost of the engine itself, `certified`, is negligible.
+//
 // campaign_rate [SECONDS]
 #include <fmt/format.h>
 

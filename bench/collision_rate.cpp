@@ -1,5 +1,5 @@
-// Collisions a second: of particles in a batch and one at a time, beside the bare flights of the same engine;
-// in alternating turns, so that neither the machine nor what runs beside it counts.
+// Collisions per second: for particles in a batch and one at a time, compared with the bare flights of the
+// same engine. The ways alternate in turns, so that the load of the machine affects all alike.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,11 +18,11 @@ namespace {
 
 constexpr std::size_t kParticles = 1024;
 
-// Ways to make one collision, or flight, of each particle.
+// A way to compute one collision or flight for each particle.
 struct Way {
   std::string name;
   std::function<void()> act;
-  std::vector<double> ns = {};  ///< a collision, turn by turn
+  std::vector<double> ns = {};  ///< per collision, for each turn
 };
 
 double quantile(std::vector<double> values, double share) {
@@ -42,7 +42,7 @@ bool go_on(std::size_t, const Particle&, const Collision&) {
   return true;
 }
 
-// The particles of one scene, in all ways.
+// The particles of one scene, for all ways.
 class Ground {
  public:
   Ground(int dimension, double r)

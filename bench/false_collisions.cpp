@@ -1,6 +1,6 @@
-// How often is a collision that the published 3D algorithm predicts none? Its three planes agree on a sphere
-// (the line meets three cylinders around it), and the line misses it. One line of CSV for each radius; a
-// flight may meet many such spheres, so flights are counted, too.
+// How often the published 3D algorithm predicts a false collision: its three planes agree on a sphere (the
+// line meets three cylinders around it), but the line misses the sphere. One line of CSV per radius. A flight
+// may meet many such spheres, so flights are counted, too.
 #include <fmt/format.h>
 
 #include <cmath>

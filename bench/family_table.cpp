@@ -1,4 +1,5 @@
-// What the families of cases are: outcomes, cost of making a case, longest flight, duplicates.
+// The properties of the families of cases: outcomes, cost of making a case, longest flight, duplicates.
+//
 // family_table [COUNT [FAMILY]]
 #include <fmt/format.h>
 
@@ -20,7 +21,7 @@ struct Counts {
   double longest = 0;
 };
 
-// In units of cells of about 1: the time times |v|.
+// Lengths are the time times |v|; cells have a size of about 1.
 void count(const cases::Case& one, const Answer& answer, Counts& counts) {
   counts.hit += answer.outcome == Outcome::hit;
   counts.never += answer.outcome == Outcome::never;

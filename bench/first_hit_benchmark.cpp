@@ -1,5 +1,5 @@
-// Google Benchmark over what docs/speed.md states: engines by radius, lattices, hard directions, the bare
-// continued fraction beside them. Times only; build/lorentz bench holds them against the errors.
+// Google Benchmark of the figures in docs/speed.md: engines by radius, lattices, hard directions, and the
+// bare continued fraction for comparison. Times only; build/lorentz bench compares times and errors.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Which JSON reader? The same million query lines through three of them, in alternating rounds: simdjson
-// On-Demand with every value looked at (what src/exchange/exchange_read.cpp does), simdjson's DOM, RapidJSON
+// A comparison of JSON readers. Three of them read the same million query lines in alternating rounds:
+// simdjson On-Demand reading every value (as src/exchange/exchange_read.cpp does), simdjson's DOM, RapidJSON
 // (full precision, iterative). Each sums all components of x and v, so that none can skip its work.
 #include <rapidjson/document.h>
 #include <simdjson.h>

@@ -1,5 +1,5 @@
-// What a first hit costs the oracle: by radius (drawn flights) and by distance (a slow drift out of a
-// corridor or a plane channel). Medians with the quartiles beside them, in microseconds.
+// The cost of a first hit in the oracle: by radius (drawn flights) and by distance (a slow drift out of a
+// corridor or a planar channel). Medians with quartiles, in microseconds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ Spread cost(const oracle::Oracle& oracle, const std::vector<Query>& queries) {
     const Answer answer = oracle.first_hit(query);
     microseconds.push_back(
         std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
-    if (answer.outcome == Outcome::undecided) throw answer;  // uses the answer, and never happens
+    if (answer.outcome == Outcome::undecided) throw answer;  // uses the answer; never happens
   }
   std::sort(microseconds.begin(), microseconds.end());
   const auto at = [&](double share) {
@@ -45,7 +45,7 @@ Spread by_radius(int dimension, double r) {
                                           dimension == 2 ? 20000 : 4000));
 }
 
-// From the middle of a corridor, drifting out of it at 2^-k: a flight of about 2^k / 3.
+// Starts in the middle of a corridor and drifts out of it at 2^-k: a flight of about 2^k / 3.
 Spread by_distance(int dimension, int k) {
   const oracle::Oracle oracle(unit_scene(dimension, 0.1));
   Query query{{0, 0.5, 0}, {1, std::ldexp(1, -k), 0}, {}};

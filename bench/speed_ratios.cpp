@@ -1,6 +1,6 @@
-// What the speed of the engines is measured by: ratios of two ways to do the same, in alternating turns over
-// the same queries, so that neither the machine nor what runs beside it counts. Prints them; holds them
-// against a file of earlier ones; writes that file, and the table of docs/speed.md.
+// Measures the speed of the engines by ratios of two ways to do the same work. They alternate in turns over
+// the same queries, so that the load of the machine affects both alike. Prints the ratios, compares them with
+// a file of earlier ones, writes that file, and writes the table of docs/speed.md.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -62,10 +62,10 @@ Scene motif(int dimension, double r) {
   return scene;
 }
 
-// Something that answers the queries [begin, end) of its own; returns a number, so that nothing is left out.
+// Work that answers the queries [begin, end). It returns a number, so that the compiler cannot skip anything.
 using Work = std::function<double(std::size_t begin, std::size_t end)>;
 
-// A scene and queries in it, and the ways to answer them.
+// A scene with queries in it, and the ways to answer them.
 class Ground {
  public:
   Ground(Scene scene, starts::Kind kind, std::size_t count = kQueries)
@@ -122,7 +122,7 @@ class Ground {
       return sum;
     };
   }
-  // The convergents of the slope up to the denominator 1 / (2 r), one query at a time, and nothing else.
+  // Only the convergents of the slope up to the denominator 1 / (2 r), one query at a time.
   Work bare_continued_fraction(double r) const {
     return [this, r](std::size_t begin, std::size_t end) {
       double sum = 0;
@@ -131,8 +131,8 @@ class Ground {
     };
   }
 
-  // A plain loop over the same columns: the quadratic of a ball around the origin, the smaller root by
-  // Vieta's formula, which cancels nothing.
+  // A plain loop over the same columns: the quadratic of a ball around the origin, with the smaller root by
+  // Vieta's formula, which has no cancellation.
   Work plain_ball(double r) {
     return [this, r](std::size_t begin, std::size_t end) {
       const QueryColumns asked = table_.columns().part(begin, end - begin);
@@ -143,7 +143,7 @@ class Ground {
           const double x = asked.x[k][i], v = asked.v[k][i];
           a += v * v, b += x * v, c += x * x;
         }
-        const double root = std::sqrt(b * b - a * c);  // no number: a miss
+        const double root = std::sqrt(b * b - a * c);  // NaN: a miss
         time[i] = b < 0 ? c / (root - b) : NAN;
       }
       return time[0];
@@ -170,8 +170,8 @@ class Ground {
 struct Ratio {
   std::string name;
   double low, median, high;  // quartiles of time(one) / time(other)
-  double one_ns, other_ns;   // medians, a query
-  double left;               // share of queries that lanes left to single flights
+  double one_ns, other_ns;   // medians per query
+  double left;               // share of queries that vector lanes left to single flights
 };
 
 double quantile(std::vector<double> values, double share) {
@@ -193,7 +193,7 @@ class Measurement {
  public:
   Measurement(double seconds, std::string only) : seconds_(seconds), only_(std::move(only)) {}
 
-  // Block by block in turn, so long; what was slow by an interruption is one ratio of many.
+  // Alternates block by block for the given seconds. An interruption affects only one ratio of many.
   void measure(const std::string& name, Ground& ground, const Work& one, const Work& other,
                std::size_t block = kBlock) {
     if (name.find(only_) == std::string::npos) return;
@@ -225,7 +225,7 @@ std::string at(double r) {
   return fmt::format("r = {:g}", r);
 }
 
-// One flight at a time / in batches, by scene, radius, difficulty and set of instructions.
+// One flight at a time / in batches, by scene, radius, difficulty and instruction set.
 void measure_batches(Measurement& measurement) {
   using starts::Kind;
   const std::vector<Place> places{{"square", [](double r) { return unit_scene(2, r); }},
@@ -289,14 +289,14 @@ void measure_engines(Measurement& measurement) {
   measurement.measure("published / reduction: 3D, r = 0.01", space, space.engine("published"), space.single(),
                       32);
   for (const int dimension : {2, 3}) {
-    const std::size_t count = dimension == 2 ? 1 << 19 : 1 << 16;  // some 25 ms
+    const std::size_t count = dimension == 2 ? 1 << 19 : 1 << 16;  // about 25 ms
     Ground ground(unit_scene(dimension, 1e-3), Kind::uniform, count);
     measurement.measure(fmt::format("one thread / two: {}D, r = 0.001", dimension), ground,
                         ground.batch("", 1), ground.batch("", 2), count);
   }
 }
 
-// NAME TAB quartiles and median: a line each.
+// Writes one line per ratio: name, median and quartiles, separated by tabs.
 void write(const std::string& path, const std::vector<Ratio>& results) {
   std::ofstream out(path);
   out << "# time(one) / time(other): name, median, quartiles. Made by build/speed_ratios --write\n";
@@ -304,7 +304,7 @@ void write(const std::string& path, const std::vector<Ratio>& results) {
     out << fmt::format("{}\t{:.4g}\t{:.4g}\t{:.4g}\n", one.name, one.median, one.low, one.high);
 }
 
-// Ratios in which the slower way got slower still, or the faster way less fast: beyond the quartiles of both.
+// Reports ratios that became worse beyond the quartiles of both runs.
 int compare_with(const std::string& path, const std::vector<Ratio>& results) {
   std::ifstream in(path);
   if (!in) {
@@ -324,8 +324,9 @@ int compare_with(const std::string& path, const std::vector<Ratio>& results) {
     const auto then = before.find(now.name);
     if (then == before.end()) continue;
     ++known;
-    // `single / batch`, `published / reduction`, `one thread / two`, `oracle / ..`: more is better of all but
-    // the last, and of what is held against the bare continued fraction and the plain batch less is.
+    // A larger ratio is better for `single / batch`, `published / reduction` and `one thread / two`. A
+    // smaller one is better for `oracle / ..`, `certified / ..` and the ratios to the bare continued fraction
+    // and the plain loop.
     const bool less_is_better = now.name.find(" / bare") != std::string::npos ||
                                 now.name.find(" / plain") != std::string::npos ||
                                 now.name.starts_with("certified") || now.name.starts_with("oracle");
@@ -340,7 +341,7 @@ int compare_with(const std::string& path, const std::vector<Ratio>& results) {
   return worse ? 1 : 0;
 }
 
-// The table of a document, between two marks.
+// Writes the table of a document between two marks.
 void write_table(const std::string& path, const std::vector<Ratio>& results) {
   constexpr const char *kBegin = "<!-- ratios: begin -->\n", *kEnd = "<!-- ratios: end -->\n";
   std::ifstream in(path);

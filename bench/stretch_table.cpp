@@ -1,6 +1,6 @@
-// What the published algorithm's transformation costs in cells that are not square: families of cells of
-// growing stretch, false proposals per hit, wrong answers, and time beside the reduction engine. Prints a
-// Markdown table.
+// The cost of the published algorithm's transformation in cells that are not square: families of cells of
+// growing stretch, false proposals per hit, wrong answers, and time compared with the reduction engine.
+// Prints a Markdown table.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,14 +23,14 @@ struct Family {
   std::string name;
   int dimension;
   std::array<Vec, 3> vectors;
-  double shortest;  ///< lattice vector: radii are relative to it
+  double shortest;  ///< shortest lattice vector: radii are relative to it
 };
 
 Family rectangle(double s) {
   return {fmt::format("rectangle 1 x {}", s), 2, {Vec{1, 0}, Vec{0, s}}, 1};
 }
 
-// The lattice stays the square one, described by ever more oblique vectors.
+// The square lattice, described by increasingly oblique vectors.
 Family sheared_square(double shear) {
   return {fmt::format("square as (1,0), ({},1)", shear), 2, {Vec{1, 0}, Vec{shear, 1}}, 1};
 }
@@ -73,8 +73,8 @@ std::vector<Family> families() {
   };
 }
 
-// The singular values of a symmetric matrix' square root, largest over smallest, by Jacobi's rotations: the
-// stretch sigma_1 / sigma_d of the cell.
+// The stretch sigma_1 / sigma_d of the cell: the ratio of the largest to the smallest singular value, from
+// the Gram matrix by Jacobi rotations.
 double stretch_of(const Family& family) {
   const int d = family.dimension;
   double g[3][3]{};
@@ -100,7 +100,7 @@ double stretch_of(const Family& family) {
   return std::sqrt(high / low);
 }
 
-// `plain`: the time in the first family of this dimension and radius, or 0 if this is it.
+// `plain`: the time in the first family of this dimension and radius; 0 if this is the first.
 std::string row(const Family& family, double relative_radius, std::size_t count, double& plain) {
   Scene scene = unit_scene(family.dimension, relative_radius * family.shortest);
   scene.lattices[0].vectors = family.vectors;

@@ -27,14 +27,14 @@ std::string versions() {
                      fmt::join(library_versions(), "\n"));
 }
 
-// ---- The parser's tree, made of the tables
+// ---- The parser's tree, built from the tables
 
-// A number as it was given: it is read when all was parsed.
+// A number as typed. It is converted after all options are parsed.
 struct NumberGiven {
   const Option& option;
   std::optional<std::string> text = {};
 };
-using NumbersGiven = std::deque<NumberGiven>;  // which stay where they are
+using NumbersGiven = std::deque<NumberGiven>;  // a deque, because addresses must stay valid
 
 CLI::Option* add_option(CLI::App& app, const Option& option, NumbersGiven& numbers) {
   return std::visit(
@@ -71,16 +71,16 @@ void add(CLI::App& app, const Command& command, NumbersGiven& numbers) {
     add(*app.add_subcommand(one.name, one.description), one, numbers);
 }
 
-// ---- What the words ask for
+// ---- Parsing the words
 
-// A subcommand, and what it is called on the command line.
+// A subcommand, and its name on the command line.
 struct Called {
   const Command& command;
   std::string name;
 };
 
-// The one that the words ask for. It must exist, and so must its own; the parser itself would only say that
-// one is required.
+// The subcommand that the words name. It must exist, and its own subcommand, too. The parser alone would only
+// report that a subcommand is required.
 Called subcommand_of(CLI::App& app, const Command& command, const std::string& before, int argc,
                      char** argv) {
   const std::string name = (before.empty() ? "" : before + ' ') + command.name;
@@ -97,7 +97,7 @@ Called subcommand_of(CLI::App& app, const Command& command, const std::string& b
                                did_you_mean(argv[1], names), fmt::join(names, ", ")));
 }
 
-// Of the words that no option took those that look like options, with what they may have been meant for.
+// The unparsed words that look like options, with suggestions of the intended options.
 std::string unknown_options(const CLI::App& app, const Command& command) {
   std::vector<std::string> names;
   for (const Option& option : command.options)
@@ -109,7 +109,7 @@ std::string unknown_options(const CLI::App& app, const Command& command) {
   return text;
 }
 
-// "--count: 1 required N missing" in words.
+// Rewords a message such as "--count: 1 required N missing".
 std::string in_words(const std::string& error) {
   const std::string required = ": 1 required ", missing = " missing";
   const auto at = error.find(required);
@@ -118,13 +118,13 @@ std::string in_words(const std::string& error) {
   return error.substr(0, at) + ": needs a value, " + value.substr(0, value.size() - missing.size());
 }
 
-// The one that was parsed: options of the one above may stand before its name.
+// The subcommand that was parsed. Options of its parent may stand before its name.
 const Command& parsed(const CLI::App& app, const Command& command) {
   const auto those = app.get_subcommands();
   return those.empty() ? command : parsed(*those[0], *command.called(those[0]->get_name()));
 }
 
-// What is to be done.
+// Parses the words and returns the action to run.
 const Action& parse(CLI::App& app, const Command& program, const NumbersGiven& numbers, int argc,
                     char** argv) {
   const Called called = subcommand_of(app, program, "", argc, argv);
@@ -149,7 +149,7 @@ std::string& called() {
   return line;
 }
 
-// `lorentz help golden make` is what everyone tries: lorentz golden make --help.
+// Supports `lorentz help golden make` as another form of `lorentz golden make --help`.
 void help_as_option(int argc, char** argv) {
   static char option[] = "--help";
   if (argc < 2 || std::string_view(argv[1]) != "help") return;
@@ -157,7 +157,7 @@ void help_as_option(int argc, char** argv) {
   argv[argc - 1] = option;
 }
 
-// What shells and the build ask for, and no person: not in --help.
+// Services for shells and the build. They are not meant for people and not listed in --help.
 bool serves(const Command& program, int argc, char** argv) {
   const std::vector<std::string> words(argv + std::min(argc, 2), argv + argc);
   const std::string service = argc > 1 ? argv[1] : "";
@@ -187,7 +187,7 @@ int parse_and_act(CLI::App& app, const Command& program, const NumbersGiven& num
   } catch (const std::bad_alloc&) {
     say("out of memory");
     return kFailed;
-  } catch (const std::filesystem::filesystem_error& error) {  // its own text is for programmers
+  } catch (const std::filesystem::filesystem_error& error) {  // its own text is meant for programmers
     say("{}: {}", error.path1().string(), error.code().message());
     return kFailed;
   } catch (const std::exception& error) {
@@ -203,7 +203,7 @@ const std::string& command_line() {
 }
 
 void finish_output() {
-  static bool is_lost = false;  // is said once
+  static bool is_lost = false;  // reported only once
   if (is_lost) return;
   std::cout.flush();
   const bool flushed = std::fflush(stdout) == 0;
@@ -213,7 +213,7 @@ void finish_output() {
 
 namespace {
 
-// Each command's own rows, behind those that the parser has of itself.
+// Adds the help option in front of each command's own rows.
 void add_help(Command& command) {
   command.options.insert(command.options.begin(), {"-h,--help", {}, "", "Print this help message and exit"});
   for (Command& one : command.commands) add_help(one);

@@ -1,4 +1,4 @@
-// The program `lorentz`: one file per subcommand, each of which says here what it is called and takes.
+// The program `lorentz`: one file per subcommand. Each declares its command here, with name and options.
 #pragma once
 
 #include <string>
@@ -25,10 +25,10 @@ Command judge_command();
 Command golden_command();
 Command doctor_command();
 
-/// The shell line that this program was called with.
+/// The shell line that called this program.
 const std::string& command_line();
 
-/// The parser, and its version.
+/// The parser library and its version.
 std::string parser_library();
 
 /// The whole program: parses, acts, and turns exceptions into messages and an exit status.

@@ -1,4 +1,4 @@
-// lorentz bench: speed against error, engines by scenes by radii by difficulty.
+// lorentz bench: speed and error for all combinations of engines, scenes, radii and difficulties.
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ namespace {
 struct BenchOptions {
   std::vector<std::string> engines{"classical", "published", "reduction", "certified", "oracle"};
   std::vector<std::string> scenes{"square", "cubic"};
-  std::vector<std::string> radii;  // none: radii_of
+  std::vector<std::string> radii;  // empty: see radii_of
   std::vector<std::string> difficulties{"drawn", "near-rational", "grazing"};
   std::uint64_t count = 2000, seed = starts::kDefaultSeed;
   std::optional<double> timeout;
@@ -40,7 +40,8 @@ struct BenchOptions {
   bool json = false;
 };
 
-// The radii to run a scene at: those asked for, or some; a scene with semiaxes at its own size.
+// The radii at which a scene is run: the given ones or the defaults. A scene with semiaxes runs at its own
+// size.
 std::vector<std::optional<std::string>> radii_of(const BenchOptions& options, const std::string& scene_name) {
   if (!options.radii.empty()) return {options.radii.begin(), options.radii.end()};
   for (const Lattice& lattice : read_scene(scene_name, {}).lattices)
@@ -60,7 +61,7 @@ std::vector<BenchGroup> groups_of(const BenchOptions& options) {
   return groups;
 }
 
-// What figures depend on besides what was asked.
+// The conditions besides the options on which the figures depend.
 runs::Plan words_of(const report::Manifest& manifest, const Claim& claim) {
   runs::Plan words{
       {"commit", manifest.commit},   {"compiler", manifest.compiler},         {"flags", manifest.flags},
@@ -85,7 +86,7 @@ int act(const BenchOptions& options) {
   const BenchPlan plan = plan_of(options);
   const std::vector<BenchGroup> groups = groups_of(options);
   const report::Manifest manifest = report::manifest_of(plan.seed, command_line());
-  if (options.html && !report::has_page()) report::page("");  // says why
+  if (options.html && !report::has_page()) report::page("");  // throws with the reason
   RequestedFile csv(options.csv), html(options.html);
   if (options.store) goes_on_when_repeated();
   BenchStore store(options.store, plan, groups, words_of(manifest, plan.claim), json::text_of(manifest));

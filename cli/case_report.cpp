@@ -17,7 +17,7 @@
 namespace lorentz::cli {
 namespace {
 
-// What makes this answer again from nothing but the program.
+// Commands that reproduce this answer with the program alone.
 std::vector<std::string> commands_of(const CaseReport& report) {
   const std::string lines = report::printed(report.scene, report::query_members(report.query, report.scene));
   std::vector<std::string> commands{report.command, lines + " | lorentz first-hit --engine oracle --detail"};

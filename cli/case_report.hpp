@@ -1,4 +1,4 @@
-// One case on a page: the question, the exact answer, perhaps another one, and the drawing of both.
+// One case on a page: the question, the exact answer, perhaps a given answer, and the drawing of both.
 #pragma once
 
 #include <optional>
@@ -15,29 +15,29 @@ namespace lorentz::cli {
 
 struct CaseReport {
   std::string title;
-  std::string command;  ///< that makes this report
-  std::string cause;    ///< what it is called
+  std::string command;  ///< the command that makes this report
+  std::string cause;    ///< the name of the cause
   std::string explanation;
-  std::string where;    ///< it comes from
-  std::string verdict;  ///< wrong, ill-posed, wrong-time, undecided, ..; "exact": there is no other answer
+  std::string where;    ///< the source of the case
+  std::string verdict;  ///< wrong, ill-posed, wrong-time, undecided, ..; "exact": no answer was given
   Scene scene;
   Query query;
   std::optional<Answer> given;
   Answer exact;
-  std::optional<ObstacleId> decisive;  ///< that the answer given is judged by
-  std::optional<double> by_ulps;       ///< the inputs must move for the answer to be right
-  std::vector<std::string> more;       ///< lines that are said after the reason
-  Claim claim;                         ///< by which it is judged
-  std::string engine;                  ///< whose answer it is; empty: nobody's
+  std::optional<ObstacleId> decisive;  ///< the obstacle that decides about the given answer
+  std::optional<double> by_ulps;       ///< the distance that the inputs must move for the answer to be right
+  std::vector<std::string> more;       ///< further lines after the reason
+  Claim claim;                         ///< the claim by which it is judged
+  std::string engine;                  ///< the engine that gave the answer; empty: none
 };
 
-/// The drawing, or an empty text if there is nothing to be drawn.
+/// The drawing, or an empty text if there is nothing to draw.
 std::string drawing_of(const CaseReport& report);
 
-/// The report of kind "case", with one finding, as docs/page.md has it.
+/// The report of kind "case" with one finding, in the form of docs/page.md.
 std::string page_json(const CaseReport& report);
 
-/// Where a case is written to besides.
+/// Further files to which a case is written.
 struct CaseFiles {
   std::optional<std::string> html, svg;
 
@@ -45,8 +45,8 @@ struct CaseFiles {
   bool any() const { return html || svg; }
   std::string as_typed() const;  ///< " --html FILE", or nothing
 
-  /// Throws FileError, also if the program has no page and one was asked for; and InputError if there is
-  /// nothing to be drawn. Either both files are made or none is touched (but for a disk that is full).
+  /// Throws FileError, also if a page is requested and the program has none. Throws InputError if there is
+  /// nothing to draw. Either both files are written or both are left untouched (except if the disk is full).
   void write(const CaseReport& report) const;
 };
 

@@ -1,4 +1,4 @@
-// Private to cli/lyapunov.cpp and cli/diffusion.cpp: what the statistics of trajectories have in common.
+// Private to cli/lyapunov.cpp and cli/diffusion.cpp: the parts that both statistics of trajectories share.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ struct ChaosOptions : ScanOptions {
   std::optional<std::string> store;
 };
 
-/// The options that both have.
+/// The options that both commands have.
 std::vector<Option> chaos_rows(ChaosOptions& options, const std::string& rows_of_csv);
 
-/// Throws InputError for a store of several places.
+/// Throws InputError if a store is requested for several scenes or radii.
 void check_store(const ChaosOptions& options);
 
-/// Calls `run(work)` with threads, progress, Ctrl-C, and the store of this kind and plan, if one is asked
-/// for; says how long it took.
+/// Calls `run(work)` with threads, progress, Ctrl-C, and the store of this kind and plan, if requested.
+/// Reports how long it took.
 void with_work(const ChaosOptions& options, const std::string& kind, const runs::Plan& plan,
                const std::function<void(const chaos::Work&)>& run);
 

@@ -16,7 +16,7 @@ NumberFormat number_format_named(const std::string& precision) {
 std::vector<std::optional<question::Introduction>> ClaimOptions::ask(
     const std::vector<question::EngineInfo>& engines) {
   std::vector<std::optional<question::Introduction>> all;
-  claim();  // what is wrong with the options is said first
+  claim();  // reports errors of the options first
   for (const question::EngineInfo& engine : engines) {
     const auto& said = all.emplace_back(engine.introduce ? engine.introduce() : std::nullopt);
     if (!said) continue;

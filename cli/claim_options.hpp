@@ -1,4 +1,4 @@
-// --precision and --time-tolerance: what the judged engine claims.
+// --precision and --time-tolerance: the claims of the judged engine.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,17 @@
 
 namespace lorentz::cli {
 
-/// Of --precision. Throws InputError.
+/// The number format that --precision names. Throws InputError.
 NumberFormat number_format_named(const std::string& precision);
 
 struct ClaimOptions {
   std::optional<std::string> precision, time_tolerance;
 
-  /// What these engines say of themselves holds where the options say nothing: of several, the coarsest. Returns
-  /// what each said. Throws InputError.
+  /// Asks the engines for their own claims. They apply where the options do not set a value; the coarsest
+  /// claim applies if there are several. Returns the claim of each engine. Throws InputError.
   std::vector<std::optional<question::Introduction>> ask(const std::vector<question::EngineInfo>& engines);
 
-  /// `otherwise`: where neither the options nor the engines say a precision. Throws InputError.
+  /// `otherwise`: the precision if neither the options nor the engines set one. Throws InputError.
   Claim claim(NumberFormat otherwise = NumberFormat::binary64) const;
 
   Option precision_row(const std::string& otherwise = "else binary64");

@@ -1,5 +1,5 @@
-// A subcommand as data: its options are rows of a table, of which parsing, the check of files, completion and
-// the manual pages are made (app.cpp hands them to the parser).
+// A subcommand as data. Its options are rows of a table. The parser, the check of files, completion and the
+// manual pages use this table (app.cpp passes the rows to the parser).
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace lorentz::cli {
 
-/// What a subcommand does once its options are parsed; returns an ExitStatus.
+/// The action of a subcommand after its options are parsed. Returns an ExitStatus.
 using Action = std::function<int()>;
 
-/// Numbers: a whole one from `least` to `most`, with a default or to be left out; one above zero; the
-/// tolerance k of the verdicts.
+/// Kinds of numbers: Whole is an integer from `least` to `most`, with a default or optional. Positive is a
+/// number above zero. Tolerance is the tolerance k of the verdicts.
 struct Whole {
   std::variant<std::uint64_t*, std::optional<std::uint64_t>*> to;
   std::uint64_t least = 0, most = ~std::uint64_t{0};
@@ -27,30 +27,30 @@ struct Tolerance {
   std::optional<double>* to;
 };
 
-/// Where an option's value goes: a flag's, that of an option with a default (none if empty), one that may be
-/// left out, one that may be given several times; a number. Nothing: the parser's own.
+/// Where an option's value is stored: a flag, an option with a default (no default if empty), an optional
+/// value, an option that may be given several times, a number. monostate: an option of the parser itself.
 using Destination = std::variant<std::monostate, bool*, std::string*, std::optional<std::string>*,
                                  std::vector<std::string>*, Whole, Positive, Tolerance>;
 
 enum Trait : unsigned {
   kPlain = 0,
   kRequired = 1,
-  kOutput = 2,       ///< names a file that is written, or (a store) written and read
-  kCommas = 4,       ///< of several values: with commas between them
-  kOneAtATime = 8,   ///< of several values: each with the option's name before it
-  kHidden = 16,      ///< from help: for tests
-  kToldDefault = 32  ///< its help line says what the default is
+  kOutput = 2,       ///< names a file that is written, or a store, which is written and read
+  kCommas = 4,       ///< several values are separated by commas
+  kOneAtATime = 8,   ///< each of several values follows the option's name
+  kHidden = 16,      ///< not in help: for tests
+  kToldDefault = 32  ///< its help line states the default
 };
 
 /// One option, or one argument.
 struct Option {
-  std::string names;  ///< "-e,--engine"; of an argument its name
+  std::string names;  ///< "-e,--engine"; for an argument, its name
   Destination target;
   std::string
-      type;  ///< what help calls the value: FILE, N, .., or the values themselves, a|b|c; of a flag empty
+      type;  ///< the value's name in help: FILE, N, .., or the values themselves, a|b|c; empty for a flag
   std::string help;
   unsigned traits = kPlain;
-  std::string excludes = {};  ///< with which it cannot be given: "--queries"
+  std::string excludes = {};  ///< an option with which it cannot be combined: "--queries"
 
   bool is_argument() const { return !names.starts_with('-'); }
   bool is_hidden() const { return traits & kHidden; }
@@ -59,25 +59,25 @@ struct Option {
 
   std::vector<std::string> long_names() const;    ///< without dashes
   std::vector<std::string> short_names() const;   ///< without dashes
-  std::string name() const;                       ///< "--engine", or the argument's
+  std::string name() const;                       ///< "--engine", or the argument's name
   bool is_called(const std::string& word) const;  ///< with dashes
 
-  std::string default_text() const;         ///< before anything is parsed; empty: none
-  std::vector<std::string> values() const;  ///< that it was given, or its default
+  std::string default_text() const;         ///< valid before parsing; empty: no default
+  std::vector<std::string> values() const;  ///< the given values, or the default
 };
 
 struct Command {
   std::string name, description;
   std::vector<Option> options;
   std::string footer;
-  Action act = {};  ///< nothing: it wants one of its commands
+  Action act = {};  ///< empty: one of its commands is required
   std::vector<Command> commands = {};
 
   const Command* called(const std::string& name) const;  ///< one of its commands
   const Option* option_called(const std::string& word) const;
 };
 
-/// Rows that several commands share, before or behind a command's own.
+/// Joins rows that several commands share with a command's own rows.
 std::vector<Option> joined(std::vector<Option> first, const std::vector<Option>& second);
 
 }  // namespace lorentz::cli

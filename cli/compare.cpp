@@ -1,4 +1,4 @@
-// lorentz compare: engines, and answers logged elsewhere, against the oracle.
+// lorentz compare: compares engines, and answers logged elsewhere, with the oracle.
 #include <algorithm>
 
 #include <lorentz/exchange.hpp>
@@ -26,7 +26,7 @@ using namespace question;
 
 namespace {
 
-// Median, 99 % and largest; null of nothing.
+// Median, 99 % quantile and largest value; null without values.
 auto spread_of(const std::vector<double>& values) {
   const auto spread = [&values](json::Members& object) {
     object.add("median", quantile(values, 0.5), "p99", quantile(values, 0.99), "max", quantile(values, 1));
@@ -62,12 +62,12 @@ std::string json_of(const std::string& scene, const CompareOptions& options, std
   });
 }
 
-// An engine, or the answers in a file, that is compared.
+// An engine or a file of answers that is compared.
 struct Compared {
   std::string name;
-  std::vector<std::unique_ptr<Answerer>> answerers;  // one a thread
-  std::optional<EngineInfo> engine = {};             // or
-  LoggedAnswers* logged = nullptr;                   // which the answerer is
+  std::vector<std::unique_ptr<Answerer>> answerers;  // one per thread
+  std::optional<EngineInfo> engine = {};             // either this
+  LoggedAnswers* logged = nullptr;                   // or this: then it is the answerer
   Tally tally = {};
 };
 
@@ -97,7 +97,7 @@ Compared logged_answers(const std::string& argument, const ComparedQuestions& qu
   return one;
 }
 
-// The scene's name for the heading; the number of scenes if a file has several.
+// The heading: the scene's name, or the number of scenes if a file has several.
 std::string title(const CompareOptions& options, const ComparedQuestions& questions) {
   if (questions.scenes() > 1) return fmt::format("{} scenes", questions.scenes());
   const std::string name = options.scene.value_or(options.queries.value_or("square"));
@@ -115,7 +115,8 @@ int exit_status(const std::vector<Tally>& tallies, const CompareOptions& options
   return kDone;
 }
 
-// What departs from the exact answers in one part: to the file, and the first wrong ones for people.
+// Collects the answers of one part that differ from the exact ones: all for the file, the first wrong ones
+// for people.
 class Departures {
  public:
   Departures(const CompareOptions& options, DisagreementFile& file) : options_(options), file_(file) {}
@@ -148,7 +149,7 @@ class Departures {
   DisagreementFile& file_;
 };
 
-// The first wrong answers of the i-th that is compared, for people; empty if there are none.
+// The first wrong answers of the i-th engine or file, for people; empty if there are none.
 std::string first_wrong(const ComparedParts& parts, std::size_t i, std::size_t most) {
   std::string text;
   for (const auto& [number, part] : parts.all())
@@ -157,7 +158,7 @@ std::string first_wrong(const ComparedParts& parts, std::size_t i, std::size_t m
   return text;
 }
 
-// A line, or nothing.
+// The line on questions that were not asked; empty if all were asked.
 std::string not_asked_of(const ComparedQuestions& questions) {
   const std::size_t count = questions.not_asked();
   return count == 0 ? ""
@@ -215,7 +216,7 @@ std::vector<Compared> all_compared(const CompareOptions& options, const std::vec
   return all;
 }
 
-// Who only has to keep up with the questions: the answers that belong to them are passed over.
+// Skips the logged answers to these questions, so that the files stay in step with the questions.
 void pass_over(const std::vector<Question>& questions, std::vector<Compared>& compared) {
   for (Compared& one : compared)
     if (one.logged) ask_all(all_of(questions), *one.answerers[0], [](const Question&, Reply&) {});
@@ -240,8 +241,8 @@ ComparedPart examine_part(const CompareOptions& options, std::uint64_t number,
   return part;
 }
 
-// Asks part after part, so that what is held in memory does not grow with the queries. Returns the first of
-// them, for the race.
+// Asks part after part, so that memory does not grow with the number of queries. Returns the first questions,
+// for the race.
 std::vector<Question> examine_all(const CompareOptions& options, ComparedQuestions& questions,
                                   std::vector<Compared>& compared, ComparedParts& parts,
                                   DisagreementFile& file) {
@@ -269,7 +270,7 @@ std::vector<Question> examine_all(const CompareOptions& options, ComparedQuestio
   return first;
 }
 
-// The speeds of the engines that did not break.
+// Measures the speeds of the engines that did not fail.
 void race_all(const CompareOptions& options, const std::vector<Question>& questions,
               std::vector<Compared>& compared) {
   RaceOptions race_options;

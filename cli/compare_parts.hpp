@@ -1,4 +1,4 @@
-// What `lorentz compare` came to, part by part: kept in a store, gone on with, and added up from shards.
+// The results of `lorentz compare`, part by part: kept in a store, resumed, and added up from shards.
 #pragma once
 
 #include <cstdint>
@@ -15,24 +15,25 @@ namespace lorentz::cli {
 /// One part of the questions, judged.
 struct ComparedPart {
   std::uint64_t number = 0;
-  std::uint64_t check = 0;                      ///< of the questions
-  std::vector<question::Tally> tallies;         ///< of each that is compared
-  std::vector<std::vector<std::string>> wrong;  ///< the first wrong answers of each, for people
+  std::uint64_t check = 0;                      ///< check_of() the questions
+  std::vector<question::Tally> tallies;         ///< of each engine or file
+  std::vector<std::vector<std::string>> wrong;  ///< the first wrong answers of each, as text
   std::string disagreements;                    ///< DisagreementFile::take()
 };
 
 class ComparedParts {
  public:
-  /// Reads the store, if there is one, and those of other shards. `names`: of all that are compared. Throws
-  /// InputError and FileError.
+  /// Reads the store, if there is one, and the stores of other shards. `names`: the names of all engines and
+  /// files that are compared. Throws InputError and FileError.
   ComparedParts(const CompareOptions& options, const std::vector<std::string>& names);
 
-  /// False if the part is another shard's, or done. Throws InputError if it was done of other questions.
+  /// False if the part belongs to another shard or is done. Throws InputError if it was done with other
+  /// questions.
   bool is_to_do(std::uint64_t number, std::uint64_t check) const;
-  /// A part that is whole goes to the store.
+  /// Adds a part. A complete part is also written to the store.
   void add(ComparedPart part, bool is_whole);
 
-  /// Those that are done, by number.
+  /// The finished parts by number.
   const std::map<std::uint64_t, ComparedPart>& all() const { return parts_; }
 
  private:
@@ -44,7 +45,7 @@ class ComparedParts {
   std::map<std::uint64_t, ComparedPart> parts_;
 };
 
-/// The check of a part's questions.
+/// The checksum of a part's questions.
 std::uint64_t check_of(const std::vector<question::Question>& questions);
 
 }  // namespace lorentz::cli

@@ -16,7 +16,7 @@ ComparedQuestions::ComparedQuestions(const CompareOptions& options, Disagreement
     scene = load_scene(options.scene.value_or("square"), options.radius, options.unknown_keys());
   else if (options.radius)
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
-  // What --scene names is rounded to what the engine can take; what a stream holds is asked as it is.
+  // The scene of --scene is rounded to the engine's precision. Scenes of a stream are used unchanged.
   if (scene) scene = rounded_scene(*scene, claim_.precision, options.scene.value_or("square"));
   if (scene) enter(*scene);
   if (options.queries) given_.emplace(*options.queries, scene, options.unknown_keys());
@@ -32,7 +32,7 @@ std::vector<Question> ComparedQuestions::next(std::size_t most) {
   return given_ ? read(most) : draw(most);
 }
 
-// Answers are matched by id, so the queries' must be unique.
+// Answers are matched by id, so the ids of queries must be unique.
 void ComparedQuestions::add(Questions& questions, const Query& query, const Id& id) {
   if (!options_.answers.empty() && id != "null" && !ids_.insert(id).second) {
     bad_ids_ = true;

@@ -1,4 +1,4 @@
-// What `lorentz compare` asks: drawn, or read from a stream or from columns.
+// The questions of `lorentz compare`: drawn, or read from a stream or from columns.
 #pragma once
 
 #include <memory>
@@ -28,10 +28,10 @@ struct CompareOptions {
   UnknownKeys unknown_keys() const { return strict ? UnknownKeys::errors : UnknownKeys::warned; }
 };
 
-/// The questions that the options ask for, part by part, without answers.
+/// The questions that the options specify, part by part, without answers.
 class ComparedQuestions {
  public:
-  /// Throws InputError and FileError. The scenes begin the file of disagreements.
+  /// Throws InputError and FileError. The scenes are written at the beginning of the file of disagreements.
   ComparedQuestions(const CompareOptions& options, DisagreementFile& disagreements);
 
   /// The next questions, at most `most`; empty at the end.
@@ -39,13 +39,13 @@ class ComparedQuestions {
 
   bool had_bad_input() const { return bad_ids_ || (given_ && given_->had_bad_input()); }
   std::size_t count() const { return count_; }
-  std::size_t not_asked() const { return not_asked_; }  ///< that have numbers of another precision
-  std::size_t scenes() const { return scenes_; }        ///< with questions
+  std::size_t not_asked() const { return not_asked_; }  ///< because their numbers have another precision
+  std::size_t scenes() const { return scenes_; }        ///< scenes with questions
 
-  /// Those of them since the last call: their answers, if logged, are to be passed over.
+  /// The questions since the last call that were not asked. Logged answers to them must be skipped.
   std::vector<question::Question> passed_over() { return std::exchange(passed_over_, {}); }
 
-  /// Are the queries columns? Then rows of answers are matched to them by number.
+  /// Whether the queries are columns. If so, rows of answers are matched to them by number.
   bool are_columns() const { return given_ && given_->are_columns(); }
   int dimension() const { return place_ ? place_->scene().dimension : 0; }
   Components components() const { return place_ ? Components(place_->scene()) : 0; }
@@ -63,7 +63,7 @@ class ComparedQuestions {
   DisagreementFile& disagreements_;
   std::optional<GivenQueries> given_;  // or drawn
   std::shared_ptr<question::Place> place_;
-  std::optional<starts::FreeStarts> starts_;  // of drawn queries
+  std::optional<starts::FreeStarts> starts_;  // for drawn queries
   bool is_new_ = false, bad_ids_ = false;
   std::vector<question::Question> passed_over_;
   std::size_t not_asked_ = 0, count_ = 0, scenes_ = 0;

@@ -1,4 +1,4 @@
-// What engines came to beside the oracle, for people.
+// Tables of the comparison of engines with the oracle.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace lorentz::cli {
 
-/// A table for people, one row a tally.
+/// A table as text, one row per tally.
 std::string table_of(const std::vector<question::Tally>& tallies, bool judged);
 
-/// "3 ill-posed, 2 undecided": what was not answered, or not as it is, but for what is wrong; empty if that
-/// is nothing.
+/// For example "3 ill-posed, 2 undecided": the numbers of answers that are neither right nor wrong; empty if
+/// there are none.
 std::string others_of(const question::Tally& tally);
 
-/// In a line what to make of a tally's answers: how many are wrong, and what its wrong times are worth.
+/// The verdict on a tally: how many answers are wrong, and how large the errors of wrong times are.
 std::string verdict_of(const question::Tally& tally);
 
 }  // namespace lorentz::cli

@@ -18,7 +18,7 @@ struct Word {
   std::string text, meaning;
 };
 
-// What an option's value, or an argument, may be.
+// The possible values of an option or an argument.
 struct Values {
   std::vector<Word> words;
   bool or_file = false;
@@ -50,7 +50,7 @@ std::vector<Word> targets() {
   return words;
 }
 
-// By the name that help gives to the value: ENGINE, FILE, .., or the values themselves, a|b|c.
+// Chosen by the value's name in help: ENGINE, FILE, .., or the values themselves, a|b|c.
 Values values_of(const Option& option) {
   const std::string& type = option.type;
   if (type == "ENGINE") return {engines()};
@@ -65,7 +65,7 @@ Values values_of(const Option& option) {
   return values;
 }
 
-// The line as far as it has been typed: whose it is, and what its last word belongs to.
+// The position in the typed line: the command, and the option to which the last word belongs.
 struct Cursor {
   const Command* command;
   const Option* option = nullptr;  // the last word is its value
@@ -96,7 +96,7 @@ Values options_of(const Command& command) {
   return values;
 }
 
-// A subcommand, or what the next argument may be; more arguments than there are belong to the last.
+// Subcommands, or the values of the next argument. Surplus arguments belong to the last argument.
 Values arguments_of(const Cursor& place) {
   Values values;
   if (place.arguments == 0)
@@ -112,7 +112,8 @@ Values arguments_of(const Cursor& place) {
   return values;
 }
 
-// What of the last word stays as it is: --engine= of an option with its value, classical, of a list.
+// The part of the last word that stays unchanged: "--engine=" in an option with its value, "classical," in a
+// list.
 std::string kept_part(const std::string& word, const Cursor& place, const Option* joined) {
   const std::size_t equals = joined ? word.find('=') + 1 : 0;
   const Option* option = joined ? joined : place.option;

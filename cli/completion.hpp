@@ -1,4 +1,4 @@
-// What may stand next on a command line: for the shells, whose functions ask `lorentz --complete WORD..`.
+// Completions of a command line, for the functions of shells, which call `lorentz --complete WORD..`.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace lorentz::cli {
 
-/// The words that may take the place of the last of `words`, which is being typed (the name of the program
-/// left out): one a line, what it means behind a tab. Before them a line that says whether the name of a file
-/// may stand there, too: "files" or "words".
+/// The completions of the last of `words`, which is being typed. `words` does not include the name of the
+/// program. One completion per line, with its meaning after a tab. The first line is "files" if a file name
+/// is possible, too, else "words".
 std::string completions(const Command& program, const std::vector<std::string>& words);
 
 }  // namespace lorentz::cli

@@ -1,4 +1,4 @@
-// lorentz demo: the main job on real input, in a minute. What `./run demo` shows.
+// lorentz demo: the main task on real input, in a minute. `./run demo` shows it.
 #include <cmath>
 #include <numbers>
 
@@ -19,7 +19,7 @@ using namespace question;
 
 namespace {
 
-// The example of Kraemer, Kryukov and Sanders: r = 0.1, x = (0, 0.445), directions of 1 to 89 degrees.
+// The example of Kraemer, Kryukov and Sanders: r = 0.1, x = (0, 0.445), directions from 1 to 89 degrees.
 std::vector<Question> questions_of(std::string_view kind, const Scene& scene,
                                    const std::vector<Query>& queries, std::size_t first = 0) {
   const auto place = std::make_shared<Place>(scene);
@@ -40,7 +40,7 @@ std::vector<Question> paper_example() {
   return questions_of("paper", unit_scene(2, 0.1), queries, 1);
 }
 
-// Where the published algorithm skips discs.
+// Flights on which the published algorithm skips discs.
 std::vector<Question> leaving_flights(int dimension, double radius, std::size_t count) {
   return questions_of(
       fmt::format("leaving-{}d/{}", dimension, radius), unit_scene(dimension, radius),
@@ -99,7 +99,7 @@ class DemoReport {
     examine(all_of(questions), *engine.answerer({}), oracle::kDefaultUlps, [&](const Judged& judged) {
       tally.count(judged.judgement);
       if (engine.name == kPublished && judged.judgement.verdict == oracle::Verdict::wrong)
-        disagreements_.add(judged, engine.name);  // those that are counted below
+        disagreements_.add(judged, engine.name);  // counted below
     });
     return tally;
   }

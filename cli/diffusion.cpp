@@ -1,4 +1,4 @@
-// lorentz diffusion: how far particles come.
+// lorentz diffusion: mean squared displacements of particles.
 #include "cli/app.hpp"
 #include "cli/chaos_options.hpp"
 #include "cli/output.hpp"

@@ -1,5 +1,5 @@
-// The answers that depart from the exact ones, as a query stream that can be run again: scene lines, and
-// queries with `engine`, `verdict`, `departs` (in ulps), `expected` and `given` beside what they ask.
+// The answers that differ from the exact ones, as a query stream that can be run again: scene lines, and
+// queries with the additional keys `engine`, `verdict`, `departs` (in ulps), `expected` and `given`.
 #pragma once
 
 #include <optional>
@@ -22,13 +22,13 @@ class DisagreementFile {
   void begin(const std::shared_ptr<question::Place>& place);
   void add(const question::Judged& judged, const std::string& engine);
 
-  /// What was added since the last call, a stream by itself, which is not written but by put().
+  /// Returns the answers added since the last call as a stream of its own. Only put() writes it to the file.
   std::string take();
-  /// Writes what take() gave; a scene that is the one before is not said again.
+  /// Writes a stream from take(). A scene line equal to the previous one is not repeated.
   void put(std::string_view stream);
 
-  /// Writes what was added and not taken, and puts the file in its place. Throws FileError if something was not
-  /// written.
+  /// Writes the answers that were added and not taken, and moves the file to its final name. Throws FileError
+  /// if something was not written.
   void close();
 
  private:

@@ -1,4 +1,4 @@
-// lorentz doctor: is this machine, and this build, fit to be believed?
+// lorentz doctor: whether this machine and this build give trustworthy results.
 #include <lorentz/batch.hpp>
 #include <lorentz/exchange.hpp>
 
@@ -24,7 +24,7 @@ struct DoctorOptions {
   std::string rounding;
 };
 
-/// What was seen, and what it means.
+/// The findings and their consequences.
 struct MachineReport {
   report::Manifest manifest;
   std::vector<std::string> instruction_sets, libraries;
@@ -34,7 +34,7 @@ struct MachineReport {
   bool fit() const { return unfit.empty(); }
 };
 
-// For tests: what is wrong must be seen to be wrong.
+// For tests: a wrong rounding mode must be detected.
 void set_rounding(const std::string& mode) {
   constexpr int kModes[] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
   std::fesetround(kModes[index_of_name(mode, {"upward", "downward", "toward-zero"}, "--pretend-rounding")]);

@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 constexpr const char* kStandardInput = "/dev/stdin";
 constexpr const char* kStandardOutput = "/dev/stdout";
 
-// A file, and what names it.
+// A file and the option that names it.
 struct NamedFile {
   std::string by, path;
   bool is_output;
 };
 
-// The files that a value means, by the name that help gives to it. Empty if there is no such file: the
-// command itself reports that.
+// The files that a value refers to, according to the value's name in help. Empty if there is no such file;
+// the command itself reports the missing file.
 std::vector<std::string> files_read(const std::string& type, const std::string& value) {
   try {
     if (type == "FILE") return {value == "-" ? kStandardInput : value};
@@ -41,7 +41,7 @@ std::vector<std::string> values_of(const Option& option) {
   return values.empty() && option.type == "SET" && option.is_argument() ? golden::committed_sets() : values;
 }
 
-// What stands beside a store while it is written.
+// Adds the files that exist beside a store while it is written.
 void add_companions(const std::string& store, std::vector<NamedFile>& files) {
   for (const char* end : {".lock", "-wal", "-shm", "-journal"})
     files.push_back({"the store " + store, store + end, false});
@@ -51,7 +51,7 @@ std::vector<NamedFile> files_of(const Command& command) {
   std::vector<NamedFile> files{{"standard output", kStandardOutput, true}};
   for (const Option& option : command.options) {
     const std::string name = option.name();
-    const bool makes_set = option.type == "SET" && !option.is_argument();  // the name is of a recipe
+    const bool makes_set = option.type == "SET" && !option.is_argument();  // names a recipe, not a file
     for (const std::string& value : values_of(option))
       if (option.traits & kOutput) {
         if (value.empty())
@@ -70,7 +70,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   const fs::file_status there = fs::status(a, error);
   if (fs::exists(there)) return fs::is_regular_file(there) && fs::equivalent(a, b, error);
-  // A name that is too long has no place; opening it says so.
+  // A name that is too long has no path; opening the file reports that.
   const fs::path place = fs::weakly_canonical(fs::absolute(a), error);
   return !error && place == fs::weakly_canonical(fs::absolute(b), error) && !error;
 }

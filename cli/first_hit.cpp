@@ -1,4 +1,4 @@
-// lorentz first-hit: queries in, answers out, line by line; or in columns (first_hit_columns.cpp).
+// lorentz first-hit: reads queries and writes answers, line by line or in columns (first_hit_columns.cpp).
 #include <deque>
 
 #include <lorentz/exchange.hpp>
@@ -29,9 +29,9 @@ struct FirstHitOptions {
   bool detail = false, strict = false, prove = false, records = false;
 };
 
-// The answers in the order of the lines, though those to bad lines are there at once and those to queries
-// when the answerer gives them. The line that waits first has a place of its own: with an engine that answers
-// at once there is never another, and nothing is allocated.
+// Puts the answers in the order of the lines, although answers to bad lines are known at once and answers to
+// queries arrive later. The first waiting line has its own member: an engine that answers at once never has a
+// second one, so that nothing is allocated.
 class AnswerOrder {
  public:
   explicit AnswerOrder(std::string& out) : out_(out) {}
@@ -62,7 +62,7 @@ class AnswerOrder {
   struct WaitingLine {
     Id id;
     Components components = 0;
-    std::string message;  // of a bad line
+    std::string message;  // for a bad line
     bool is_bad = false;
   };
 
@@ -76,11 +76,11 @@ class AnswerOrder {
 
   std::string& out_;
   WaitingLine first_;
-  bool waits_ = false;              // first_, for its answer
+  bool waits_ = false;              // first_ waits for its answer
   std::deque<WaitingLine> others_;  // behind it
 };
 
-constexpr std::size_t kMaxWaiting = 100'000;  // lines: bad ones behind a query would not be bounded otherwise
+constexpr std::size_t kMaxWaiting = 100'000;  // lines: bounds the bad lines behind a query
 
 oracle::Request request_of(const FirstHitOptions& options, const EngineInfo& engine) {
   oracle::Request request;
@@ -147,7 +147,7 @@ int act_on_lines(const FirstHitOptions& options) {
   Output output;
   AnswerOrder order(output.buffer());
   answerer->on_reply([&](const question::Reply& reply) { order.answered(reply.answer); });
-  // While the input pauses, answers go on coming.
+  // While the input pauses, answers continue to arrive.
   stream.lines().before_waiting([&] {
     do output.flush();
     while (answerer->idle(stream.lines().descriptor()));

@@ -15,12 +15,12 @@
 namespace lorentz::cli {
 namespace {
 
-// Rows that are answered together: so few that they stay in the cache, so many that threads have enough.
+// The number of rows answered together: few enough for the cache, enough to keep threads busy.
 constexpr std::size_t kRowsTogether = 4096;
 
-constexpr long kMost = 20;  // complaints of a kind
+constexpr long kMost = 20;  // complaints of one kind
 
-// Says why rows are errors.
+// Reports why rows are errors.
 class Complaints {
  public:
   void operator()(const std::string& name, const QueryRows& queries, const AnswerRows& answers) {
@@ -49,7 +49,7 @@ UnknownKeys policy(const ColumnOrder& order) {
   return order.strict ? UnknownKeys::errors : UnknownKeys::warned;
 }
 
-// One format: its reader, and how its answers are written.
+// The CSV format: its reader and the writer of its answers.
 class Csv {
  public:
   Csv(const ColumnOrder& order, std::string& out)
@@ -108,7 +108,7 @@ int answer_all(const ColumnOrder& order) {
     complaints(reader.name(), queries, answers);
     queries.clear();
   };
-  // While the input pauses, what came is answered.
+  // While the input pauses, the rows that have arrived are answered.
   reader.before_waiting([&] {
     answer();
     output.flush();

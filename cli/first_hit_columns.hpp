@@ -9,7 +9,7 @@
 
 namespace lorentz::cli {
 
-/// What the command line asks for.
+/// The options of the command line.
 struct ColumnOrder {
   enum class Format { csv, npy };
   Format format{};

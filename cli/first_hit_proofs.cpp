@@ -13,8 +13,8 @@
 namespace lorentz::cli {
 namespace {
 
-// Calls with(maker, item) for each query, and other(item) for each line that is neither scene nor query. What
-// proves in a scene is made once.
+// Calls with(maker, item) for each query, and other(item) for each line that is neither scene nor query. The
+// maker of proofs is created once per scene.
 template <class With, class Other>
 void each_query(QueryStream& stream, const With& with, const Other& other) {
   std::optional<golden::Maker> maker;
@@ -30,7 +30,7 @@ void each_query(QueryStream& stream, const With& with, const Other& other) {
   }
 }
 
-// Nothing if the proof is too long for any checker.
+// The proof; empty if it is too long for any checker.
 std::optional<golden::Proved> proved_by(const golden::Maker& maker, const Query& query) {
   try {
     return maker.prove(query);

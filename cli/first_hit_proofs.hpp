@@ -1,4 +1,4 @@
-// lorentz first-hit --prove: answers with their proofs, line by line, or as a golden set.
+// lorentz first-hit --prove: writes answers with their proofs, line by line or as a golden set.
 #pragma once
 
 #include "cli/given_queries.hpp"
@@ -6,12 +6,11 @@
 
 namespace lorentz::cli {
 
-/// Adds `time_decimal` and `certificate` to each answer that is exactly right; others stand without, and are
-/// counted. Returns the exit status.
+/// Adds `time_decimal` and `certificate` to each answer that is exactly right. Other answers are written
+/// without them and counted. Returns the exit status.
 int answer_with_proofs(QueryStream& stream, question::Answerer& answerer);
 
-/// Writes a golden set of the exact answers. `source` is where the queries come from. Returns the exit
-/// status.
+/// Writes a golden set of the exact answers. `source` is the source of the queries. Returns the exit status.
 int write_records(GivenQueries& queries, const std::string& source);
 
 }  // namespace lorentz::cli

@@ -1,4 +1,5 @@
-// lorentz flights: very many free flights from drawn starts, their statistics, and theory beside them.
+// lorentz flights: large numbers of free flights from drawn starts, their statistics, and theory for
+// comparison.
 #include <chrono>
 #include <tuple>
 
@@ -54,10 +55,10 @@ FlightsPlan plan_of(const FlightsOptions& options, const Scene& scene) {
   return plan;
 }
 
-// What is flown one after the other.
+// One of the runs that are flown one after the other.
 struct FlightsTask {
   std::string scene_name;
-  std::optional<double> radius;  // of several
+  std::optional<double> radius;  // set if several radii are given
   FlightsPlan plan;
 };
 
@@ -86,14 +87,14 @@ flights::FlightBounds bounds_of(const FlightsOptions& options) {
   return bounds;
 }
 
-// The account of a stored piece, which must be one of this plan.
+// The account in a stored piece. It must be possible for this plan.
 Account account_in(const std::string& piece, const FlightsPlan& plan) {
   Account account = Account::of(piece);
   account.check(plan);
   return account;
 }
 
-// A run as its store has it, with what the stores of other shards have.
+// A run as resumed from its store and the stores of other shards.
 struct Begun {
   Account account;
   runs::PieceStore store;
@@ -109,7 +110,7 @@ struct Begun {
   }
 
  private:
-  std::uint64_t before = 0;  // blocks of the files before
+  std::uint64_t before = 0;  // blocks of the previous files
 
   runs::ReadPiece reader(const FlightsPlan& plan) {
     return [this, &plan](const std::string& piece) {
@@ -127,7 +128,7 @@ struct Begun {
   }
 };
 
-// Draws the progress, and stores now and then.
+// Draws the progress and writes to the store at intervals.
 class News {
  public:
   News(runs::PieceStore* store, const FlightsPlan& plan, flights::Ranks* ranks)
@@ -146,14 +147,14 @@ class News {
   }
 
  private:
-  runs::PieceStore* store_;  // of rank 0
+  runs::PieceStore* store_;  // only on rank 0
   Progress progress_;
   const std::uint64_t count_;
   flights::Ranks* ranks_;
   std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now();
 };
 
-// Another rank's share: flown, and reported to rank 0.
+// For the ranks other than 0: flies their share and reports it to rank 0.
 void fly_share(const FlightsPlan& plan, flights::FlightBounds bounds, flights::Ranks& ranks) {
   Account known, own = Account::begun(plan);
   ranks.share(known);
@@ -181,7 +182,7 @@ FlightsReport fly(const FlightsTask& task, const flights::FlightBounds& bounds, 
   return result;
 }
 
-// The files that are made of all scenes and radii.
+// The files with the results of all scenes and radii.
 class Files {
  public:
   explicit Files(const FlightsOptions& options)
@@ -202,7 +203,7 @@ class Files {
   RequestedFile csv_, svg_, density_svg_, html_;
 };
 
-// Each is reported when it is flown; an interrupt leaves out those of which nothing is.
+// Flies and reports each task in turn. After an interrupt, tasks without results are left out.
 int fly_all(const std::vector<FlightsTask>& tasks, const flights::FlightBounds& bounds,
             const FlightsOptions& options, flights::Ranks* ranks) {
   Files files(options);
@@ -221,7 +222,7 @@ int fly_all(const std::vector<FlightsTask>& tasks, const flights::FlightBounds& 
 }
 
 int act(const FlightsOptions& options) {
-  if (options.html && !report::has_page()) report::page("");  // says why
+  if (options.html && !report::has_page()) report::page("");  // throws with the reason
   const std::vector<FlightsTask> tasks = tasks_of(options);
   flights::FlightBounds bounds = bounds_of(options);
   const Interrupt interrupt;
@@ -234,7 +235,7 @@ int act(const FlightsOptions& options) {
     if (ranks->rank() == 0) return fly_all(tasks, bounds, options, ranks.get());
     for (const FlightsTask& task : tasks) fly_share(task.plan, bounds, *ranks);
     return kDone;
-  } catch (const std::exception& error) {  // nobody waits for a process that is gone
+  } catch (const std::exception& error) {  // so that no rank waits for one that has ended
     say("{}", error.what());
     ranks->abort(kFailed);
   }

@@ -1,4 +1,4 @@
-// lorentz fuzz: runs a campaign, or goes on with one, and reports.
+// lorentz fuzz: runs or resumes a campaign, and reports.
 #include "cli/fuzz.hpp"
 
 #include <lorentz/exchange.hpp>
@@ -31,7 +31,7 @@ int exit_status(const FuzzReport& report, bool times, bool answerer_failed) {
   return wrong || (times && report.total(Kind::wrong_time) > 0) ? kDisagreement : kDone;
 }
 
-// Is the campaign the same on every machine? Throws InputError if it has to be.
+// Throws InputError if the options need a campaign that is the same on every machine and this one is not.
 void check_files(const FuzzOptions& options) {
   const auto option = options.files.first_option();
   if (option && (!options.count || options.seconds || options.first))
@@ -39,7 +39,7 @@ void check_files(const FuzzOptions& options) {
                      ": needs --count, and neither --time nor --first, so that each run asks the same");
 }
 
-// The failures that were kept, by target and the id of the case as it was found.
+// Records the kept failures by target and by the id of the case as found.
 void take_down(const FuzzReport& report, bool times, FailureLedger& ledger) {
   for (const std::string& target : report.targets) {
     bool failed = false;
@@ -64,7 +64,7 @@ void say_how_to_go_on(const FuzzOptions& options) {
     say("{}; without --store nothing is kept to go on with", Interrupt::what());
 }
 
-// A campaign in its store, as far as it is.
+// A campaign in its store, with its current progress.
 struct Opened {
   FuzzReport report;
   std::int64_t campaign = 0;
@@ -77,7 +77,7 @@ std::vector<fuzz::Stored> findings_of(const Store& store, std::int64_t campaign)
   return findings;
 }
 
-// One claim a store: margins and findings of several would stand side by side, in ulps of several precisions.
+// A store has one claim. Otherwise it would mix margins and findings in ulps of different precisions.
 void check_claim(const Store& store, const Claim& claim) {
   for (const fuzz::Campaign& campaign : store.campaigns()) {
     const Claim known = claim_of(campaign.manifest);
@@ -108,7 +108,7 @@ Opened opened(Store& store, const fuzz::Plan& plan, const FuzzOptions& options) 
   return one;
 }
 
-// What the plan, the store and the other processes make of it; reports.
+// Runs the plan with the store and the other processes, and reports.
 int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan,
                  const question::MakeAnswerer& make_answerer, fuzz::Ranks* ranks) {
   const Interrupt interrupt;
@@ -155,7 +155,7 @@ int act(const FuzzOptions& options) {
     if (ranks->rank() == 0) return run_campaign(options, plan, make_answerer, ranks.get());
     ranks->work(plan, jobs, make_answerer);
     return kDone;
-  } catch (const std::exception& error) {  // nobody waits for a process that is gone
+  } catch (const std::exception& error) {  // so that no rank waits for one that has ended
     say("{}", error.what());
     ranks->abort(kFailed);
   }

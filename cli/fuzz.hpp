@@ -17,19 +17,19 @@ Command fuzz_show_command();
 Command fuzz_merge_command();
 Command fuzz_export_command();
 
-/// What came of a campaign: its manifest, what each target met, and its findings.
+/// The result of a campaign: its manifest, the tally of each target, and its findings.
 struct FuzzReport {
   fuzz::CampaignManifest manifest;
   std::vector<std::string> targets;
   std::vector<fuzz::TargetTally> tallies;  ///< one for each target
   std::vector<fuzz::Stored> findings;      ///< of this campaign
-  bool is_stored = true;                   ///< else text() has all that will be left of the findings
+  bool is_stored = true;                   ///< false: the findings remain only in text()
 
   std::uint64_t total(fuzz::Kind kind) const;
   std::string text() const;
   std::string json() const;
 
-  /// The parts of both that say what was asked, and how much of it.
+  /// The parts of both that describe what was asked, and how much.
   std::string target_table() const;
   void add_targets(json::Members& object) const;
 };
@@ -37,13 +37,13 @@ struct FuzzReport {
 /// A kind of finding as a word: "wrong-time".
 std::string tag_of(const std::string& kind);
 
-/// Says what of a store cannot be read.
+/// Reports which part of a store cannot be read.
 void say_left_out(const std::string& message);
 
-/// A campaign as it stands in the store, with its findings.
+/// A campaign from the store, with its findings.
 FuzzReport report_of(const fuzz::Store& store, const fuzz::Campaign& campaign);
 
-/// The findings of one cause: how many, of which targets, and the simplest of them.
+/// The findings of one cause: their number, their targets, and the simplest of them.
 struct FindingCause {
   std::string name;
   std::size_t findings = 0;
@@ -51,15 +51,15 @@ struct FindingCause {
   const fuzz::Stored* simplest = nullptr;
 };
 
-/// By cause: what is wrong first (fuzz::rank_of), then in the order of their names.
+/// The findings by cause: the most severe first (fuzz::rank_of), then in the order of their names.
 std::vector<FindingCause> causes_of(const std::vector<fuzz::Stored>& findings);
 
 std::string table_of(const std::vector<FindingCause>& causes);
 
-/// A case in lines, with what is said of it; an ulp is one of the precision.
+/// A case as text lines with remarks. Ulps are those of the precision.
 std::string text_of(const fuzz::CaseText& text, NumberFormat precision);
 
-/// A finding as one JSON object; its lines are in it as they stand in streams.
+/// Adds a finding to a JSON object. Its lines are included in the form that they have in streams.
 void add_finding(json::Members& object, const fuzz::Stored& finding);
 
 }  // namespace lorentz::cli

@@ -1,4 +1,4 @@
-// lorentz fuzz export: what a campaign found, as a golden set or as a query stream.
+// lorentz fuzz export: writes the findings of a campaign as a golden set or as a query stream.
 #include <algorithm>
 #include <map>
 
@@ -24,13 +24,13 @@ struct ExportOptions {
   bool all = false, queries = false;
 };
 
-// A shrunk case and what it is an example of.
+// A shrunk case and the cause that it illustrates.
 struct ExportedCase {
   const Stored* stored;
   fuzz::ReadCase shrunk;
 };
 
-// The simplest finding of each cause, or all; those of one scene together.
+// The simplest finding of each cause, or all findings, grouped by scene.
 std::vector<ExportedCase> examples_in(const std::vector<Stored>& findings, bool all) {
   std::vector<const Stored*> chosen;
   if (all)
@@ -56,7 +56,7 @@ std::string queries_of(const std::vector<ExportedCase>& examples) {
   return lines;
 }
 
-// What a set has to say of its tags: where there are no findings, what was aimed at.
+// Explains each tag that no finding explains yet by the aim of its target.
 void explain_targets(const std::vector<fuzz::Campaign>& campaigns, std::map<std::string, std::string>& tags) {
   for (const fuzz::Campaign& campaign : campaigns)
     for (const std::string& name : question::names_in({campaign.manifest.targets}))
@@ -66,7 +66,7 @@ void explain_targets(const std::vector<fuzz::Campaign>& campaigns, std::map<std:
 golden::Header header_of(const std::vector<fuzz::Campaign>& campaigns) {
   golden::Header header;
   for (const fuzz::Campaign& campaign : campaigns)
-    header.precision = claim_of(campaign.manifest).precision;  // of all
+    header.precision = claim_of(campaign.manifest).precision;  // the same for all
   header.name = "findings";
   header.description = "What campaigns found, shrunk: the answers are the exact ones.";
   header.version = LORENTZ_VERSION;
@@ -80,7 +80,7 @@ golden::Header header_of(const std::vector<fuzz::Campaign>& campaigns) {
   return header;
 }
 
-// Findings that shrank to the same question are one record.
+// Findings that shrank to the same question become one record.
 std::string golden_set_of(const std::vector<ExportedCase>& examples,
                           const std::vector<fuzz::Campaign>& campaigns) {
   golden::GivenQuestions given(header_of(campaigns));

@@ -1,4 +1,4 @@
-// lorentz fuzz: its options, and what they say.
+// The options of lorentz fuzz and their meaning.
 #include "cli/fuzz_options.hpp"
 
 #include <algorithm>
@@ -35,7 +35,8 @@ std::string name_of_scenes(fuzz::Scope::Scenes scenes) {
   return scenes == Scenes::unit ? "unit" : scenes == Scenes::ball ? "ball" : "lattice";
 }
 
-// Of those that are named each must have such scenes; of all, those that have.
+// Targets that the user names must all have scenes in the scope. Without names, the targets that have such
+// scenes are kept.
 std::vector<const cases::Target*> within(const fuzz::Scope& scope, std::uint64_t seed, bool are_named,
                                          std::vector<const cases::Target*> targets) {
   if (scope.is_all()) return targets;
@@ -57,7 +58,7 @@ std::vector<const cases::Target*> targets_of(const FuzzOptions& options) {
   std::vector<const cases::Target*> targets;
   for (const std::string& name : names_in(options.targets)) {
     const cases::Target* target = cases::target_named(name);
-    if (!target) index_of_name(name, names, "--target");  // says that it is not one
+    if (!target) index_of_name(name, names, "--target");  // throws: not a target
     if (std::find(targets.begin(), targets.end(), target) != targets.end())
       throw InputError(fmt::format("--target: {} is named twice", name));
     targets.push_back(target);
@@ -105,7 +106,8 @@ fuzz::CampaignManifest manifest_of(const fuzz::Plan& plan, const std::string& en
     manifest.targets += (manifest.targets.empty() ? "" : ",") + std::string(target->name());
   manifest.seed = plan.seed;
   manifest.keep = plan.keep;
-  // Words of a store: another text would be another campaign, and "mutants" is what variants were called.
+  // Part of the identity of a stored campaign: a different text would be a different campaign. "mutants" is
+  // the former name of variants.
   manifest.options =
       fmt::format("ulps {}, mutants of 1 in {}, reworded 1 in {}, {} kept{}{}{}", plan.counts.ulps,
                   plan.mutate, plan.reword, plan.keep, plan.counts.times ? ", times" : "",
@@ -114,7 +116,7 @@ fuzz::CampaignManifest manifest_of(const fuzz::Plan& plan, const std::string& en
   if (plan.scope.dimension != 0) manifest.options += fmt::format(", {}D", plan.scope.dimension);
   if (plan.scope.scenes != fuzz::Scope::Scenes::any)
     manifest.options += ", scenes " + name_of_scenes(plan.scope.scenes);
-  manifest.options += report::words_of(plan.claim);  // nothing of binary64: stores from before are of it
+  manifest.options += report::words_of(plan.claim);  // empty for binary64, which all older stores use
   manifest.shard = fmt::format("{}/{}", plan.shard, plan.shards);
   return manifest;
 }

@@ -1,4 +1,4 @@
-// Private to cli/fuzz*.cpp: what the options of a campaign say.
+// Private to cli/fuzz*.cpp: the options of a campaign.
 #pragma once
 
 #include <cstdint>
@@ -31,15 +31,16 @@ struct FuzzOptions {
 
 std::vector<Option> rows_of(FuzzOptions& options);
 
-/// What the options say. Each throws InputError, naming the option, if they say nothing.
+/// The plan, bounds and manifest that the options describe. Each throws InputError with the option's name if
+/// the options are invalid.
 fuzz::Plan plan_of(FuzzOptions options);
 fuzz::Bounds bounds_of(const FuzzOptions& options);
 fuzz::CampaignManifest manifest_of(const fuzz::Plan& plan, const std::string& engine);
 
-/// By which claim a campaign was judged: its manifest's options say so.
+/// The claim by which a campaign was judged, from the options in its manifest.
 Claim claim_of(const fuzz::CampaignManifest& manifest);
 
-/// The command with these options, as a shell takes it.
+/// The command with these options, quoted for a shell.
 std::string command_of(const FuzzOptions& options);
 
 }  // namespace lorentz::cli

@@ -1,4 +1,4 @@
-// Private to cli/fuzz*.cpp: how a campaign goes, while it does.
+// Private to cli/fuzz*.cpp: the progress of a running campaign.
 #pragma once
 
 #include <chrono>
@@ -11,11 +11,11 @@
 
 namespace lorentz::cli {
 
-/// The store's journal. Where stderr is a terminal it has a progress bar there, of seconds or of cases; where
-/// it is not, a line now and then.
+/// The store's journal. If stderr is a terminal, it shows a progress bar in seconds or in cases; if not, it
+/// prints a line at intervals.
 class JournalWithProgress final : public fuzz::Journal {
  public:
-  /// `seconds_a_line`: 0 for none.
+  /// `seconds_a_line`: the interval between lines; 0 for no lines.
   JournalWithProgress(fuzz::Store& store, std::int64_t campaign, const fuzz::Bounds& bounds,
                       std::size_t targets, double seconds_a_line);
 

@@ -1,4 +1,4 @@
-// What came of a campaign, for people and for programs.
+// The report of a campaign as text and as JSON.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -23,17 +23,17 @@ std::uint64_t number_of(const TargetTally& tally, Kind kind) {
   return tally.kinds[static_cast<std::size_t>(kind)];
 }
 
-// As in fuzz::rank_of.
+// In the order of fuzz::rank_of.
 constexpr Kind kCounted[] = {Kind::wrong,     Kind::wrong_time, Kind::error,
                              Kind::undecided, Kind::slow,       Kind::unsupported};
 
-// Cases, without variants, that it answered in some way: the ones of which a rate can be said.
+// The number of cases, without variants, that the engine answered. Rates refer to these cases.
 std::uint64_t answered(const TargetTally& tally) {
   const std::uint64_t unsupported = number_of(tally, Kind::unsupported);
   return tally.cases > unsupported ? tally.cases - unsupported : 0;
 }
 
-// Which layers of the engine's ladder decided, where it tells: cases and variants.
+// Which stages of the engine decided, over cases and variants; empty if the engine does not report stages.
 std::string layers(const FuzzReport& report) {
   TargetTally all;
   for (const TargetTally& tally : report.tallies) all.add(tally);
@@ -48,7 +48,7 @@ std::string layers(const FuzzReport& report) {
                      engine && engine->traits.is_exact ? "by exact arithmetic" : "not decided", share(2));
 }
 
-// Of each kind of failure that was not met, what that says.
+// The bound on the share of wrong answers that follows if no answer was wrong.
 std::string bounds(const FuzzReport& report) {
   std::uint64_t n = 0;
   for (const TargetTally& tally : report.tallies) n += answered(tally);
@@ -185,7 +185,7 @@ std::string table_of(const std::vector<FindingCause>& causes) {
 
 namespace {
 
-// By how much the obstacle in question is met or missed, where two answers stand against each other.
+// By how much the obstacle in question is hit or missed, if two answers differ.
 std::string reason_in(const fuzz::CaseText& text, NumberFormat precision) {
   const fuzz::ReadCase one = fuzz::case_in(text);
   const auto says_what = [](const Answer& answer) {

@@ -1,4 +1,4 @@
-// lorentz fuzz list, show, merge: what a store holds.
+// lorentz fuzz list, show, merge: the contents of stores.
 #include <algorithm>
 #include <deque>
 #include <filesystem>
@@ -88,7 +88,7 @@ std::string lines_of(const std::string& heading, const fuzz::CaseText& text, Num
   return '\n' + heading + '\n' + text_of(text, precision);
 }
 
-// Of the campaign that found it.
+// The claim of the campaign that found it.
 Claim claim_of(const Store& store, const Stored& one) {
   for (const fuzz::Campaign& campaign : store.campaigns())
     if (campaign.id == one.campaign) return cli::claim_of(campaign.manifest);
@@ -110,7 +110,7 @@ std::string text_of(const std::string& id, const fuzz::Finding& f, const Claim& 
          lines_of("as found:", f.text, claim.precision);
 }
 
-// Of the shrunk case, which is the one to be looked at.
+// The report of the shrunk case, which is the one to examine.
 CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& files) {
   const fuzz::Finding& finding = one.finding;
   fuzz::ReadCase read = fuzz::case_in(finding.shrunk);
@@ -154,7 +154,7 @@ int merge_stores(const MergeOptions& options) {
   std::error_code error;
   if (std::filesystem::exists(options.output, error))
     throw InputError(options.output + ": is there already; merge into a new store");
-  // Half a store would look like a whole one: it is made beside its place.
+  // An incomplete store would look like a complete one, so the store is built beside its final place.
   const Beside folder(options.output, Beside::Kind::folder);
   const std::string store = folder.path() + "/store";
   std::deque<Unfinished> files;

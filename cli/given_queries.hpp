@@ -1,4 +1,4 @@
-// Queries that are given: a stream of lines, or columns of one scene.
+// Given queries: a stream of lines, or columns of one scene.
 #pragma once
 
 #include <memory>
@@ -11,16 +11,16 @@
 
 namespace lorentz::cli {
 
-/// True if the name of the file says that it holds columns.
+/// Whether the file's name means that it holds columns.
 inline bool is_columns(const std::string& path) {
   return path.ends_with(".npy") || path.ends_with(".csv");
 }
 
-/// A query, or what is bad in its place.
+/// A query, or a bad line or row in its place.
 struct GivenQuery {
-  Id id = "null";  ///< of columns without ids the row's number, from 0
+  Id id = "null";  ///< for columns without ids, the row number from 0
   std::optional<Query> query;
-  std::string_view line;   ///< of a stream; until the next is read
+  std::string_view line;   ///< of a stream; valid until the next is read
   bool new_scene = false;  ///< the first in a scene
 };
 
@@ -29,7 +29,7 @@ class GivenQueries {
   /// `scene` holds before the first scene line, and for columns. Throws InputError and FileError.
   GivenQueries(const std::string& path, std::optional<Scene> scene, UnknownKeys unknown);
 
-  /// The next; false at the end. What is bad is complained of on stderr, with its place.
+  /// Reads the next query; false at the end. Reports bad lines and rows on stderr with their place.
   bool next(GivenQuery& given);
 
   /// The scene of the query. Null before the first.
@@ -43,11 +43,11 @@ class GivenQueries {
   bool next_row(GivenQuery& given);
   void take_row(GivenQuery& given);
 
-  std::optional<Scene> scene_;  // of columns
+  std::optional<Scene> scene_;  // for columns
   std::optional<QueryStream> stream_;
   std::unique_ptr<ColumnReader> columns_;
   QueryRows rows_;
-  std::size_t row_ = 0, flaw_ = 0;  // of rows_: what comes next
+  std::size_t row_ = 0, flaw_ = 0;  // the next ones of rows_
   std::size_t number_ = 0, bad_rows_ = 0;
   bool new_scene_ = true;
 };

@@ -1,4 +1,4 @@
-// lorentz golden: sets of cases with their exact answers and the proofs of these.
+// lorentz golden: sets of cases with their exact answers and proofs.
 #include "cli/golden.hpp"
 
 #include <algorithm>

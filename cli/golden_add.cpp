@@ -1,4 +1,4 @@
-// lorentz golden add: a set, and records of more queries.
+// lorentz golden add: adds records of further queries to a set.
 #include <algorithm>
 
 #include <lorentz/exchange.hpp>
@@ -25,7 +25,7 @@ bool is_any(const golden::Record& /*record*/) {
   return true;
 }
 
-// Records of those questions that the selection has not; returns how many were left out.
+// Adds records of the questions that the selection does not have. Returns how many were left out.
 std::uint64_t add_records(golden::Selection& selection, golden::GivenQuestions given, std::uint64_t jobs) {
   std::erase_if(given.questions, [&](const golden::SetQuestion& question) {
     return selection.has(golden::id_of(golden::scene_line_of(question.scene), question.text));

@@ -1,4 +1,4 @@
-// lorentz golden check: an engine against golden sets.
+// lorentz golden check: checks an engine with golden sets.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -48,27 +48,27 @@ struct Failure {
   std::optional<double> margin;
   Answer expect, given;
   Components components;
-  std::string reason;  // why, in words
-  std::string claim;   // as arguments
+  std::string reason;  // the reason as text
+  std::string claim;   // as command-line arguments
 };
 
-// One engine's tally of a set, and of each of its tags.
+// One engine's tally for a set and for each of its tags.
 struct SetTally {
   std::string description;
-  std::vector<std::pair<std::string, std::string>> notes;  // on the tags
+  std::vector<std::pair<std::string, std::string>> notes;  // about the tags
   Claim claim;
-  std::string label;            // its name; and the precision, if the set says it and the name does not
-  std::string claim_arguments;  // that lead to this claim
+  std::string label;            // the name; also the precision if the set has one and the name does not
+  std::string claim_arguments;  // arguments that give this claim
   Tally all;
   std::map<std::string, Tally> by_tag;
-  bool failed = false;               // the program broke
-  std::size_t given_up_before = 0;   // records that were not asked therefore
-  std::size_t of_other_numbers = 0;  // records that were not asked, since they do not consist of its numbers
+  bool failed = false;               // the program failed
+  std::size_t given_up_before = 0;   // records that were therefore not asked
+  std::size_t of_other_numbers = 0;  // records not asked because their numbers are not the engine's
 
   std::size_t not_asked() const { return given_up_before + of_other_numbers; }
 };
 
-// The first records of a set, and of these the ones with an id that begins so.
+// The first records of a set, filtered by the beginning of the id.
 Source records_of(const Source& records, const std::optional<std::string>& id, std::uint64_t first,
                   Progress& progress) {
   return [records, id, first, &progress, read = std::uint64_t{0}]() mutable -> std::optional<Question> {
@@ -81,7 +81,7 @@ Source records_of(const Source& records, const std::optional<std::string>& id, s
   };
 }
 
-// Those that consist of the engine's numbers; the others are counted.
+// The records that consist of the engine's numbers; the others are counted.
 Source in_its_numbers(Source records, std::size_t& others) {
   return [records = std::move(records), &others]() -> std::optional<Question> {
     std::optional<Question> question = records();
@@ -90,7 +90,7 @@ Source in_its_numbers(Source records, std::size_t& others) {
   };
 }
 
-// Asks an engine the questions of sets, and keeps what came of each.
+// Asks an engine the questions of sets, and keeps the results.
 class EngineCheck {
  public:
   EngineCheck(const EngineInfo& engine, const CheckOptions& options, const AnswererOptions& asking)
@@ -105,7 +105,7 @@ class EngineCheck {
       answerers_.push_back(engine.answerer(asking));
   }
 
-  /// A program that was given up may do another set; not if it never answered anything.
+  /// A program that was given up is tried again on the next set, unless it never answered anything.
   bool is_worth_asking() {
     answerers_[0]->try_again();
     return !answerers_[0]->is_hopeless();
@@ -140,7 +140,7 @@ class EngineCheck {
     for (const auto& answerer : answerers_) answerer->finish();
     ledger_.finish(engine_);
   }
-  const std::vector<Failure>& failures() const { return failures_; }  ///< the first
+  const std::vector<Failure>& failures() const { return failures_; }  ///< the first ones
   std::size_t new_failures() const { return ledger_.new_failures(); }
 
  private:
@@ -167,7 +167,7 @@ class EngineCheck {
                                                   question.exact, reply.answer, judgement.obstacle, "    ");
   }
 
-  // The record's, or computed where that counts in another precision's ulps.
+  // The margin in the record, or a computed one if the record's is in ulps of another precision.
   static std::optional<double> margin_of(const Question& question) {
     if (question.margin || !question.is_query()) return question.margin;
     const auto decision = question.place->margins().hardest_decision(question.query, question.exact);
@@ -180,7 +180,7 @@ class EngineCheck {
   const bool times_, strict_;
   const std::size_t most_failures_;
   FailureLedger ledger_;
-  std::vector<std::unique_ptr<Answerer>> answerers_;  // one a thread
+  std::vector<std::unique_ptr<Answerer>> answerers_;  // one per thread
   std::vector<Failure> failures_;
 };
 
@@ -249,7 +249,7 @@ void add_set(json::Members& object, const SetTally& set) {
              });
 }
 
-// By which claim all sets were judged; of several precisions none.
+// The claim by which all sets were judged; not added if the sets have several precisions.
 void add_common_claim(json::Members& object, const Claim& claim, const std::vector<SetTally>& tallies) {
   const NumberFormat first = tallies.empty() ? claim.precision : tallies.front().claim.precision;
   if (std::ranges::all_of(tallies, [&](const SetTally& set) { return set.claim.precision == first; }))
@@ -269,7 +269,7 @@ std::string json_of(const std::string& engine, const Claim& claim, const std::ve
   });
 }
 
-// Of all sets together.
+// The tally of all sets together.
 Tally total_of(const std::vector<SetTally>& tallies) {
   Tally total;
   for (const SetTally& set : tallies) total.add(set.all);
@@ -301,9 +301,9 @@ void show(const std::string& engine, const Claim& claim, const std::vector<SetTa
   print(verdict_of(total) + '\n');
 }
 
-// ---- A page of documentation
+// ---- A documentation page
 
-// "12 wrong, 3 ill-posed", or nothing if all agree.
+// For example "12 wrong, 3 ill-posed"; empty if all answers agree.
 std::string troubles(const Tally& t) {
   std::vector<std::string> all;
   if (t.wrong > 0) all.push_back(fmt::format("{} wrong", t.wrong));
@@ -314,7 +314,7 @@ std::string troubles(const Tally& t) {
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
-// Text for a cell of a table: printable, and without what ends a cell or begins markup.
+// Text for a table cell: printable, without characters that end a cell or begin markup.
 std::string in_markdown(const std::string& text) {
   std::string out;
   for (const char c : printable(text)) out += c == '|' ? "\\|" : c == '<' ? "&lt;" : std::string(1, c);
@@ -339,7 +339,7 @@ std::string summary_page(const std::vector<EngineInfo>& engines,
   return page;
 }
 
-// The tags on which an engine is wrong, with what they are out to break.
+// The tags on which an engine is wrong, with what their cases are designed to break.
 std::string faults_page(const std::string& engine, const std::vector<SetTally>& tallies,
                         const std::vector<Failure>& failures) {
   std::string rows;

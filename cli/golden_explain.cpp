@@ -1,4 +1,4 @@
-// lorentz golden explain: one record in full.
+// lorentz golden explain: shows one record in full.
 #include <set>
 
 #include <lorentz/exchange.hpp>
@@ -66,7 +66,7 @@ void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::
           passed_table(margins.passed(*read.query, expect, most), expect.obstacle, count));
 }
 
-// The tags are what the record is out to break: they name it, and their notes explain it.
+// The tags say what the record is designed to break. They name the case, and their notes explain it.
 CaseReport case_report(const golden::Reader& reader, const golden::ReadRecord& read, const CaseFiles& files) {
   const golden::Record& record = read.record;
   CaseReport report;
@@ -95,7 +95,7 @@ CaseReport case_report(const golden::Reader& reader, const golden::ReadRecord& r
 int act(const ExplainOptions& options) {
   const auto most = static_cast<std::size_t>(options.most);
   std::set<std::string> ids;
-  std::string place;  // the set of the first
+  std::string place;  // the set of the first match
   for (const std::string& path : golden::find_sets(options.sets)) {
     golden::Reader reader(path);
     for (golden::ReadRecord read; reader.next(read);) {

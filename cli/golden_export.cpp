@@ -1,4 +1,5 @@
-// lorentz golden export: cases of single obstacles as plain tables, for programs that know a ray and a ball.
+// lorentz golden export: cases of single obstacles as plain tables, for programs that only know rays and
+// balls.
 #include <fmt/format.h>
 
 #include <lorentz/exchange.hpp>
@@ -19,11 +20,11 @@ struct ExportedRecord {
   int dimension;
   Atom obstacle;
   Query query;
-  Answer exact;  // with the collision's detail
+  Answer exact;  // with the collision's details
   std::optional<double> margin;
 };
 
-// Throws InputError if the scene has more than one obstacle: it has no place in the table.
+// Throws InputError if the scene has more than one obstacle, because the table has no columns for it.
 ExportedRecord exported(const golden::Reader& reader, golden::ReadRecord& read) {
   const Scene& scene = reader.scene();
   const Lattice& lattice = scene.lattices[0];
@@ -41,7 +42,7 @@ ExportedRecord exported(const golden::Reader& reader, golden::ReadRecord& read) 
           read.record.margin};
 }
 
-// The numbers of a case, in the order of the columns; what it does not have is missing.
+// The numbers of a case in the order of the columns; empty where the case has no value.
 using Columns = std::vector<std::optional<double>>;
 
 void add(Columns& columns, const Vec& a) {
@@ -88,7 +89,7 @@ std::string csv_line(const ExportedRecord& one) {
                      name_of(one.exact.outcome), joined(told_of(one), ",", "", "inf"));
 }
 
-// A text as a literal of C.
+// A text as a C string literal.
 std::string literal(const std::string& text) {
   std::string quoted;
   for (const char c : text)
@@ -99,7 +100,7 @@ std::string literal(const std::string& text) {
   return '"' + quoted + '"';
 }
 
-// A text in a comment of C, which has no end in it.
+// A text that may stand in a C comment: it cannot end the comment.
 std::string in_comment(std::string text) {
   std::erase(text, '*');
   return text;
@@ -113,7 +114,7 @@ std::string c_line(const ExportedRecord& one) {
 
 constexpr const char* kCsvHead = "id,tags,dimension,{},leaving,outcome,{}\n";
 
-// What stands at which place of `asked` and `told`, and of what the letters mean.
+// The head of the C file: the entries of `asked` and `told`, and the meaning of the letters.
 constexpr const char* kCHead =
     "/* {}: {}\n   Made by `lorentz golden export --format c {}`. A ray x + t v and the ball of a radius "
     "around c,\n"

@@ -1,4 +1,4 @@
-// lorentz golden index: what lies beside sets: index.json, schema.json, SHA256SUMS.
+// lorentz golden index: writes the files beside sets: index.json, schema.json, SHA256SUMS.
 #include <memory>
 
 #include "cli/exit_status.hpp"

@@ -1,4 +1,4 @@
-// lorentz golden make: produces a set, or all that are committed.
+// lorentz golden make: makes one set, or all committed sets.
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
@@ -64,7 +64,7 @@ std::string seed_of(const golden::Order& order) {
   return fmt::format(" (seed {})", order.seed);
 }
 
-// A file that is no golden set is not overwritten: it would be somebody's loss.
+// Refuses to overwrite a file that is not a golden set, so that no other data is lost.
 void check_place(const std::string& path) {
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_regular_file(path, error))
@@ -86,7 +86,7 @@ golden::RecordCounts make_file(const golden::Order& order, const std::string& pa
   {
     runs::Plan plan = golden::plan_of(order);
     plan.push_back(
-        {"commit", report::manifest_of(order.seed, command_line()).commit});  // what it makes may change
+        {"commit", report::manifest_of(order.seed, command_line()).commit});  // its records may change
     runs::PieceStore kept(part, "golden make", plan);
     WholeFile file(path);
     const std::string name = name_of(order);
@@ -100,7 +100,7 @@ golden::RecordCounts make_file(const golden::Order& order, const std::string& pa
   return counts;
 }
 
-// A few records of each tag: a first look, below a second.
+// Several records of each tag, for a first check in less than a second.
 std::string smoke_of(const std::vector<std::string>& files) {
   constexpr std::size_t kRecords = 100;
   golden::Selection selection;

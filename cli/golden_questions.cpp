@@ -18,7 +18,7 @@ bool is_name(const std::string& text) {
   return !text.empty() && std::ranges::all_of(text, is_allowed);
 }
 
-// "name" or "name=the sentence that explains it".
+// Parses "name" or "name=the sentence that explains it".
 std::pair<std::string, std::string> tag_in(const std::string& text) {
   const std::size_t end = text.find('=');
   const std::string name = text.substr(0, end);
@@ -34,7 +34,7 @@ bool is_given_by_program(const std::string& tag) {
          std::ranges::any_of(golden::seen_tags(), [&](const auto& seen) { return seen.first == tag; });
 }
 
-// Each once; none that the program gives itself.
+// The tags, each once. The tags that the program gives itself are refused.
 std::vector<std::pair<std::string, std::string>> tags_in(const std::vector<std::string>& texts) {
   std::vector<std::pair<std::string, std::string>> tags;
   for (const std::string& text : texts) {
@@ -89,7 +89,8 @@ void check_set_name(const std::string& name) {
 
 namespace {
 
-// The tags that a line gives its query, in the key `tags`, but those that the program gives itself. Throws InputError.
+// The tags in the key `tags` of a query's line, except those that the program gives itself. Throws
+// InputError.
 std::vector<std::string> tags_in_line(const GivenQuery& given, const std::string& name) {
   std::vector<std::string> tags;
   if (given.line.find("\"tags\"") == given.line.npos) return tags;

@@ -1,4 +1,4 @@
-// lorentz golden merge, filter, sample: a set of the records of others.
+// lorentz golden merge, filter, sample: make a set from the records of other sets.
 #include <algorithm>
 
 #include <lorentz/exchange.hpp>

@@ -1,4 +1,4 @@
-// lorentz golden verify: are the sets' certificates proofs of their answers?
+// lorentz golden verify: checks that the certificates of sets prove their answers.
 #include <set>
 
 #include <lorentz/exchange.hpp>
@@ -19,7 +19,7 @@ struct VerifyFindings {
   std::size_t records = 0, flaws = 0;
 };
 
-// What is wrong with a record in its set: ids once, tags explained.
+// The flaw of a record within its set: ids must be unique, tags must be explained.
 std::optional<std::string> flaw_in_set(const golden::Header& header, const golden::Record& record,
                                        std::set<std::string>& ids) {
   if (!ids.insert(record.id).second) return "the id came before";
@@ -64,7 +64,7 @@ int act(const std::vector<std::string>& names, bool walk) {
     VerifyFindings findings;
     try {
       findings = verify(path, walk);
-    } catch (const InputError& error) {  // the other sets may be right
+    } catch (const InputError& error) {  // the other sets are still checked
       say("{}", error.what());
       bad = true;
       continue;

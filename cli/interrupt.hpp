@@ -1,4 +1,4 @@
-// Ctrl-C, SIGTERM and SIGHUP as a wish to come to an end.
+// Ctrl-C, SIGTERM and SIGHUP as a request to finish.
 #pragma once
 
 #include <signal.h>
@@ -12,10 +12,10 @@
 
 namespace lorentz::cli {
 
-/// While one of these is there the first such signal only sets a flag; the second, half a second later or
-/// more, ends the programs that this one started and does what it did before. (Those who send one often send
-/// it to the process and to its group: `timeout`, a terminal that is closed.) What the caller ignores stays
-/// ignored.
+/// While an Interrupt exists, the first such signal only sets a flag. A second signal, at least half a second
+/// later, ends the programs that this process started and then has its previous effect. (Senders such as
+/// `timeout` or a closing terminal often send a signal both to the process and to its group.) Signals that
+/// the caller ignores stay ignored.
 class Interrupt {
  public:
   Interrupt() {
@@ -63,7 +63,7 @@ class Interrupt {
   static constexpr std::int64_t kSameWish = 500;
   static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
   static_assert(std::atomic<bool>::is_always_lock_free &&
-                std::atomic<std::int64_t>::is_always_lock_free);  // a handler may not wait
+                std::atomic<std::int64_t>::is_always_lock_free);  // a signal handler must not wait
   static inline std::atomic<bool> came_ = false;
   static inline std::atomic<int> number_ = 0;
   static inline std::atomic<std::int64_t> first_ = 0;

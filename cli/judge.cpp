@@ -1,4 +1,4 @@
-// lorentz judge: all that this program can say of one engine, and a verdict.
+// lorentz judge: the full report of this program on one engine, and a verdict.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -50,7 +50,7 @@ int exit_status(const JudgeReport& report, const JudgeOptions& options) {
   return kDone;
 }
 
-// An earlier report, or failures that are known, by row and id.
+// The baseline: an earlier report, or known failures by row and id.
 struct BaselineFile {
   std::optional<judge::Baseline> report;
   std::optional<KnownFailures> known;
@@ -67,7 +67,7 @@ BaselineFile baseline_of(const JudgeOptions& options) {
   return {{}, KnownFailures(text, name)};
 }
 
-// Says what is worse than in an earlier report; the exit status is of that alone.
+// Reports what is worse than in an earlier report. The exit status depends on that alone.
 int status_against(const judge::Baseline& baseline, const JudgeReport& report, const JudgeOptions& options) {
   if (report.is_broken() || report.rows_given_up() > 0) return kFailed;
   const std::vector<std::string> worse = baseline.worse(report, options.times);
@@ -91,7 +91,7 @@ int status_against(const FailureLedger& known, const JudgeReport& report) {
   return known.new_failures() > 0 ? kDisagreement : kDone;
 }
 
-// Takes down what each row's answers come to; nothing if no file wants that.
+// The callback that records the failures of each row; empty if no file needs them.
 judge::OnJudged ledger_of(const JudgeOptions& options, FailureLedger& ledger) {
   if (!ledger.has_baseline() && !options.files.write_baseline && !options.files.junit) return {};
   return [&](const std::string& row, const question::Question& question, const oracle::Judgement& judgement) {
@@ -102,9 +102,9 @@ judge::OnJudged ledger_of(const JudgeOptions& options, FailureLedger& ledger) {
   };
 }
 
-// Tells how much of the time that all is to take has passed.
+// Shows which part of the planned time has passed.
 std::function<void(const std::string&)> clock_of(double seconds) {
-  constexpr double kTicks = 10;  // a second
+  constexpr double kTicks = 10;  // per second
   const auto bar = std::make_shared<Progress>("judging (tenths of a second)",
                                               static_cast<std::size_t>(kTicks * seconds), 1);
   const auto start = std::chrono::steady_clock::now();
@@ -114,7 +114,7 @@ std::function<void(const std::string&)> clock_of(double seconds) {
   };
 }
 
-// Tells at which row it is.
+// Shows the current row.
 std::function<void(const std::string&)> rows_shown(NumberFormat precision) {
   struct RowBar {
     explicit RowBar(NumberFormat precision) : bar("judging (rows)", judge::number_of_rows(precision), 1) {}
@@ -128,7 +128,7 @@ std::function<void(const std::string&)> rows_shown(NumberFormat precision) {
   };
 }
 
-// The options as a shell takes them; not where the report goes.
+// The options quoted for a shell, without the files of the report.
 std::string command_of(const JudgeOptions& o) {
   std::string command = "lorentz judge --engine " + shell_quoted(o.engine);
   if (o.quick) command += " --quick";
@@ -163,7 +163,7 @@ JudgeOrder order_of(JudgeOptions options) {
   return order;
 }
 
-// The simplest case of each fault, as records.
+// A golden set with the simplest case of each fault.
 std::string golden_set_of(const JudgeReport& report) {
   golden::GivenQuestions given({.name = "findings",
                                 .description = "The simplest case of each fault of an engine.",
@@ -184,7 +184,7 @@ std::string golden_set_of(const JudgeReport& report) {
 
 int act(const JudgeOptions& options) {
   JudgeOrder order = order_of(options);
-  if (options.html) report::page("{}");  // throws if the program has none: now rather than after two minutes
+  if (options.html) report::page("{}");  // throws without a page: now rather than after two minutes
   RequestedFile html(options.html);
   SetOutput golden(options.golden, "findings");
   for (const auto& [name, path] :
@@ -197,7 +197,7 @@ int act(const JudgeOptions& options) {
   const Interrupt interrupt;
   order.on_progress = order.questions ? rows_shown(order.claim.precision) : clock_of(order.seconds());
   const JudgeReport report = judge::judged(order, Interrupt::came());
-  order.on_progress = {};  // the bar is gone before anything is printed
+  order.on_progress = {};  // removes the bar before anything is printed
   print(options.json ? report.json() : report.text());
   html.write([&] { return report::page(report.json()); });
   golden.write([&] { return golden_set_of(report); });

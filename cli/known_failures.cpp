@@ -125,14 +125,14 @@ std::string baseline_text(const std::map<RecordKey, std::string>& failures) {
   return text;
 }
 
-// A name that is one word of a line.
+// The set's name as one word of a line.
 std::string word_of(std::string set) {
   for (char& c : set)
     if (std::isspace(static_cast<unsigned char>(c)) || c == '#') c = '-';
   return set.empty() ? "-" : set;
 }
 
-// The first of some lines, and how many more there are.
+// Prints the first lines, and the number of further lines.
 void say_first(const std::vector<std::string>& lines) {
   constexpr std::size_t kMost = 10;
   for (std::size_t i = 0; i < std::min(lines.size(), kMost); ++i) say("{}", lines[i]);

@@ -17,7 +17,7 @@ void LoggedAnswers::complain(std::size_t line, const std::string& what) {
   say("{}{}: {}", name_, columns_ ? "" : fmt::format(":{}", line), what);
 }
 
-// The next good answer that has an id.
+// Reads the next valid answer with an id.
 bool LoggedAnswers::read(Id& id, Logged& logged) {
   while (columns_ ? read_row(id, logged) : read_line(id, logged)) {
     is_empty_ = false;
@@ -28,7 +28,7 @@ bool LoggedAnswers::read(Id& id, Logged& logged) {
   return false;
 }
 
-// Nothing is read after a bad row.
+// Stops reading after a bad row.
 bool LoggedAnswers::read_row(Id& id, Logged& logged) {
   try {
     return !is_broken_ && columns_->next(logged.answer, id);
@@ -59,13 +59,13 @@ bool LoggedAnswers::find(const Id& id, Logged& logged) {
     early_.erase(early);
     return true;
   }
-  if (ids_.contains(id)) return false;  // of a query that came before
+  if (ids_.contains(id)) return false;  // belongs to an earlier query
   for (Id other; read(other, logged); early_.emplace(std::move(other), std::move(logged)))
     if (other == id) return true;
   return false;
 }
 
-// Columns have room for as many coordinates as dimensions: the last of a lattice with fewer vectors are zero.
+// Columns have one coordinate per dimension. For a lattice with fewer vectors the last ones must be zero.
 std::string LoggedAnswers::flaw_of_cell(const Logged& logged) const {
   const ObstacleId& obstacle = logged.answer.obstacle;
   const bool named = logged.answer.outcome == Outcome::hit || logged.answer.outcome == Outcome::inside;

@@ -1,4 +1,4 @@
-// Answers that some program wrote to a file, as an answerer.
+// An answerer that reads the answers of another program from a file.
 #pragma once
 
 #include <memory>
@@ -12,17 +12,17 @@
 namespace lorentz::cli {
 
 /// Answers are matched by id; a query without an answer is `not_asked`. A file in the order of the queries is
-/// read as they are asked; answers that come early are kept until then. Bad lines, and ids that come twice, are
-/// complained of; answers without an id (to lines that were no queries) are passed over.
+/// read as they are asked. Answers that come early are kept until they are needed. Bad lines and repeated ids
+/// are reported. Answers without an id (to lines that were not queries) are skipped.
 class LoggedAnswers final : public question::Answerer {
  public:
-  /// A stream in JSON; or columns. Throws FileError, and InputError for columns that are not of answers.
+  /// Reads a JSON stream, or columns. Throws FileError, and InputError for columns that do not hold answers.
   LoggedAnswers(const std::string& path, UnknownKeys unknown);
   explicit LoggedAnswers(std::unique_ptr<AnswerReader> columns);
 
   void ask(const Id& id, const Query& query) override;
-  /// Reads the rest, and says what did not match; nothing matched at all is bad input, the wrong file most
-  /// likely.
+  /// Reads the rest and reports answers that did not match. If no answer matched, the input counts as bad; it
+  /// is most likely the wrong file.
   void finish() override;
   bool had_bad_input() const { return bad_input_; }
 
@@ -52,7 +52,7 @@ class LoggedAnswers final : public question::Answerer {
   std::unique_ptr<AnswerReader> columns_;  //
   std::string name_;
   std::unordered_map<Id, Logged> early_;
-  std::unordered_set<Id> ids_;  // of all that were read
+  std::unordered_set<Id> ids_;  // all ids that were read
   std::size_t matched_ = 0;
   bool is_empty_ = true, is_broken_ = false, bad_input_ = false;
 };

@@ -1,4 +1,4 @@
-// lorentz lyapunov: how fast neighbouring particles part.
+// lorentz lyapunov: how fast neighbouring particles separate.
 #include "cli/app.hpp"
 #include "cli/chaos_options.hpp"
 #include "cli/output.hpp"

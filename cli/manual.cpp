@@ -15,20 +15,20 @@
 namespace lorentz::cli {
 namespace {
 
-// Text as roff takes it: hyphens that are minus signs, so that options can be copied out of the page.
+// Text escaped for roff. Hyphens become minus signs, so that options can be copied from the page.
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) out += c == '\\' ? "\\e" : c == '-' ? "\\-" : std::string(1, c);
   return out;
 }
 
-// A line as it is, which no dot or quote at its beginning may make a request.
+// A literal line. A dot or quote at its beginning must not make it a request.
 std::string line_of(const std::string& text) {
   const bool is_request = text.starts_with('.') || text.starts_with('\'');
   return (is_request ? "\\&" : "") + escaped(text) + '\n';
 }
 
-// Prose, in short lines, which man fills.
+// Prose in short lines, which man joins into paragraphs.
 std::string prose_of(const std::string& text) {
   constexpr std::size_t kWidth = 72;
   std::string out, line;
@@ -41,7 +41,7 @@ std::string prose_of(const std::string& text) {
   return line.empty() ? out : out + line_of(line);
 }
 
-// A command, and those that it is one of, the program first.
+// A command and its parents, the program first.
 struct ManualPage {
   const Command& command;
   std::vector<const Command*> above;
@@ -51,7 +51,7 @@ struct ManualPage {
     for (const Command* one : above) name += one->name + between;
     return name + command.name;
   }
-  // What it is called: lorentz-scene-draw.
+  // The page's name, for example lorentz-scene-draw.
   std::string name() const { return joined("-"); }
 
   ManualPage of(const Command& one) const {
@@ -112,7 +112,7 @@ std::string section_of_subcommands(const ManualPage& page) {
   return entries.empty() ? "" : ".SH SUBCOMMANDS\n" + entries;
 }
 
-// The text under the options: prose, and from "Example" on examples, whose lines are indented.
+// The text below the options: prose, followed by examples from "Example" on, whose lines are indented.
 struct Footer {
   std::string prose, examples;
 };
@@ -127,7 +127,7 @@ Footer footer_of(const Command& command) {
     const bool is_code = line.starts_with("  ");
     if (is_code != in_code) *part += is_code ? ".nf\n" : ".fi\n.PP\n";
     in_code = is_code;
-    if (line == "Example:" || line == "Examples:") continue;  // the section's heading says so
+    if (line == "Example:" || line == "Examples:") continue;  // replaced by the section's heading
     *part += is_code ? line_of(line) : prose_of(line);
   }
   if (in_code) *part += ".fi\n";
@@ -143,7 +143,7 @@ std::string section_of_files() {
          "From which second of the work on progress is drawn on a terminal\n(default: 1).\n";
 }
 
-// The page above, the pages beside it.
+// References to the parent page and to the other pages beside this one.
 std::string section_of_others(const ManualPage& page) {
   if (page.above.empty()) return "";
   ManualPage above{*page.above.back(), page.above};
@@ -194,7 +194,7 @@ void write_pages(const ManualPage& page, const std::filesystem::path& folder) {
 
 void write_manuals(const Command& program, const std::string& folder) {
   std::error_code error;
-  std::filesystem::create_directories(folder, error);  // what is wrong with it the first file will say
+  std::filesystem::create_directories(folder, error);  // an error shows when the first file is written
   write_pages({program, {}}, folder);
 }
 

@@ -12,31 +12,32 @@
 
 namespace lorentz::cli {
 
-/// A whole number from `least` to `most`: digits, or a form like 1e6. Throws InputError, naming the option.
+/// A whole number from `least` to `most`: digits, or a form such as 1e6. Throws InputError with the option's
+/// name.
 std::uint64_t whole_number(const std::string& text, const char* option, std::uint64_t least,
                            std::uint64_t most);
 
-/// I and N of a shard I/N, "0/4" the first of four. Throws InputError.
+/// I and N of a shard I/N; "0/4" is the first of four. Throws InputError.
 std::pair<std::uint64_t, std::uint64_t> shard_in(const std::string& text);
 
-/// A finite number above zero, decimal or hexadecimal, or nothing if the option was not given. Throws
-/// InputError.
+/// A finite number above zero, decimal or hexadecimal; empty if the option was not given. Throws InputError.
 std::optional<double> positive_number(const std::optional<std::string>& text, const char* option);
 
-/// A finite number, 0 or above. Throws InputError, naming the option.
+/// A finite number, 0 or above. Throws InputError with the option's name.
 double number_from_zero(const std::string& text, const char* option);
 
-/// The size of a picture, W or WxH in pixels, each from 200 to 20 000. Throws InputError, naming --size.
+/// The size of a picture, W or WxH in pixels, each from 200 to 20 000. Throws InputError with the name
+/// --size.
 struct PictureSize {
   double width;
   std::optional<double> height;
 };
 PictureSize picture_size(const std::string& text);
 
-/// Three numbers with commas between them. Throws InputError, naming the option.
+/// Three numbers separated by commas. Throws InputError with the option's name.
 Vec vector_in(const std::string& text, const char* option);
 
-/// The number that was given goes to where the option says. Throws InputError, naming the option.
+/// Stores the given number in the option's destination. Throws InputError with the option's name.
 void take_number(const Option& option, const std::string& text);
 
 }  // namespace lorentz::cli

@@ -1,4 +1,5 @@
-// Standard output: texts, and streams that are gathered into large writes, none of which is held back for long.
+// Standard output: texts, and streams. Streams are gathered into large writes, which are not delayed for
+// long.
 #pragma once
 
 #include <chrono>
@@ -10,20 +11,20 @@
 
 namespace lorentz::cli {
 
-/// Text on stdout, with what acts on a terminal escaped; line ends and tabs stay. JSON and SVG contain no
-/// such characters. The end of the program checks that all text arrived (finish_output).
+/// Prints text on stdout. Characters that act on a terminal are escaped; line ends and tabs stay. JSON and
+/// SVG contain no such characters. At its end the program checks that all text arrived (finish_output).
 inline void print(std::string_view text) {
   const std::string shown = printable(text, Lines::kept);
   std::fwrite(shown.data(), 1, shown.size(), stdout);
 }
 
-/// Throws FileError if something printed did not arrive.
+/// Throws FileError if printed text did not arrive.
 void finish_output();
 
 class Output {
  public:
   std::string& buffer() { return buffer_; }
-  /// Writes what is there if it is much, or if the last write was a while ago.
+  /// Writes the buffer if it is large or the last write was long ago.
   void flush_if_due();
   /// Throws FileError.
   void flush();

@@ -1,5 +1,5 @@
-// A progress bar on a terminal's stderr; nothing at all when stderr is no terminal. LORENTZ_PROGRESS_AFTER
-// says from which second of the work on it is drawn, 1 unless set: with 0, even short work shows it.
+// A progress bar on stderr if it is a terminal; else nothing. LORENTZ_PROGRESS_AFTER is the number of seconds
+// after which the bar appears, by default 1. With 0, even short work shows it.
 #pragma once
 
 #include <unistd.h>
@@ -18,8 +18,8 @@ class Progress {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Looks at the clock at every `stride`-th count only. `begun`: of several bars one after the other, when
-  /// the first did.
+  /// Reads the clock only at every `stride`-th count. `begun`: the beginning of the first bar if several bars
+  /// follow one another.
   explicit Progress(const std::string& what, std::size_t total, std::size_t stride = 64,
                     Clock::time_point begun = Clock::now())
       : what_(printable(what)),
@@ -36,12 +36,13 @@ class Progress {
   const std::string& what() const { return what_; }
   std::size_t total() const { return total_; }
 
-  /// `done` of the total are done; draws a few times a second, once the work has taken a while.
+  /// Reports that `done` of the total are done. Draws several times a second once the work has taken long
+  /// enough.
   void at(std::size_t done) {
     at(done, [] { return std::string(); });
   }
 
-  /// With a note beside the bar, which is asked for when it is drawn.
+  /// The same with a note beside the bar; `note` is called when the bar is drawn.
   template <class Note>
   void at(std::size_t done, const Note& note) {
     if (!shown_ || done % stride_ != 0) return;

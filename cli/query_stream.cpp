@@ -70,8 +70,8 @@ void SceneStream<AnItem, AScene>::finish() {
   if (complaints_ > kMaxComplaints) say("{}: {} more bad lines", lines_.name(), complaints_ - kMaxComplaints);
 }
 
-// Dependent vectors make a scene bad; overlaps, and that it replaces the command line's scene, are only
-// mentioned.
+// Dependent vectors make a scene invalid. Overlaps, and the replacement of the command line's scene, only
+// give a message.
 template <class AnItem, class AScene>
 void SceneStream<AnItem, AScene>::check_scene(AnItem& item, std::size_t line) {
   const std::string place = fmt::format("{}:{}", lines_.name(), line);

@@ -1,5 +1,5 @@
-// Streams of queries, and of starts, with their scenes checked and complaints printed: what every subcommand
-// that reads them uses.
+// Streams of queries and of starts. Their scenes are checked and errors are reported. All subcommands that
+// read such streams use them.
 #pragma once
 
 #include <memory>
@@ -11,27 +11,27 @@
 
 namespace lorentz::cli {
 
-/// A stream of lines that are scenes or (AnItem) something in them.
+/// A stream of lines that are scenes, or items in them (AnItem).
 template <class AnItem, class AScene>
 class SceneStream {
  public:
   /// `initial` is the scene before the first scene line, if any. Throws FileError.
   SceneStream(const std::string& path, std::optional<AScene> initial, UnknownKeys unknown);
 
-  /// The next scene, query or bad line; false at the end. Bad lines are complained of on stderr with their
-  /// place; the first kMaxComplaints of them.
+  /// Reads the next scene, query or bad line; false at the end. Reports the first kMaxComplaints bad lines on
+  /// stderr with their place.
   bool next(AnItem& item);
 
-  /// The scene that holds now, or null.
+  /// The current scene, or null.
   const AScene* scene() const { return scene_ ? &*scene_ : nullptr; }
 
-  /// True if a line was bad, or (complained of at the end) nothing was in the stream.
+  /// True if a line was bad or the stream was empty (the latter is reported at the end).
   bool had_bad_input() const { return complaints_ > 0; }
 
   LineReader& lines() { return lines_; }
   const LineReader& lines() const { return lines_; }
 
-  /// The line of the item that came last.
+  /// The line of the last item.
   std::string_view line() const { return line_; }
 
  private:

@@ -1,4 +1,4 @@
-// lorentz sample: drawn starts, as a query stream or in columns.
+// lorentz sample: writes drawn starts as a query stream or in columns.
 #include <algorithm>
 
 #include <lorentz/exchange.hpp>
@@ -30,7 +30,7 @@ struct SampleOptions {
 
 enum class SampleFormat { ndjson, csv, npy };
 
-// What was asked for, understood.
+// The parsed options.
 struct SampleOrder {
   Scene scene;
   Kind kind;

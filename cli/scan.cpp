@@ -15,7 +15,7 @@
 namespace lorentz::cli {
 namespace {
 
-// A table with the same columns before each row.
+// The table with additional columns in front of each row.
 std::string with_columns(const std::string& csv, const std::string& names, const std::string& values,
                          bool is_first) {
   std::string table;
@@ -66,7 +66,7 @@ int scan(const ScanOptions& options, const std::string& what,
     try {
       found = find(place);
     } catch (const InputError&) {
-      failure = std::current_exception();  // what was found before is not lost
+      failure = std::current_exception();  // earlier results are kept
     }
     status = found && found->is_whole ? kDone : kFailed;
     if (!found) break;

@@ -22,31 +22,31 @@ struct ScanOptions {
   bool is_of_several() const { return scenes.size() > 1 || radii.size() > 1; }
 };
 
-/// The options of all of them. `rows_of_csv`: what a row of --csv is.
+/// The options that they share. `rows_of_csv`: the meaning of a row of --csv.
 std::vector<Option> scan_rows(ScanOptions& options, const std::string& rows_of_csv);
 
-/// One scene at one radius, of those that were asked for.
+/// One scene at one radius.
 struct ScanPlace {
   std::string name;
   std::optional<double> radius;
   Scene scene;
 };
 
-/// All that was asked for, scene by scene. `what`: what is done with a scene ("flights are counted"). Throws
-/// InputError and FileError.
+/// All requested scenes and radii, scene by scene. `what`: the work on a scene ("flights are counted").
+/// Throws InputError and FileError.
 std::vector<ScanPlace> scan_places(const std::vector<std::string>& scenes,
                                    const std::vector<std::string>& radii, const std::string& what);
 
-/// What was found there.
+/// The result for one place.
 struct ScanFinding {
   std::string text;  ///< a table, or a line of JSON
   std::string csv;   ///< names in the first line, then rows
   bool is_whole = true;
 };
 
-/// Has `find(place)` look at each place in turn, prints what it finds, and writes the rows of all to --csv: of
-/// several places with scene and radius before them. Nothing found, or not whole, or an InputError, ends it.
-/// `what`: as in scan_places. Returns an ExitStatus; throws InputError and FileError.
+/// Calls `find(place)` for each place in turn, prints the results, and writes all rows to --csv. With several
+/// places, scene and radius are the first columns. The scan ends at the first empty or incomplete result or
+/// InputError. `what`: as in scan_places. Returns an ExitStatus; throws InputError and FileError.
 int scan(const ScanOptions& options, const std::string& what,
          const std::function<std::optional<ScanFinding>(const ScanPlace&)>& find);
 

@@ -1,4 +1,4 @@
-// lorentz scene: the catalogue, and what is known of a scene.
+// lorentz scene: the catalogue, and the properties of a scene.
 #include <fstream>
 
 #include <lorentz/exchange.hpp>
@@ -25,7 +25,7 @@ struct SceneOptions {
   bool json = false, no_horizon = false;
 };
 
-// The first comment of a scene file: what the scene is.
+// The first comment of a scene file, which describes the scene.
 std::string description_in(const std::string& file) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line) && line.size() < 4096;) {
@@ -70,14 +70,14 @@ int list(const SceneOptions& options) {
   return bad ? kBadInput : kDone;
 }
 
-// Whether free flights are bounded.
+// The verdict on the horizon: whether free flights are bounded.
 std::string horizon_verdict(const Scene& scene) {
   try {
     const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false, search_progress());
-    const bool all = scene.dimension == 2 || horizon.is_infinite();  // else cylinders matter
+    const bool all = scene.dimension == 2 || horizon.is_infinite();  // otherwise cylinders matter
     std::string verdict =
         report::verdict_of(all ? horizon : oracle::horizon_of(scene, 0, true, search_progress()), false);
-    const std::string word = " horizon";  // said by the row's name
+    const std::string word = " horizon";  // the row's name already has it
     if (const auto at = verdict.find(word); at != std::string::npos) verdict.erase(at, word.size());
     return verdict;
   } catch (const oracle::TooManyChannels& error) {
@@ -87,11 +87,11 @@ std::string horizon_verdict(const Scene& scene) {
   }
 }
 
-// What is known of a scene.
+// The computed properties of a scene.
 struct SceneFacts {
   oracle::Contacts contacts;
-  std::optional<Filling> filling;  // nothing overlaps, and that is certain
-  std::string no_filling;          // why it is not there
+  std::optional<Filling> filling;  // set if it is certain that nothing overlaps
+  std::string no_filling;          // why `filling` is empty
 };
 
 constexpr std::size_t kMostContacts = 1000, kContactsShown = 10;
@@ -192,7 +192,7 @@ void show_text(const std::string& name, const std::string& file, const Scene& sc
   } else {
     out += line("filling", findings.no_filling) + line("mean free path", findings.no_filling);
   }
-  // The search of the horizon may take long: all that is known goes out before.
+  // The search of the horizon may take long, so the other results are printed first.
   print(out);
   std::fflush(stdout);
   print(line("horizon", with_horizon ? horizon_verdict(scene) : "not searched, as asked for"));

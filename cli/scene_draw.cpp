@@ -1,4 +1,4 @@
-// lorentz scene draw: the picture of a scene, with flights and free ways.
+// lorentz scene draw: the picture of a scene, with flights and open channels.
 #include "cli/scene_draw.hpp"
 
 #include <cerrno>
@@ -35,8 +35,8 @@ struct SceneDrawOptions {
   bool no_legend = false;
 };
 
-// Is the file there and begins like no SVG, so that overwriting it would lose something else? An empty one is
-// nobody's loss.
+// Whether the file exists and is not an SVG, so that overwriting it would lose other data. An empty file does
+// not count.
 bool is_other_than_svg(const std::string& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return false;
@@ -50,7 +50,7 @@ bool is_other_than_svg(const std::string& file) {
   return first == std::string::npos || start[first] != '<' || start.find("<svg") == std::string::npos;
 }
 
-// A file called x.png that holds an SVG opens nowhere.
+// No program opens a file x.png that contains an SVG.
 void refuse_other_formats(const std::string& file) {
   const std::string extension = std::filesystem::path(file).extension();
   for (const char* other : {".png", ".jpg", ".jpeg", ".gif", ".pdf", ".eps", ".ps"})
@@ -58,7 +58,7 @@ void refuse_other_formats(const std::string& file) {
       throw InputError(file + ": pictures are drawn as SVG; name the file so, and convert it (rsvg-convert)");
 }
 
-// The flights of a query stream, up to the first query of another scene than the first one's.
+// The flights of a query stream, up to the first query in a different scene from that of the first query.
 std::vector<DrawnFlight> flights_of(QueryStream& stream, std::optional<Scene>& scene) {
   constexpr std::size_t kMostFlights = 1000;
   std::vector<DrawnFlight> flights;
@@ -127,8 +127,8 @@ std::string indices_of(const std::array<Integer, 3>& indices, int dimension) {
   return out;
 }
 
-// The widest corridors, or planar channels and, as many again, cylinders. Those that only the rounding of a
-// radius leaves open are too narrow to be seen.
+// The widest corridors, or the widest planar channels and the same number of cylinders. Channels that are
+// open only because a radius was rounded are too narrow to be visible.
 std::vector<FreeWay> ways_of(const Scene& scene, std::size_t most) {
   if (!is_crystal(scene)) throw InputError("--channels: supports crystals only");
   std::vector<FreeWay> ways;

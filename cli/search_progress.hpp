@@ -1,4 +1,4 @@
-// How far a search of the horizon is, on a terminal's stderr.
+// The progress of a horizon search, on a terminal's stderr.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace lorentz::cli {
 
-/// A bar on stderr if that is a terminal, as Progress draws it. What is drawn goes when the last copy of it
-/// does.
+/// A progress bar on stderr if that is a terminal. The bar disappears with the last copy of the returned
+/// function.
 inline oracle::SearchProgress search_progress() {
   if (isatty(STDERR_FILENO) != 1) return {};
   return [bar = std::make_shared<std::unique_ptr<Progress>>(), begun = Progress::Clock::now()](

@@ -30,7 +30,7 @@ bool is_index(const fs::path& file) {
   }
 }
 
-// The sums of other files are not overwritten: sets have an index beside theirs.
+// Refuses to overwrite checksums of other files. The checksums of sets have an index beside them.
 void check_folder(const fs::path& folder) {
   if (fs::exists(folder / kIndex) && is_index(folder / kIndex)) return;
   for (const char* name : {kIndex, kSums})
@@ -39,7 +39,7 @@ void check_folder(const fs::path& folder) {
                        ": was not written by this command, and is left as it is; move it, or the sets");
 }
 
-// Copies the schema of the project's sets, unless the folder has one; returns its name.
+// Copies the schema of the project's sets unless the folder has one. Returns its name.
 std::string add_schema(const fs::path& folder) {
   if (fs::exists(folder / kSchema)) return kSchema;
   const std::vector<std::string> schemas = data_files("golden", ".json");
@@ -50,7 +50,7 @@ std::string add_schema(const fs::path& folder) {
   return kSchema;
 }
 
-// The folder that a path means, made and looked at; nothing if it means a file.
+// The folder that a path means, created and checked; empty if the path means a file.
 std::optional<std::string> folder_in(const std::optional<std::string>& path) {
   if (!path || !path->ends_with('/')) return std::nullopt;
   std::error_code error;

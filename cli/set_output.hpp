@@ -1,4 +1,4 @@
-// Where a golden set is written: a file, or a folder with what belongs beside it.
+// The output of a golden set: a file, or a folder with the accompanying files.
 #pragma once
 
 #include <optional>
@@ -8,16 +8,17 @@
 
 namespace lorentz::cli {
 
-/// Writes index.json, schema.json and SHA256SUMS beside the sets in a folder, and says so. Throws InputError if others
-/// wrote such files, and FileError.
+/// Writes index.json, schema.json and SHA256SUMS beside the sets in a folder, and reports it. Throws
+/// InputError if the folder has such files of other programs. Throws FileError.
 void write_beside_sets(const std::string& folder);
 
-/// Help of such an option.
+/// The help of an option for such an output.
 inline constexpr const char* kSetOutputHelp =
     "file to write (- is standard output); FOLDER/ gets the set with its schema, an index and checksums";
 
-/// What an option asks for, or nothing. A path that ends in '/' is a folder, which is made if it is not there: the set
-/// is NAME.ndjson in it, and index, schema and checksums stand beside. Opened before the work, as RequestedFile.
+/// The output that an option requests, if any. A path that ends in '/' is a folder, which is created if it
+/// does not exist. It gets the set as NAME.ndjson, with index, schema and checksums beside it. The file is
+/// opened before the work, like a RequestedFile.
 class SetOutput {
  public:
   SetOutput(const std::optional<std::string>& path, const std::string& name);

@@ -1,4 +1,4 @@
-// lorentz survival: how many collisions are right in arithmetic with a given number of bits.
+// lorentz survival: the number of right collisions in arithmetic with a given number of bits.
 #include "statistics/survival/survival.hpp"
 #include <lorentz/errors.hpp>
 #include "cli/app.hpp"
@@ -42,7 +42,7 @@ survival::Survival followed(const survival::SurvivalPlan& plan) {
 }
 
 int act(const SurvivalOptions& options) {
-  if (options.html && !report::has_page()) report::page("");  // says why
+  if (options.html && !report::has_page()) report::page("");  // throws with the reason
   if (options.is_of_several() && (options.svg || options.html))
     throw InputError("--svg and --html: of one scene at one radius; --csv has all of them in one table");
   survival::SurvivalPlan plan = plan_of(options);

@@ -1,4 +1,4 @@
-// The person at the terminal, for work that tells a listener how it goes.
+// The listener that reports progress and messages of the work to the user's terminal.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace lorentz::cli {
 
-/// Messages on stderr; progress bars, one after the other, if that is a terminal.
+/// Prints messages on stderr, and progress bars one after the other if stderr is a terminal.
 inline question::Listener terminal() {
   question::Listener listener;
   listener.message = [](const std::string& text) { say_text(text, Lines::kept); };

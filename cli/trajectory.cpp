@@ -1,4 +1,4 @@
-// lorentz trajectory: certified itineraries from the starts of a stream, and engines held against them.
+// lorentz trajectory: certified itineraries from the starts of a stream, and engines compared with them.
 #include <cmath>
 
 #include <lorentz/exchange.hpp>
@@ -77,7 +77,7 @@ std::optional<RationalScene> scene_of(const TrajectoryOptions& options) {
       options.radius ? std::optional(positive_rational(*options.radius, "--radius")) : std::nullopt, unknown);
 }
 
-// As many columns as there are dimensions, of which a lattice of fewer vectors leaves the last empty.
+// One column per dimension. For a lattice with fewer vectors the last ones are empty.
 std::string cell_columns(const ObstacleId& obstacle, const Components& count) {
   std::string text;
   for (int i = 0; i < count.of_vectors(); ++i) {
@@ -87,20 +87,20 @@ std::string cell_columns(const ObstacleId& obstacle, const Components& count) {
   return text;
 }
 
-// Position and velocity, where they are asked for.
+// Adds position and velocity, if requested.
 template <class State>
 void add_state(json::Members& line, const State& state) {
   if (!state.x.empty()) line.add("x", state.x);
   if (!state.v.empty()) line.add("v", state.v);
 }
 
-// An id as a table's field.
+// An id as a field of a table.
 std::string in_table(const Id& id) {
   const bool is_plain_text = id.starts_with('"') && id.find_first_of(",\\\"", 1) == id.size() - 1;
   return csv_field(is_plain_text ? id.substr(1, id.size() - 2) : id);
 }
 
-// What comes of one start: lines on stdout, rows of a table, a path for the picture.
+// The output for one start: lines on stdout, rows of a table, a path for the picture.
 class StartReport {
  public:
   StartReport(Output& out, const TrajectoryOptions& options) : out_(out), options_(options) {
@@ -173,7 +173,7 @@ void append_error(std::string& out, const Id& id, const std::string& message) {
   out += '\n';
 }
 
-// The picture of the first start: its path, and the engine's from where they part.
+// The picture of the first start: its path, and the engine's path from the point where they separate.
 class Picture {
  public:
   void begin(const RationalScene& scene, const Start& start) {
@@ -231,7 +231,7 @@ void follow(TrajectoryRun& run, const Id& id, const RationalScene& scene, const 
         if (picture) picture->collision(collision);
         return true;
       });
-  if (Interrupt::came()) return;  // nothing is said of an end that is none
+  if (Interrupt::came()) return;  // an interrupt is not the end of a trajectory
   if (rival && arrival.end != JourneyEnd::undecided)
     rival->finish(arrival.collisions, arrival.end == JourneyEnd::time
                                           ? std::optional(oracle::nearest(*run.journey.time))
@@ -272,7 +272,7 @@ int act(const TrajectoryOptions& options) {
   }
   try {
     output.flush();
-  } catch (const FileError&) {  // after SIGHUP the terminal is gone; the files are written nevertheless
+  } catch (const FileError&) {  // after SIGHUP the terminal is gone; the files are still written
     if (!Interrupt::came()) throw;
   }
   report.commit();

@@ -15,7 +15,7 @@ namespace lorentz::cli {
 
 std::vector<std::string> library_versions() {
   std::vector<std::string> versions;
-  // Some rooms name several, by commas or lines.
+  // One entry may name several libraries, separated by commas or lines.
   for (std::string names :
        {oracle::oracle_libraries(), oracle::walk_libraries(), oracle::itinerary_libraries(),
         batch_libraries(), exchange_libraries(), golden::record_libraries(), fuzz::store_libraries()}) {

@@ -6,7 +6,7 @@
 
 namespace lorentz::cli {
 
-/// "GMP 6.2.1", ..: what computes, reads, stores, prints.
+/// "GMP 6.2.1", ..: the libraries for computing, reading, storing and printing.
 std::vector<std::string> library_versions();
 
 }  // namespace lorentz::cli

@@ -1,4 +1,4 @@
-// The engine alone: lorentz::engine needs nothing but the standard library.
+// The engine alone: lorentz::engine needs only the standard library.
 #include <cstdio>
 #include <lorentz/engine.hpp>
 

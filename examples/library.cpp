@@ -1,5 +1,5 @@
-// The library in use: a scene, the fast engine, `certified`, the oracle, a verdict, and one direction for
-// many starts. Built and run by the tests, in this tree and against an installed one.
+// How to use the library: a scene, the fast engine, `certified`, the oracle, a verdict, and one direction for
+// many starts. The tests build and run it, in this tree and against an installed one.
 #include <cstdio>
 #include <lorentz/certified.hpp>
 #include <lorentz/errors.hpp>
@@ -11,8 +11,8 @@ using namespace lorentz;
 
 namespace {
 
-// Discs of radius 1/4 on the triangular lattice, one of its vectors rounded to binary64: that is the lattice
-// meant.
+// Discs of radius 1/4 on the triangular lattice. One vector is rounded to binary64, and the rounded lattice
+// is meant.
 Scene triangular() {
   Scene scene;
   scene.dimension = 2;
@@ -34,17 +34,17 @@ void print(const char* who, const Answer& answer) {
 int main() try {
   const Scene scene = triangular();
 
-  // A flight that grazes the discs of a row, or passes them: it comes nearer by 1e-17 a cell.
+  // A flight that grazes the discs of a row or passes them: it comes nearer by 1e-17 per cell.
   Query query;
   query.x = {-3.5, 0.25, 0};
   query.v = {1, -1e-17, 0};
 
-  // Binary64 says so when it does not know.
+  // The binary64 engine answers `undecided` when it cannot decide.
   const Reduction fast(scene);
   const Answer quick = answer_of(fast.fly(query));
   print("reduction", quick);
 
-  // `certified` asks the oracle then. Always exact, the time correctly rounded.
+  // `certified` asks the oracle in such cases. It is always exact, with the time correctly rounded.
   const oracle::Certified certified(scene);
   const Answer answer = certified.first_hit(query);
   print("certified", answer);
@@ -56,7 +56,7 @@ int main() try {
   const Answer exact = oracle.first_hit(query, request);
   std::printf("%-13s at %s\n", "oracle", exact.time_decimal.c_str());
 
-  // Is somebody else's answer right, wrong, or one that no program in binary64 could know?
+  // Is another program's answer right, wrong, or ill-posed, so that no program in binary64 can decide it?
   const oracle::Judge judge(scene);
   Answer other = answer;
   other.obstacle.cell[1] = 1;
@@ -64,11 +64,11 @@ int main() try {
   std::printf("%-13s %s, by %.3g ulps of the inputs\n", "the row above",
               judgement.verdict == oracle::Verdict::wrong ? "is wrong" : "is ill-posed", judgement.departs);
 
-  // Many particles that share a velocity: the lattice is reduced along it once.
+  // Many particles with the same velocity: the lattice is reduced along it once.
   const Reduction::Direction direction = fast.direction({1, 0.3, 0});
   int hits = 0;
   for (int i = 0; i < 1000; ++i) hits += fast.fly(direction, {0.001 * i, 0.4, 0}).outcome == Outcome::hit;
   std::printf("%d of 1000 starts hit something\n", hits);
-} catch (const InputError& error) {  // a scene, or a question, with a flaw: where, and what
+} catch (const InputError& error) {  // an invalid scene or query: the message says where and why
   return std::fprintf(stderr, "%s\n", error.what()), 1;
 }

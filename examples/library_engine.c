@@ -1,6 +1,6 @@
-/* A first-hit engine to copy and to replace, as a shared library in plain C: cell by cell in doubles, one ball a
- * cell on the unit square or cubic lattice; any other scene is unsupported, and it never claims `never`. The same
- * engine as a program is naive_engine.cpp. Try
+/* A first-hit engine to copy and to replace, as a shared library in plain C. It goes from cell to cell in
+ * doubles, with one ball per cell on the unit square or cubic lattice. Other scenes are unsupported, and it
+ * never answers `never`. The same engine as a program is naive_engine.cpp. Try
  *   cc -O2 -shared -fPIC -I include -o build/library_engine.so examples/library_engine.c -lm
  *   lorentz compare --scene cubic --count 1000 --engine lib:build/library_engine.so */
 #include <lorentz/engine.h>
@@ -67,7 +67,7 @@ static int meets(const lorentz_engine* engine, const double* n, const double* x,
   return LORENTZ_HIT;
 }
 
-/* The outcome; the obstacle in best, its time in *first. `from` is NULL where no obstacle is left. */
+/* Returns the outcome; the obstacle is in best, its time in *first. `from` is NULL if no obstacle is left. */
 static int32_t first_hit(const lorentz_engine* engine, double* x, const double* v, const double* from,
                          double* best, double* first) {
   double cell[3] = {0}, n[3] = {0}, speed2 = 0;

@@ -1,6 +1,6 @@
-// A first-hit engine to copy and to replace, standard library only: cell by cell in doubles, one ball a cell
-// on the unit square or cubic lattice; anything else is `unsupported`, and it never claims `never`. Reads a
-// query stream on stdin, as lorentz writes it, and writes an answer stream on stdout. Try
+// A first-hit engine to copy and to replace, standard library only: cell by cell in doubles, one ball per
+// cell on the unit square or cubic lattice. Anything else is `unsupported`, and it never answers `never`. It
+// reads a query stream of lorentz on stdin and writes an answer stream on stdout. Try
 //   lorentz compare --scene cubic --count 1000 --engine cmd:build/naive_engine
 #include <charconv>
 #include <cmath>
@@ -12,7 +12,7 @@
 using Vec = std::vector<double>;
 constexpr long kMaxCells = 10'000'000;
 
-// The numbers in the value of a key, whatever brackets are around them; none if the key is not there.
+// The numbers in the value of a key, with any brackets around them; empty if the key is missing.
 Vec numbers(const std::string& line, const std::string& key) {
   Vec found;
   std::size_t at = line.find('"' + key + "\":");
@@ -27,8 +27,8 @@ Vec numbers(const std::string& line, const std::string& key) {
 }
 
 struct Scene {
-  Vec centre;         // of the ball in the cell 0; empty: no scene that is done here
-  double radius = 0;  // at most 1/2, so that a cell between lattice points sees the balls at its corners only
+  Vec centre;         // of the ball in the cell 0; empty: an unsupported scene
+  double radius = 0;  // at most 1/2: a cell between lattice points sees only the balls at its corners
 
   explicit Scene(const std::string& line) {
     const Vec vectors = numbers(line, "vectors"), size = numbers(line, "radius");
@@ -40,7 +40,7 @@ struct Scene {
   }
 };
 
-std::string text_of(double number) {  // shortest, and reads back as the same
+std::string text_of(double number) {  // the shortest text that reads back as the same number
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, number).ptr};
 }
@@ -94,6 +94,6 @@ int main() {
     if (!scene.centre.empty() && x.size() == scene.centre.size() && v.size() == x.size())
       answer = first_hit(scene, x, v, numbers(line, "cell"));
     const std::string name = id.empty() ? "null" : text_of(id[0]);
-    std::cout << "{\"id\":" + name + ',' + answer + "}\n" << std::flush;  // whoever asks may wait for it
+    std::cout << "{\"id\":" + name + ',' + answer + "}\n" << std::flush;  // the caller may wait for it
   }
 }

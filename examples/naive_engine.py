@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""A first-hit engine to copy and to replace: cell by cell in floats, balls on any lattices in 2D and 3D.
+"""A first-hit engine to copy and to replace: cell by cell in floats, for balls on any lattices in 2D and 3D.
 
-It reads a query stream on stdin and writes an answer stream on stdout; it never claims `never`. Try
+It reads a query stream on stdin and writes an answer stream on stdout; it never answers `never`. Try
     lorentz compare --scene square --count 1000 --engine "cmd:python3 examples/naive_engine.py"
 """
 import itertools, json, math, sys
@@ -26,7 +26,7 @@ class Lattice:
     def __init__(self, lattice):
         self.vectors = [list(map(float, u)) for u in lattice["vectors"]]
         self.dual = inverse(self.vectors)
-        self.near = []  # (atom, radius, n - m, centre - m u): which obstacles n reach into a cell m
+        self.near = []  # (atom, radius, n - m, centre - m u): the obstacles n that reach into a cell m
         for number, atom in enumerate(lattice["atoms"]):
             p, r = list(map(float, atom["position"])), float(atom["radius"])
             spans = [(-dot(w, p), r * math.hypot(*w) + 1e-9) for w in self.dual]
@@ -94,6 +94,6 @@ for line in filter(str.strip, sys.stdin):
             lattices = [Lattice(a) for a in scene] if mine else []
             continue
         result = answer(item, lattices)
-    except Exception as error:  # whatever is wrong with a line, the next one may be right
+    except Exception as error:  # an invalid line does not end the stream
         result = {"outcome": "error", "message": repr(error)}
     print(json.dumps({"id": identity} | result), flush=True)

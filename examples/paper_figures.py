@@ -1,9 +1,9 @@
-"""The figures of Kraemer, Kryukov and Sanders (2016), made again as figure-*.svg (docs/paper.md has the numbers).
+"""Makes the figures of Kraemer, Kryukov and Sanders (2016) as figure-*.svg (docs/paper.md has the numbers).
 
     python3 examples/paper_figures.py [FOLDER]
 
-The first free flight among one, two and three superposed lattices; which disc is hit first, over directions; the
-time of a query against the radius. Some twenty seconds.
+The first free flight among one, two and three superposed lattices; the first disc as a function of the
+direction; the time of a query against the radius. Takes about twenty seconds.
 """
 
 import sys
@@ -30,7 +30,7 @@ def axes(x_label: str, y_label: str) -> Axes:
 
 
 def first_free_flight(count: int = 3_000_000, radius: float = 1e-4) -> Axes:
-    """Its density falls like t^-2, t^-3, t^-4: the paper's lines beside the histograms."""
+    """The density falls like t^-2, t^-3, t^-4: histograms with the paper's lines."""
     ax = axes("first free flight t", "density")
     for number, name in enumerate(LATTICES, start=1):
         paths = lorentz.flights(name, radius, count=count, seed=SEED)
@@ -47,7 +47,7 @@ def first_free_flight(count: int = 3_000_000, radius: float = 1e-4) -> Axes:
 
 
 def first_disc_over_directions(count: int = 90_000, radius: float = 0.1) -> Axes:
-    """From the paper's example, x = (0, 0.445): near discs hide most, far ones stand in corridors between."""
+    """For the paper's example, x = (0, 0.445). Near discs hide most; far ones stand in corridors between."""
     degrees = np.linspace(0, 90, count, endpoint=False)
     v = np.column_stack([np.cos(np.radians(degrees)), np.sin(np.radians(degrees))])
     answers = lorentz.first_hit("square", [0, 0.445], v, radius)
@@ -59,7 +59,7 @@ def first_disc_over_directions(count: int = 90_000, radius: float = 0.1) -> Axes
 
 
 def time_against_radius(dimension: int = 2, count: int = 2000) -> Axes:
-    """Means over the same drawn flights; classical grows like 1 / r."""
+    """Mean times over the same drawn flights. The time of classical grows like 1 / r."""
     radii = np.geomspace(1e-1, 1e-3, 7)
     ax = axes("radius", "time of a query, s")
     for engine in ("classical", "published", "reduction", "batch", "oracle"):

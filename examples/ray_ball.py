@@ -36,7 +36,7 @@ def textbook(x, v, r):
 
 
 def q_form(x, v, r):
-    """The root of larger size first, the other one from their product: nothing cancels but in the discriminant."""
+    """The root of larger size, and the other one from their product. Only the discriminant cancels."""
     a, b, c = dot(v, v), dot(x, v), dot(x, x) - r * r
     square = b * b - a * c
     if not square > 0:
@@ -46,7 +46,7 @@ def q_form(x, v, r):
 
 
 def nearest_point(x, v, r):
-    """How far along the unit direction the centre is, and how far beside: |x|^2 less the square of that."""
+    """The distance to the centre along the line; the squared distance beside it is |x|^2 - along^2."""
     speed = math.sqrt(dot(v, v))
     along = -dot(x, v) / speed
     square = r * r - (dot(x, x) - along * along)
@@ -54,7 +54,7 @@ def nearest_point(x, v, r):
 
 
 def projection(x, v, r):
-    """The part of x across the flight is computed as a vector: its length is small where that of x is large."""
+    """The part of x orthogonal to the flight as a vector: it is short even if x is long."""
     a, b, c = dot(v, v), dot(x, v), dot(x, x) - r * r
     across = [p - b / a * w for p, w in zip(x, v)]
     square = a * (r * r - dot(across, across))
@@ -99,7 +99,7 @@ def engine(formula):
         print(json.dumps({"id": query.get("id"), **said}), flush=True)
 
 
-# ---- Questions. A ray is aimed at `beside` the centre from so far away, and begins at x.
+# ---- Questions. A ray begins at x, at the distance `far`, and passes the centre at the distance `beside`.
 
 def unit(rng):
     a = [rng.gauss(0, 1) for _ in range(3)]
@@ -153,7 +153,7 @@ def questions(kind, count):
 # ---- The table.
 
 def judged(lorentz, kind, count):
-    """What `compare` says of each formula; of a number the kind is rays from 10 to that power radii away."""
+    """The results of `compare` by formula. A number as `kind`: rays from 10 to that power radii away."""
     stream = "".join(json.dumps(line) + "\n" for line in questions(kind, count))
     command = [lorentz, "compare", "--queries", "-", "--json"]
     for name in FORMULAS:

@@ -1,4 +1,5 @@
-// Is this machine, and this build of the program, fit to be believed? `lorentz doctor` asks.
+// The checks of `lorentz doctor`: whether this machine and this build of the program give trustworthy
+// results.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace lorentz::fitness {
 
-/// What a machine may be fit for.
+/// The uses for which a machine may be fit.
 enum class Use {
   engines,       ///< binary64: reduction, batch, classical, published; paths, starts
   oracle,        ///< exact answers, by either oracle, and `certified`
@@ -18,31 +19,31 @@ enum class Use {
 };
 inline constexpr Use kUses[] = {Use::engines, Use::oracle, Use::certificates, Use::itineraries};
 
-/// "the binary64 engines, paths and starts", ..
+/// For example "the binary64 engines, paths and starts".
 const char* name_of(Use use);
 
-/// One thing that was looked at.
+/// The result of one check.
 struct Symptom {
   std::string name;          ///< "rounding mode"
-  bool fit = true;           ///< as it has to be
-  std::string found;         ///< "upward"; of what failed, also what should have been
-  std::vector<Use> spoiled;  ///< if it is not fit: what must not be relied on then
+  bool fit = true;           ///< true: as required
+  std::string found;         ///< "upward"; if the check failed, also the expected value
+  std::vector<Use> spoiled;  ///< if not fit: the uses that become unreliable
 };
 
-/// What follows from checks of the arithmetic: one that is not fit spoils everything.
+/// The symptoms of the arithmetic checks. A failed check spoils all uses.
 std::vector<Symptom> findings_of(const std::vector<ArithmeticCheck>& checks);
 
-/// Counts the digests that differ from the known ones, or are missing, and names the first of them.
+/// Counts the digests that differ from the known ones or are missing, and names the first of them.
 Symptom examine_digests(const std::vector<Digest>& found, const std::vector<Digest>& known);
 
-/// What is wrong with this thread's arithmetic in this build. Microseconds.
+/// Checks this thread's arithmetic in this build. Takes microseconds.
 std::vector<Symptom> examine_arithmetic();
 
-/// Known answers, computed again: the digests of all engines, exact answers by both oracles and `certified`,
-/// a proof that must be accepted and one that must not, a certified path. About a second.
+/// Computes known answers again: the digests of all engines, exact answers by both oracles and `certified`, a
+/// proof that must be accepted and one that must not, a certified path. Takes about a second.
 std::vector<Symptom> examine_answers();
 
-/// What it is not fit for, by these findings.
+/// The uses for which the machine is unfit according to these findings.
 std::vector<Use> unfit_uses(const std::vector<Symptom>& findings);
 
 }  // namespace lorentz::fitness

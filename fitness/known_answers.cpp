@@ -26,8 +26,9 @@ Answer hit(int lattice, const Cell& cell, double time) {
   return Answer::hit({lattice, 0, cell}, time);
 }
 
-// Drawn, hopeless, very far, inside; in space; among ellipses; in two lattices. Each is held against the
-// golden sets' way of answering by a test: oracle, walk and check of certificates agree on it.
+// Questions of different kinds: drawn, hopeless, very far, inside; in 3D; among ellipses; in two lattices. A
+// test compares each of them with the procedure of the golden sets, in which oracle, walk and check of
+// certificates agree.
 const std::vector<KnownAnswer>& known_answers() {
   static const std::vector<KnownAnswer> known{
       {square(0.1),
@@ -50,7 +51,7 @@ const std::vector<KnownAnswer>& known_answers() {
   return known;
 }
 
-// What cannot even be computed is not fit either.
+// An examination that throws counts as unfit.
 Symptom guarded(const char* name, const std::vector<Use>& spoiled, const std::function<Symptom()>& examine) {
   try {
     return examine();

@@ -1,4 +1,4 @@
-// Questions whose exact answers are known, put to everybody who claims to be exact.
+// Questions with known exact answers, for all components that claim to be exact.
 #pragma once
 
 #include <functional>
@@ -13,20 +13,22 @@ namespace lorentz::fitness {
 
 using Ask = std::function<Answer(const Scene&, const Query&)>;
 
-/// Whether `claimed` is refuted by a proof that was made for `proven`.
+/// Whether a proof made for `proven` refutes `claimed`.
 using Refuted = std::function<bool(const Scene&, const Query&, const Answer& proven, const Answer& claimed)>;
 
-/// Holds a party's answers to the eight known questions against the known answers. It may leave `may_leave`
-/// of them undecided; an answer that it cannot compute makes it unfit.
+/// Compares a component's answers to the eight known questions with the known answers. The component may
+/// leave `may_leave` of them undecided. It is unfit if it cannot compute an answer.
 Symptom examine(const char* name, std::vector<Use> spoiled, std::size_t may_leave, const Ask& ask);
 
-/// Each true answer is proved, and the same with another obstacle, or none where there is one, is not.
+/// Each true answer must be accepted with its proof. The answer with another obstacle, or without one where
+/// there is one, must be refuted.
 Symptom examine_certificates(const Refuted& refuted);
 
-/// The certified path of problem 2 of the 100-digit challenge, by its distance from the origin at t = 10.
+/// Checks the certified path of problem 2 of the 100-digit challenge by its distance from the origin at t =
+/// 10.
 Symptom examine_itinerary(const std::function<std::string()>& distance);
 
-/// By both oracles, `certified`, the check of certificates, and the certified path.
+/// Examines both oracles, `certified`, the check of certificates, and the certified path.
 std::vector<Symptom> examine_known_answers();
 
 }  // namespace lorentz::fitness

@@ -1,4 +1,4 @@
-// Certificates as dictionaries: the form that golden sets have them in (docs/certificates.md).
+// Certificates as dictionaries, in the form of golden sets (docs/certificates.md).
 #include "python/certificates.hpp"
 
 #include <cmath>
@@ -18,7 +18,7 @@ py::list basis_list(const CertificateBasis& basis, int rank) {
   return rows;
 }
 
-// A float if a binary64 is exactly that, else a text.
+// A float if the value is exactly a binary64, else a text.
 py::object to_python(const WindowEnd& end) {
   if (const auto value = oracle::binary64_of(end)) return py::float_(*value);
   return py::str(oracle::text_of(end));

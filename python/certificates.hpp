@@ -9,7 +9,7 @@
 
 namespace lorentz::python {
 
-/// A certificate, and how many vectors each of its lattices has.
+/// A certificate, and the number of vectors of each of its lattices.
 struct PyCertificate {
   oracle::Certificate proof;
   std::map<int, int> ranks;

@@ -10,8 +10,8 @@
 namespace lorentz::python {
 namespace {
 
-// Rows that are flown together: so few that they stay in the cache, so many that threads have enough; and of
-// engines that take their time with each row, so few that Ctrl-C does not wait.
+// The number of rows that are flown together: few enough for the cache, enough to keep threads busy. For
+// engines that are slow per row, few enough that Ctrl-C does not wait.
 std::size_t rows_together(const question::EngineInfo& engine, int jobs) {
   return engine.traits.in_bulk ? std::size_t{4096} * static_cast<std::size_t>(jobs) : 16;
 }
@@ -33,7 +33,8 @@ void check_shape(const py::array& array, const char* name, py::ssize_t count, in
                    std::to_string(count) + "," + second + ")");
 }
 
-// Rows of an array of any layout, to columns: all components of a row at once, for it is in the cache once.
+// Copies rows of an array of any layout to columns, all components of a row at once, so that each row is
+// loaded into the cache once.
 template <std::size_t components, class Number>
 void copy_rows(const py::array& array, std::size_t first, std::size_t count, std::vector<Number>* columns) {
   std::array<Number*, components> to;
@@ -54,7 +55,7 @@ void copy_vectors(const py::array& array, std::size_t first, std::size_t count,
     copy_rows<3>(array, first, count, columns.data());
 }
 
-// A column engine.
+// The engine of this name. Throws InputError if it does not support this number of threads.
 question::EngineInfo checked(const std::string& name, int jobs) {
   question::EngineInfo engine = own_engine(name);
   if (jobs < 1 || jobs > 1024) throw InputError("jobs: needs a number from 1 to 1024");
@@ -63,7 +64,7 @@ question::EngineInfo checked(const std::string& name, int jobs) {
   return engine;
 }
 
-// What is wrong with the first row from reason `begin` on that is an error.
+// Throws the error of the first bad row from reason `begin` on.
 void refuse_first(const AnswerRows& answers, std::size_t begin) {
   if (begin == answers.reasons.size()) return;
   const AnswerRows::Reason& reason = answers.reasons[begin];
@@ -142,7 +143,7 @@ std::shared_ptr<AnswerRows> PyEngine::first_hit(const QueryArrays& queries, bool
   try {
     answer(queries, refuse, *answers);
   } catch (...) {
-    answers->resize(queries.count(), dimension_);  // not half of these answers and half of older ones
+    answers->resize(queries.count(), dimension_);  // no mixture of these answers with older ones
     for (std::size_t i = 0; i < answers->count; ++i) answers->set_plain(i, Outcome::error);
     throw;
   }

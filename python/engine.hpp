@@ -11,16 +11,16 @@
 
 namespace lorentz::python {
 
-/// Throws InputError unless it is the name of an engine of this program.
+/// The engine of this program with this name. Throws InputError if there is none.
 question::EngineInfo own_engine(const std::string& name);
 
-/// Columns of queries where NumPy has them, of any layout.
+/// Columns of queries in NumPy's memory, of any layout.
 struct QueryArrays {
   Numbers x, v;                     ///< (N, d)
   std::optional<Numbers> max_time;  ///< (N,)
   using Integers32 = py::array_t<std::int32_t, py::array::forcecast>;
   using Integers64 = py::array_t<std::int64_t, py::array::forcecast>;
-  std::optional<Integers32> from_lattice, from_atom;           ///< (N,); a lattice below 0: none
+  std::optional<Integers32> from_lattice, from_atom;           ///< (N,); a lattice below 0 means none
   std::optional<Integers64> from_cell;                         ///< (N, d)
   std::vector<std::pair<std::size_t, ObstacleId>> large_from;  ///< as in QueryRows
 
@@ -31,19 +31,20 @@ struct QueryArrays {
   void check(int dimension) const;
   std::size_t count() const { return static_cast<std::size_t>(x.shape(0)); }
 
-  /// The rows from `first` on, at most `most`, over what `rows` has of these queries. Needs no interpreter.
+  /// Copies at most `most` rows from `first` on into `rows`, and overwrites its contents. Needs no
+  /// interpreter.
   void copy(std::size_t first, std::size_t most, QueryRows& rows) const;
 };
 
 class PyEngine {
  public:
-  /// Throws InputError for an unknown engine, or a number of threads that it does not use.
+  /// Throws InputError for an unknown engine, or for a number of threads that it does not support.
   PyEngine(const PyScene& scene, const std::string& name, std::optional<double> max_time, int jobs);
 
-  /// All answers. Lets other threads of Python run, and looks for Ctrl-C now and then. Throws InputError,
-  /// naming the row, for the first that is no query, if `refuse`; else such rows are errors.
-  /// `out`, if given, is written and returned: as many rows, so that what looks at its memory still may; all
-  /// of its rows are errors after an exception.
+  /// Returns all answers. Lets other Python threads run, and checks for Ctrl-C at intervals. If `refuse`,
+  /// throws InputError with the row number of the first invalid query; otherwise such rows are errors. If
+  /// `out` is given, it is overwritten and returned. It must have the same number of rows, so that views of
+  /// its memory stay valid. After an exception all of its rows are errors.
   std::shared_ptr<AnswerRows> first_hit(const QueryArrays& queries, bool refuse,
                                         std::shared_ptr<AnswerRows> out);
 

@@ -1,4 +1,4 @@
-// The oracle and all that judges by it, one question at a time.
+// The oracle and everything that judges by it, one question at a time.
 #include <lorentz/certificate_check.hpp>
 #include <lorentz/continued_fraction.hpp>
 #include <lorentz/prover.hpp>
@@ -31,7 +31,8 @@ const char* name_of(Verdict verdict) {
   return kNames[static_cast<int>(verdict)];
 }
 
-// A scene with all who judge in it; each is made when it is first needed, under the interpreter's lock.
+// A scene with its oracle, judge and other exact tools. Each is created when it is first needed, under the
+// interpreter's lock.
 class PyOracle {
  public:
   explicit PyOracle(const PyScene& scene)
@@ -106,7 +107,7 @@ class PyOracle {
     return proved;
   }
 
-  // The reader of answers passes over `time_decimal`.
+  // `time_decimal` is a separate argument, because the reader of answers skips it.
   std::optional<std::string> refutation(const std::string& text, const std::string& answer_line,
                                         const std::string& time_decimal,
                                         const PyCertificate& certificate) const {

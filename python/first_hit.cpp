@@ -1,4 +1,4 @@
-// Arrays in, arrays out: what NumPy sees are the columns that the engine wrote, where it wrote them.
+// Arrays in, arrays out. NumPy's arrays are views of the columns that the engine wrote, without a copy.
 #include "python/engine.hpp"
 
 namespace lorentz::python {
@@ -6,7 +6,7 @@ namespace {
 
 using Answers = std::shared_ptr<AnswerRows>;
 
-// An array over memory that `owner`, a Python object, keeps alive. Nobody writes to it.
+// A read-only array over memory that `owner`, a Python object, keeps alive.
 template <class Number>
 py::array view(const Number* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
                const py::object& owner) {
@@ -47,7 +47,7 @@ py::dict reasons(const AnswerRows& answers) {
   return all;
 }
 
-// Where the engine wrote them.
+// The addresses of the columns that the engine wrote.
 py::dict addresses(const AnswerRows& answers) {
   const auto number = [](const void* address) { return reinterpret_cast<std::uintptr_t>(address); };
   py::dict all;

@@ -1,4 +1,4 @@
-// Very many free flights, counted; and the laws that theory has of them.
+// Counts of large numbers of free flights, and the laws of theory for them.
 #include <algorithm>
 #include <atomic>
 
@@ -16,7 +16,7 @@ py::array_t<Number> array_of(const std::vector<Number>& numbers) {
   return py::array_t<Number>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
 }
 
-// Flies while other threads of Python run; Ctrl-C ends it.
+// Flies while other Python threads run. Ctrl-C ends it.
 void fly(const flights::FlightsPlan& plan, unsigned jobs, flights::Account& account) {
   std::atomic<bool> stop = false;
   flights::FlightBounds bounds;
@@ -31,7 +31,7 @@ void fly(const flights::FlightsPlan& plan, unsigned jobs, flights::Account& acco
   if (PyErr_Occurred()) throw py::error_already_set();
 }
 
-// What `lorentz flights --json` says, and its counts: bins, and paths beyond each edge.
+// The report of `lorentz flights --json`, and its counts: bins, and paths beyond each edge.
 py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::string& start, std::uint64_t seed,
                      const std::string& engine, unsigned jobs) {
   own_engine(engine);
@@ -47,7 +47,7 @@ py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::strin
   return py::make_tuple(report.json(), array_of(found.edges), array_of(found.counts), array_of(found.beyond));
 }
 
-// Each law by its name, when it holds, and its survival at these times.
+// For each law: its name, the limit in which it holds, and its survival at these times.
 py::list laws_of(const PyScene& scene, const std::string& start, const py::array_t<double>& times) {
   py::list list;
   for (const flights::Law& law : flights::laws_of(scene.scene(), starts::ensemble_named(start, "start")).laws)

@@ -54,7 +54,7 @@ class PyGoldenSet {
                           to_python(obstacle.cell, reader_.scene().dimension));
   }
 
-  // Pairs of an obstacle, or None for "never", and ulps.
+  // Pairs (obstacle, ulps), with None as the obstacle for "never".
   py::list acceptable_list(const golden::Record& record) const {
     py::list list;
     for (const oracle::ExcusedAnswer& other : record.acceptable) {
@@ -66,7 +66,7 @@ class PyGoldenSet {
   }
 
   golden::Reader reader_;
-  py::object scene_;  // of the records that follow
+  py::object scene_;  // of the following records
   std::size_t scene_number_ = 0;
 };
 

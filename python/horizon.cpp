@@ -7,7 +7,7 @@
 namespace lorentz::python {
 namespace {
 
-// What `lorentz horizon --json` says, and its verdict.
+// The report of `lorentz horizon --json`, and its verdict.
 std::pair<std::string, std::string> horizon(const PyScene& scene, double min_width, bool cylinders) {
   const py::gil_scoped_release release;
   try {

@@ -1,4 +1,5 @@
-// Judges a function of Python, on the judge's own machinery: to it the function is an engine with a name.
+// Judges a Python function with the same code as any engine: for the judge, the function is an engine with a
+// name.
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -14,7 +15,7 @@
 namespace lorentz::python {
 namespace {
 
-// A run of the judge, which Ctrl-C in Python, or an exception that is none of the engine's, ends.
+// A run of the judge. Ctrl-C in Python ends it, and so does an exception that does not come from the engine.
 struct JudgeRun {
   std::atomic<bool> stop = false;
 
@@ -34,8 +35,8 @@ struct JudgeRun {
 
 constexpr std::size_t kGathered = 8192;
 
-// Gathers queries of one scene, and asks `ask(scene, x, v, start_from)`, which returns as many answers as
-// lines of JSON. The interpreter's lock is held for each such call, and no longer.
+// Collects queries of one scene, and calls `ask(scene, x, v, start_from)`, which returns one answer per
+// query, as lines of JSON. The interpreter's lock is held only during these calls.
 class FunctionAnswerer final : public question::Answerer {
  public:
   FunctionAnswerer(const py::function& ask, JudgeRun& run) : ask_(&ask), run_(run) {}
@@ -86,7 +87,7 @@ class FunctionAnswerer final : public question::Answerer {
     return answers;
   }
 
-  // What is no answer is an error of the engine.
+  // An invalid answer counts as an error of the engine.
   Answer answer_of(const std::string& text) const {
     try {
       return read_answer(text, components_);
@@ -104,7 +105,7 @@ class FunctionAnswerer final : public question::Answerer {
     return array;
   }
 
-  // Of each query None, or the obstacle that it leaves.
+  // For each query the obstacle that it leaves, or None.
   py::list starts() const {
     py::list list;
     for (const Query& query : queries_)
@@ -124,7 +125,7 @@ class FunctionAnswerer final : public question::Answerer {
   std::vector<Query> queries_;
 };
 
-// Without the interpreter's lock, so that a function's answerers can take it in any thread.
+// Runs without the interpreter's lock, so that a function's answerers can take it in any thread.
 lorentz::judge::JudgeReport report_of(const lorentz::judge::JudgeOrder& order, JudgeRun& run) {
   lorentz::judge::JudgeReport report;
   {
@@ -153,7 +154,7 @@ py::tuple judge(const py::object& function, const std::string& engine, const std
   if (time && !(*time > 0 && *time < 1e9)) throw InputError("time: needs seconds above 0");
   if (!(ulps >= 0 && ulps < 1e300)) throw InputError("ulps: needs a number, 0 or above");
   if (time && questions) throw InputError("questions: not together with time");
-  if (html) report::page("{}");  // throws if there is none: now rather than after two minutes
+  if (html) report::page("{}");  // throws without a page: now rather than after two minutes
   JudgeRun run;
   py::function ask;
   if (function.is_none()) {

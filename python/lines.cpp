@@ -3,7 +3,7 @@
 namespace lorentz::python {
 namespace {
 
-// A line as the readers want it, with room behind it.
+// A line in the form that the readers need, with padding behind it.
 class PaddedLine {
  public:
   explicit PaddedLine(const std::string& text) : bytes_(text + std::string(LineReader::kPadding, ' ')) {
@@ -78,7 +78,7 @@ Answer read_answer(const std::string& text, const Components& count) {
     throw InputError("is not an answer");
   const bool names_one = answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
   const int needed = count.of_cells(answer.obstacle.lattice);
-  // Columns have as many coordinates as there are dimensions, the last ones zero.
+  // Columns have one coordinate per dimension; surplus ones are zero.
   bool fits = components == static_cast<std::size_t>(count.of_vectors());
   for (int i = needed; i < count.of_vectors(); ++i) fits &= answer.obstacle.cell[i] == Integer(0);
   if (names_one && !fits && components != static_cast<std::size_t>(needed))

@@ -1,5 +1,5 @@
-// Python speaks the project's own format where speed does not matter: a scene, a query, an answer as a line
-// of JSON, read and checked by the one reader that knows the format. Private to python/.
+// Where speed does not matter, Python uses the project's own format: a scene, a query or an answer as a line
+// of JSON, which the reader of this format reads and checks. Private to python/.
 #pragma once
 
 #include <optional>
@@ -10,24 +10,24 @@
 
 namespace lorentz::python {
 
-/// Of `{"scene": {..}}`; a key that scenes do not have is an error. Throws InputError.
+/// Reads `{"scene": {..}}`. Unknown keys are errors. Throws InputError.
 Scene read_scene(const std::string& text);
 RationalScene read_rational_scene(const std::string& text);
 
-/// Of `{"x": [..], "v": [..], "from": {..}}`. Throws InputError.
+/// Reads `{"x": [..], "v": [..], "from": {..}}`. Throws InputError.
 Query read_query(const std::string& text, const Scene& scene);
 Start read_start(const std::string& text, const RationalScene& scene);
 
-/// Of `{"outcome": "hit", ..}`; a key that answers do not have is an error. Throws InputError.
+/// Reads `{"outcome": "hit", ..}`. Unknown keys are errors. Throws InputError.
 Answer read_answer(const std::string& text, const Components& count);
 
-/// An answer as such a line.
+/// Writes an answer as such a line.
 std::string answer_text(const Answer& answer, const Components& count);
 
-/// Throws InputError: what readers are to do with keys that they do not know.
+/// The handler of unknown keys for the readers: throws InputError.
 void refuse_key(const std::string& key);
 
-/// What an engine claims, "binary64" or "binary32".
+/// The claim of an engine. `precision` is "binary64" or "binary32".
 inline Claim claim_of(const std::string& precision, std::optional<double> time_tolerance) {
   return {precision == "binary32" ? NumberFormat::binary32 : NumberFormat::binary64, time_tolerance};
 }

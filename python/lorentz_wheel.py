@@ -1,7 +1,8 @@
-"""Builds the package's wheel and source archive, as pip asks for them (PEP 517): CMake builds and installs, a wheel is a
-zip of that. No tool for builds is needed besides, so that `pip install .` works where no index can be reached.
+"""Builds the package's wheel and source archive for pip (PEP 517). CMake builds and installs the package; the
+wheel is a zip archive of the installed files. No other build tool is needed, so `pip install .` works without
+access to an index.
 
-With `--config-settings program=yes` the wheel has the command `lorentz`, too (`./run wheel`).
+With `--config-settings program=yes` the wheel also contains the command `lorentz` (`./run wheel`).
 """
 
 import base64
@@ -34,7 +35,7 @@ Requires-Dist: numpy
 Provides-Extra: plot
 Requires-Dist: matplotlib; extra == 'plot'
 """
-# Of an archive of the sources: what the extension module is compiled of.
+# The files in an archive of the sources: those from which the extension module is compiled.
 WANTED = re.compile(r"(CMakeLists|CMakePresets|LICENSE|README|pyproject|packages|cmake/|include/|src/|oracle/|cases/|starts/|"
                     r"question/|runs/|files/|golden/|fuzz/|judge/|statistics/|fitness/|pictures/|report/|python/|"
                     r"data/scenes/|data/golden/)")
@@ -63,7 +64,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def build_sdist(sdist_directory, config_settings=None):
-    """What the package is built of, and no more: no tests, no documents but the package's own, no command line."""
+    """Archives only the package's sources: no tests, no command line, no documents except the package's
+    own."""
     name = f"lorentz-{VERSION}"
     archive = Path(sdist_directory) / f"{name}.tar.gz"
     with tarfile.open(archive, "w:gz", format=tarfile.PAX_FORMAT) as tar:
@@ -82,7 +84,7 @@ def sources():
 
 
 def install(folder, with_program):
-    """The package, with the scenes and golden sets that it finds there."""
+    """Installs the package together with its scenes and golden sets."""
     jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
     targets = ["lorentz_python"] + ["lorentz"] * with_program
     print("lorentz: building the extension module: some minutes of processor time", file=sys.stderr, flush=True)
@@ -108,7 +110,7 @@ def write_info(folder):
 
 
 def pack(folder, wheel):
-    """All files below the folder, and RECORD: each with its sum and size."""
+    """Packs all files below the folder, and RECORD, which lists the checksum and size of each."""
     record = []
     with zipfile.ZipFile(wheel, "w", zipfile.ZIP_DEFLATED) as archive:
         for file in sorted(path for path in folder.rglob("*") if path.is_file()):

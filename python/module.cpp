@@ -1,4 +1,4 @@
-// The extension module `lorentz._lorentz`: what the package's modules in Python are thin covers of.
+// The extension module `lorentz._lorentz`. The package's Python modules are thin wrappers of it.
 #include "python/module.hpp"
 
 #include <stdexcept>
@@ -10,12 +10,12 @@
 namespace lorentz::python {
 namespace {
 
-// Python takes UTF-8 only, and a name of a file, say, may be any bytes.
+// Python accepts only UTF-8, but a file name, for example, may be any bytes.
 std::string text_of(const std::exception& failure) {
   return printable(failure.what(), Lines::kept);
 }
 
-// One class for each way in which input goes wrong (include/lorentz/errors.hpp), both Error.
+// One class for each kind of error (include/lorentz/errors.hpp); all derive from Error.
 void bind_errors(py::module_& module) {
   static py::exception<InputError> error(module, "Error", PyExc_ValueError);
   error.attr("__module__") = "lorentz";

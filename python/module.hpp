@@ -1,4 +1,4 @@
-// What the parts of the extension module have in common. Private to python/.
+// Declarations that the parts of the extension module share. Private to python/.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -9,7 +9,7 @@ namespace lorentz::python {
 
 namespace py = pybind11;
 
-/// Numbers in an array of any layout; nothing is copied if they are binary64 already.
+/// Numbers in an array of any layout. They are not copied if they are already binary64.
 using Numbers = py::array_t<double, py::array::forcecast>;
 
 // Each part adds its classes and functions to the module.

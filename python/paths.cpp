@@ -1,4 +1,4 @@
-// Many particles from collision to collision as arrays, and certified itineraries.
+// Trajectories of many particles as arrays, and certified itineraries.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,20 +19,20 @@ constexpr double kForEver = std::numeric_limits<double>::infinity();
 
 // ---- Particles
 
-// Which collisions of C are kept: every k-th, or the last alone (k = 0).
+// The collisions of C that are kept: every k-th, or only the last (k = 0).
 struct KeptCollisions {
   std::size_t collisions, every;
 
   std::size_t columns() const {
     return every > 0 ? collisions / every : std::min<std::size_t>(collisions, 1);
   }
-  std::optional<std::size_t> column_of(std::size_t collision) const {  // from 1 on
+  std::optional<std::size_t> column_of(std::size_t collision) const {  // numbered from 1
     if (every == 0) return 0;
     return collision % every == 0 ? std::optional(collision / every - 1) : std::nullopt;
   }
 };
 
-// KeptCollisions collisions in rows, a particle each; what did not happen is 0, its numbers NaN.
+// The kept collisions, one row per particle. Collisions that did not happen are 0, their numbers NaN.
 struct Paths {
   Paths(std::size_t particles, KeptCollisions kept, int dimension)
       : particles(particles), kept(kept), columns(kept.columns()), dimension(dimension) {
@@ -66,7 +66,7 @@ struct Paths {
   std::vector<std::uint8_t> stop;  // codes of Stop
 };
 
-// The starts of particles, each as a query.
+// The starts of particles as queries.
 std::vector<Query> starts_of(const QueryArrays& arrays, const Scene& scene) {
   arrays.check(scene.dimension);
   QueryRows rows;
@@ -218,7 +218,7 @@ py::array shown(const std::vector<Number>& numbers, std::vector<std::size_t> sha
   return array;
 }
 
-// Of one number a collision (or particle, if `whole`), or of as many as there are dimensions.
+// The shape of an array: one number per particle, one per collision, or one vector per collision.
 enum class ArrayShape { particles, collisions, vectors };
 
 template <class Number>

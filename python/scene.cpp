@@ -62,7 +62,8 @@ PyScene::PyScene(RationalScene scene)
   const oracle::Itinerary check(exact_);  // throws InputError
 }
 
-// In binary64; if it is not, in rational numbers, whose complaint is told: they may be texts, too.
+// Reads in binary64. If that fails, reads in rational numbers, which may be texts; errors are those of this
+// reader.
 template <class ReadBinary64, class ReadRational>
 PyScene PyScene::either(const ReadBinary64& binary64, const ReadRational& rational) {
   try {

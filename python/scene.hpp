@@ -1,4 +1,4 @@
-// A scene as Python has it: in binary64, or in rational numbers that no binary64 is. Private to python/.
+// A scene of Python: in binary64, or in rational numbers that binary64 cannot represent. Private to python/.
 #pragma once
 
 #include <memory>
@@ -11,29 +11,29 @@ namespace lorentz::python {
 
 class PyScene {
  public:
-  /// Without flaws and with independent vectors.
+  /// The scene must have no flaws and independent vectors.
   explicit PyScene(Scene scene) : nearest_(std::move(scene)), exact_(rational(nearest_)) {}
 
-  /// Throws InputError for a scene that is none, naming the place in it. Numbers may be texts, as "1/3".
+  /// Throws InputError for an invalid scene and names the place in it. Numbers may be texts such as "1/3".
   static PyScene from_json(const std::string& text);
 
-  /// A file, or a name of the catalogue.
+  /// Loads a file, or a scene of the catalogue by its name.
   static PyScene load(const std::string& name_or_file);
 
   int dimension() const { return nearest_.dimension; }
 
-  /// True if every number is a binary64, which first hits in arrays need.
+  /// True if every number is a binary64. First hits in arrays need this.
   bool is_binary64() const { return is_binary64_; }
 
-  /// Throws InputError if that is not so.
+  /// The binary64 scene. Throws InputError if not every number is a binary64.
   const Scene& scene() const;
 
-  /// The same of lattices in all directions. Throws InputError for another: `what` ("flights are counted") is done in
-  /// crystals only.
+  /// The same for a crystal, whose lattices repeat in all directions. Throws InputError for other scenes,
+  /// with a message that `what` ("flights are counted") supports crystals only.
   const Scene& crystal(const std::string& what) const;
 
-  /// With every number rounded, if need be. Throws InputError where that is no scene: a number beyond the
-  /// range of binary64, a radius that becomes 0, vectors that become dependent.
+  /// The scene with every number rounded to binary64 if necessary. Throws InputError if the result is
+  /// invalid: a number beyond the range of binary64, a radius that becomes 0, vectors that become dependent.
   const Scene& nearest() const;
   const RationalScene& exact() const { return exact_; }
 
@@ -60,7 +60,7 @@ py::tuple to_python(const Vec& a, int dimension);
 /// A tuple of `dimension` integers.
 py::tuple to_python(const Cell& cell, int dimension);
 
-/// An integer of any size. Throws InputError, naming `what`.
+/// An integer of any size. Throws InputError that names `what`.
 Integer integer_from(const py::handle& n, const char* what);
 
 }  // namespace lorentz::python

@@ -9,10 +9,11 @@
 
 namespace lorentz::python {
 
-/// Looks for Ctrl-C from within a loop, where it is asked often and takes the lock now and then.
+/// Checks for Ctrl-C from within a loop. look() may be called often, because it takes the lock only at
+/// intervals.
 class SignalWatch {
  public:
-  /// Throws py::error_already_set, what Ctrl-C means to Python. Not with the lock held.
+  /// Throws py::error_already_set for Ctrl-C. The caller must not hold the lock.
   void look();
 
  private:
@@ -21,8 +22,8 @@ class SignalWatch {
   Clock::time_point next_ = Clock::now() + kBetween;
 };
 
-/// Has `work` done in a thread of its own and looks for Ctrl-C meanwhile, which sets `stop` and is thrown
-/// when the work has ended. Not with the lock held.
+/// Runs `work` in a separate thread and checks for Ctrl-C in the meantime. Ctrl-C sets `stop` and is thrown
+/// when the work has ended. The caller must not hold the lock.
 template <class Work>
 auto watched(std::atomic<bool>& stop, const Work& work) {
   auto result = std::async(std::launch::async, work);

@@ -1,4 +1,4 @@
-// Statistics of trajectories: Lyapunov exponents, diffusion, and how long trajectories stay right.
+// Statistics of trajectories: Lyapunov exponents, diffusion, and how long computed trajectories stay right.
 #include "python/engine.hpp"
 #include "python/signals.hpp"
 #include "statistics/chaos/diffusion_report.hpp"
@@ -8,7 +8,7 @@
 namespace lorentz::python {
 namespace {
 
-// What `find(stop)` finds while other threads of Python run; Ctrl-C ends it.
+// Returns the result of `find(stop)`, which runs while other Python threads run. Ctrl-C ends it.
 template <class Find>
 auto found_by(const Find& find) {
   const py::gil_scoped_release release;
@@ -16,7 +16,7 @@ auto found_by(const Find& find) {
   return watched(stop, [&] { return find(stop); });
 }
 
-// What `lorentz lyapunov --json` says.
+// The report of `lorentz lyapunov --json`.
 std::string lyapunov(const PyScene& scene, std::uint64_t collisions, bool spectrum, std::uint64_t seed,
                      unsigned jobs) {
   const chaos::LyapunovPlan plan{scene.crystal("means of trajectories are taken"), seed, collisions,
@@ -26,7 +26,7 @@ std::string lyapunov(const PyScene& scene, std::uint64_t collisions, bool spectr
   });
 }
 
-// What `lorentz diffusion --json` says.
+// The report of `lorentz diffusion --json`.
 std::string diffusion(const PyScene& scene, std::uint64_t count, double time, const std::string& start,
                       std::uint64_t seed, unsigned jobs) {
   const chaos::DiffusionPlan plan{scene.crystal("means of trajectories are taken"),
@@ -38,7 +38,7 @@ std::string diffusion(const PyScene& scene, std::uint64_t count, double time, co
   });
 }
 
-// What `lorentz survival --json` says.
+// The report of `lorentz survival --json`.
 std::string survival_of(const PyScene& scene, std::uint64_t count, std::uint64_t collisions,
                         const std::vector<long>& bits, const std::string& engine, std::uint64_t seed) {
   const survival::SurvivalPlan plan{

@@ -17,7 +17,7 @@ namespace {
 
 constexpr Series kUniform("uniform starts"), kSurface("surface starts");
 
-// That all points in and around the box are finite, with room for the geometry of some.
+// Whether all points in and around the box are finite, with room for geometry with several of them.
 bool in_range(const Scene& scene, const cases::Box& box) {
   double largest = 0, size = 0;
   for (int i = 0; i < box.dimension; ++i)
@@ -52,8 +52,8 @@ Candidates::Candidates(const Scene& scene, Ensemble ensemble, std::uint64_t seed
 
 namespace {
 
-// Of each atom, lattice by lattice, in proportion to each other: by volume, or of one period of each lattice
-// where these repeat in fewer directions. Nothing if they are beyond the range of binary64.
+// The relative surface of each atom, lattice by lattice: per volume, or per period of each lattice if the
+// lattices repeat in fewer directions. Empty if the values are beyond the range of binary64.
 std::vector<double> surfaces_of(const Scene& scene) {
   std::vector<double> surfaces;
   if (!is_crystal(scene)) {
@@ -66,8 +66,8 @@ std::vector<double> surfaces_of(const Scene& scene) {
 
 }  // namespace
 
-// A word chooses the obstacle: each has its share of them, in steps of 2^-40 of the largest, since elliptic
-// integrals are not the same to the last bit everywhere.
+// One random word chooses the obstacle. Each obstacle gets its share of the words, in steps of 2^-40 of the
+// largest share, because the last bits of elliptic integrals differ between machines.
 void Candidates::choose_by_surface(const Scene& scene) {
   const std::vector<double> surfaces = surfaces_of(scene);
   double largest = 0, sum = 0, before = 0;
@@ -117,8 +117,8 @@ Candidates::Start Candidates::uniform_start(Random& random) const {
   return start;
 }
 
-// The obstacle's cell in a superposition is that in which a point of the box lies: so all cells are as
-// likely.
+// In a superposition, the obstacle's cell is the cell that contains a drawn point of the box, so that all
+// cells are equally likely.
 Candidates::Start Candidates::surface_start(Random& random) const {
   const Obstacle& obstacle = chosen_obstacle(random);
   Start start{};

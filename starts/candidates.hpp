@@ -1,4 +1,4 @@
-// Starts of free flights, drawn: where a particle is, where it goes, and which obstacle it leaves.
+// Drawn starts of free flights: the position, the direction, and the obstacle that the particle leaves.
 #pragma once
 
 #include <cstdint>
@@ -16,39 +16,40 @@ namespace lorentz::starts {
 
 using flights::Ensemble;
 
-/// Candidates for starts, numbered. Start `index` depends on the scene, the ensemble, the box, the seed and
-/// the index only, so that any number of threads, shards and machines draws the same, to the bit.
+/// Numbered candidates for starts. Start `index` depends only on the scene, the ensemble, the box, the seed
+/// and the index, so that any number of threads, shards and machines draws the same starts, to the bit.
 ///
 /// uniform: the point is uniform in the box (cases::Box::of), directions are isotropic. surface: an obstacle
-/// is chosen by its surface, over all lattices and atoms, of a superposition also its cell among those around
-/// the box; the point is uniform on its surface, the direction by the cosine law about the outward normal,
-/// and `from` is that obstacle. These are the two measures of a gas in equilibrium: at any moment, and after
-/// a collision.
+/// is chosen with a probability proportional to its surface, over all lattices and atoms. In a superposition
+/// its cell is chosen, too, among those around the box. The point is uniform on its surface, the direction
+/// follows the cosine law about the outward normal, and `from` is that obstacle. These are the two measures
+/// of a gas in equilibrium: at any moment, and after a collision.
 ///
-/// A box stands for all of a superposition. Lattices without a common period look different from cell to
-/// cell, and obstacles of radius r are told apart only where relative places are: the fewer cells a box has,
-/// the coarser. At r = 1e-4 of the spacing 10^8 cells give the limit law.
+/// For a superposition, a finite box stands for the whole scene. Lattices without a common period look
+/// different from cell to cell, and the fewer cells a box has, the more coarsely it samples the relative
+/// positions of the lattices. At r = 1e-4 of the spacing, 10^8 cells give the limit law.
 ///
-/// Units: lengths are the scene's; velocities have length 1 up to rounding. `draw` throws nothing, allocates
-/// nothing where nothing grows, and may be called by any number of threads.
+/// Units: lengths are in the scene's unit; velocities have length 1 up to rounding. `draw` does not throw,
+/// does not allocate unless a vector grows, and may be called by any number of threads.
 class Candidates {
  public:
-  static constexpr std::uint64_t kMostAttempts = 100'000;  ///< that are worth a try
+  static constexpr std::uint64_t kMostAttempts = 100'000;  ///< the most attempts worth making
 
-  /// For a scene without flaws (flaw_of) and with independent vectors (oracle::dependence_in). `cells`: about
-  /// how many cells of the first lattice the box of a superposition has, 1 to 2^40. Throws InputError if
-  /// the scene's numbers are so large or small that no starts can be drawn in binary64.
+  /// For a scene without flaws (flaw_of) and with independent vectors (oracle::dependence_in). `cells`: the
+  /// approximate number of cells of the first lattice in the box of a superposition, 1 to 2^40. Throws
+  /// InputError if the scene's numbers are so large or small that no starts can be drawn in binary64.
   Candidates(const Scene& scene, Ensemble ensemble, std::uint64_t seed,
              std::uint64_t cells = cases::Box::kCells);
 
-  /// Candidate number `attempt` (0, 1, ..) of start `index`. It may lie inside an obstacle: who flies it sees
-  /// the outcome `inside`, and draws the next one; after kMostAttempts of them there is nowhere_to_start().
+  /// Candidate number `attempt` (0, 1, ..) of start `index`. It may lie inside an obstacle. The caller that
+  /// flies it then gets the outcome `inside` and draws the next one; after kMostAttempts the caller reports
+  /// nowhere_to_start().
   void draw(std::uint64_t index, std::uint64_t attempt, Query& start) const;
 
-  /// The candidates 0 of the starts from `first` on, `count` of them.
+  /// Candidate 0 of each of the starts [first, first + count).
   void draw(std::uint64_t first, std::size_t count, StartColumns& starts) const;
 
-  /// One candidate in the place of another.
+  /// Replaces the candidate at `place`.
   void draw(std::uint64_t index, std::uint64_t attempt, StartColumns& starts, std::size_t place) const;
 
   int dimension() const { return box_.dimension; }
@@ -64,7 +65,7 @@ class Candidates {
     std::int32_t lattice, atom;
     Vec position;
     Surface surface;
-    std::uint64_t below;  ///< chosen by 53 bits below this, and not below that of the obstacle before
+    std::uint64_t below;  ///< chosen by 53 bits that are below this, but not below the previous one
   };
   struct Cells {
     std::array<Vec, 3> vectors, dual;
@@ -81,11 +82,11 @@ class Candidates {
   std::uint64_t seed_;
   bool in_many_cells_;
   cases::Box box_;
-  std::vector<Obstacle> obstacles_;  ///< of `surface`
+  std::vector<Obstacle> obstacles_;  ///< for the ensemble `surface`
   std::vector<Cells> lattices_;
 };
 
-/// What to say when `draws` candidates of one start were all inside obstacles.
+/// The message for `draws` candidates of one start that are all inside obstacles.
 std::string nowhere_to_start(std::uint64_t draws);
 
 }  // namespace lorentz::starts

@@ -1,4 +1,4 @@
-// Isotropic directions from as few random words as there are coordinates on the circle or the sphere.
+// Isotropic directions from random words: one word for the circle, two for the sphere.
 #pragma once
 
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace lorentz::starts {
 
-/// (cos a, sin a) for |a| <= pi / 4, by the first terms of their series, the rest of which is below 5e-17: no
-/// library's functions, whose last bits differ from machine to machine.
+/// (cos a, sin a) for |a| <= pi / 4, by the first terms of their series. The remainder is below 5e-17.
+/// Library functions are not used, because their last bits differ from machine to machine.
 inline Vec turned(double a) {
   const double s = a * a;
   double sine = -1.0 / 1307674368000, cosine = 1.0 / 20922789888000;  // 15!, 16!
@@ -23,8 +23,8 @@ inline Vec turned(double a) {
   return {cosine * s + 1, sine * s * a + a, 0};
 }
 
-/// Uniform on the unit circle, up to rounding; from one word: two bits choose a quarter, the others the
-/// place.
+/// Uniform on the unit circle, up to rounding. Uses one word: two bits choose the quarter, the others the
+/// place in it.
 inline Vec on_circle(cases::Random& random) {
   constexpr double kCosine[] = {1, 0, -1, 0}, kSine[] = {0, 1, 0, -1};
   const std::uint64_t bits = random.bits();
@@ -34,7 +34,7 @@ inline Vec on_circle(cases::Random& random) {
   return {c * a[0] - s * a[1], c * a[1] + s * a[0], 0};
 }
 
-/// Uniform on the unit sphere, up to rounding; from two words. Height and angle are independent (Archimedes).
+/// Uniform on the unit sphere, up to rounding. Uses two words: height and angle are independent (Archimedes).
 inline Vec on_sphere(cases::Random& random) {
   const double height = 2 * random.uniform() - 1, width = std::sqrt((1 - height) * (1 + height));
   const Vec a = on_circle(random);

@@ -30,8 +30,9 @@ flights::Ensemble ensemble_named(const std::string& name, const std::string& wha
 
 namespace {
 
-// A primitive vector of one of the lattices, components up to 9, or beside it: up to 3 ulps in each nonzero
-// component, or 2^-40 to 2^-52 of its size towards another lattice vector (in binary32 2^-11 to 2^-23).
+// A primitive vector of one of the lattices, with components up to 9, or a direction beside it: off by up to
+// 3 ulps in each non-zero component, or by 2^-40 to 2^-52 of its size towards another lattice vector (in
+// binary32 by 2^-11 to 2^-23).
 Vec near_rational_direction(Random& random, const Scene& scene, NumberFormat format) {
   constexpr std::int64_t kRange = 9, kUlps = 3;
   const int d = scene.dimension;
@@ -65,7 +66,7 @@ struct FreeStarts::Inside {
     return certified.first_hit(start, at_once).outcome != Outcome::inside;
   }
 
-  // True if the candidate became a start of the kind.
+  // Returns true if the candidate could be made into a start of the kind.
   bool make(Random& random, Query& start) const {
     if (kind == Kind::grazing && !is_crystal(scene)) aim(random, start);
     if (kind == Kind::grazing)
@@ -76,14 +77,14 @@ struct FreeStarts::Inside {
     return true;
   }
 
-  // True if the start is one after rounding, too.
+  // Returns true if the start is valid after rounding, too.
   bool round(Query& start) const {
     if (format == NumberFormat::binary64) return true;
     start = rounded(start, format);
     return !flaw_of(start, scene) && is_free(start);
   }
 
-  // At an obstacle of the cell 0: few lines meet any where most of space is empty.
+  // Aims at an obstacle of cell 0, because few lines meet an obstacle if most of space is empty.
   void aim(Random& random, Query& start) const {
     const Lattice& lattice = scene.lattices[random.below(scene.lattices.size())];
     const Atom& atom = lattice.atoms[random.below(lattice.atoms.size())];

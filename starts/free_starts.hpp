@@ -1,4 +1,4 @@
-// Starts that lie in no obstacle, of several kinds.
+// Starts of several kinds that lie outside all obstacles.
 #pragma once
 
 #include <cstdint>
@@ -13,43 +13,44 @@
 
 namespace lorentz::starts {
 
-/// Of what is drawn by default.
+/// The default seed of drawn starts.
 inline constexpr std::uint64_t kDefaultSeed = 20161115;
 
-/// What starts are like.
+/// Kinds of starts.
 enum class Kind {
   uniform,        ///< anywhere outside the obstacles, in any direction
-  surface,        ///< off an obstacle, by the cosine law, with `from`
-  near_rational,  ///< anywhere, along a small lattice vector or a few ulps, or 2^-40, beside it
-  grazing         ///< the line passes or meets an obstacle within some ulps to 2^-10 of its edge
+  surface,        ///< on an obstacle's surface, by the cosine law, with `from`
+  near_rational,  ///< anywhere, along a small lattice vector or a few ulps or 2^-40 beside it
+  grazing         ///< the line passes or meets an obstacle within several ulps to 2^-10 of its edge
 };
 
-/// All kinds, by the names that people know them by; in the order of Kind.
+/// The names of all kinds that users know, in the order of Kind.
 const std::vector<std::string>& kind_names();
 inline const std::string& name_of(Kind kind) {
   return kind_names()[static_cast<std::size_t>(kind)];
 }
 
-/// The kind of this name. Throws InputError, which begins with `what`, if there is none.
+/// The kind of this name. Throws InputError if the name is unknown; the message begins with `what`.
 Kind kind_named(const std::string& name, const std::string& what);
 
-/// The same of ensembles, which are the first two kinds.
+/// The same for ensembles, which are the first two kinds.
 flights::Ensemble ensemble_named(const std::string& name, const std::string& what);
 constexpr Kind kind_of(flights::Ensemble ensemble) {
   return ensemble == flights::Ensemble::uniform ? Kind::uniform : Kind::surface;
 }
 
-/// Starts, numbered; of `uniform` and `surface` those of Candidates, the first attempt of each that is free.
+/// Numbered starts. For `uniform` and `surface` they are those of Candidates: the first free attempt of each.
 class FreeStarts {
  public:
   /// For a scene without flaws (flaw_of) and with independent vectors (oracle::dependence_in). Throws
-  /// InputError as Candidates does. Starts consist of numbers of the format, as the scene must.
+  /// InputError as Candidates does. Starts consist of numbers of the format; the scene must, too.
   FreeStarts(const Scene& scene, Kind kind, std::uint64_t seed, NumberFormat format = NumberFormat::binary64);
   ~FreeStarts();
   FreeStarts(FreeStarts&&) noexcept;
 
-  /// Start number `index`, which depends on scene, kind, seed and index only. In no open obstacle but `from`:
-  /// decided exactly. Throws InputError if Candidates::kMostAttempts candidates do not come to one.
+  /// Start number `index`, which depends only on scene, kind, seed and index. It lies in no open obstacle
+  /// except `from`; this is decided exactly. Throws InputError if Candidates::kMostAttempts candidates give
+  /// no start.
   void draw(std::uint64_t index, Query& start) const;
   Query operator[](std::uint64_t index) const {
     Query start;

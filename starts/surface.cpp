@@ -11,8 +11,8 @@ using cases::Random;
 
 namespace {
 
-// A little less, by a few significant bits: lengths of semiaxes come from functions that libraries round
-// differently, and starts must have the same bits everywhere.
+// A slightly smaller number with kBits significant bits. The lengths of semiaxes come from functions that
+// libraries round differently, but starts must have the same bits everywhere.
 double rounded_down(double positive) {
   constexpr int kBits = 20;
   int exponent = 0;
@@ -33,9 +33,9 @@ Surface::Surface(const Atom& atom, int dimension)
   for (int i = 0; i < dimension; ++i) normals_[i] = scaled(normals_[i], least);
 }
 
-// y is uniform on the unit sphere. A maps its surface element to one that is |A^-T y| det A times as large,
-// with the normal A^-T y, so that share of the points is kept: |A^-T y| of its bound 1 / (least semiaxis).
-// That is half of them or more, however slender the ellipsoid.
+// y is uniform on the unit sphere. A maps its surface element to one that is |A^-T y| det A times as large
+// and has the normal A^-T y. Points are therefore kept with the probability |A^-T y| over its bound 1 /
+// (least semiaxis). This keeps at least half of them, however slender the ellipsoid is.
 SurfacePoint Surface::point_of_ellipsoid(Random& random) const {
   for (;;) {
     const Vec y = direction(random, dimension_);
@@ -52,14 +52,14 @@ SurfacePoint Surface::point_of_ellipsoid(Random& random) const {
 
 namespace {
 
-// In the plane the sine of the angle with the normal is uniform.
+// In 2D the sine of the angle with the normal is uniform.
 Vec cosine_law_2d(Random& random, const Vec& n) {
   const double sine = 2 * random.uniform() - 1, cosine = std::sqrt((1 - sine) * (1 + sine));
   return {cosine * n[0] - sine * n[1], cosine * n[1] + sine * n[0], 0};
 }
 
-// Points of the sphere that touches the surface from outside, seen from where it touches, stand in directions
-// by the cosine law (Lambert) if they are uniform on it.
+// Take a sphere that touches the surface from outside. If points are uniform on it, their directions from the
+// point of contact follow the cosine law (Lambert).
 Vec cosine_law_3d(Random& random, const Vec& n) {
   for (;;) {
     const Vec v = sum(n, on_sphere(random));

@@ -1,4 +1,4 @@
-// Points on the surface of an obstacle, and directions off it.
+// Points on the surface of an obstacle, and directions away from it.
 #pragma once
 
 #include <lorentz/scene.hpp>
@@ -30,12 +30,12 @@ class Surface {
   bool is_ball_;
   double radius_;
   std::array<Vec, 3> axes_{};     ///< the columns of A
-  std::array<Vec, 3> normals_{};  ///< those of the transposed inverse of A, times its least semiaxis
+  std::array<Vec, 3> normals_{};  ///< columns of the transposed inverse of A, times its least semiaxis
 };
 
-/// A direction off a surface with this unit normal, by the cosine law: the flux of a gas in equilibrium. Its
-/// angle with the normal has a density proportional to its cosine, by solid angle in 3D; of unit length up to
-/// rounding.
+/// A direction away from a surface with this unit normal, by the cosine law: the flux of a gas in
+/// equilibrium. The density of its angle with the normal is proportional to the cosine of the angle (in 3D
+/// per solid angle). The direction has unit length up to rounding.
 Vec cosine_law(cases::Random& random, const Vec& normal, int dimension);
 
 }  // namespace lorentz::starts

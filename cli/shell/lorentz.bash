@@ -1,4 +1,4 @@
-# bash completion for lorentz. The program itself knows what may stand where.
+# bash completion for lorentz. The program itself computes the completions.
 _lorentz() {
   local word kind=words
   local -a answer

@@ -22,7 +22,7 @@ ROOT = HERE.parent.parent
 LIST = HERE / "league.json"
 KEPT = ROOT / "build/league"
 PAGES = ROOT / "docs/league"
-QUESTIONS = 1500  # of each row of `lorentz judge`, unless league.json says fewer for a slow engine
+QUESTIONS = 1500  # per row of `lorentz judge`, unless league.json sets fewer for a slow engine
 FAR = ("golden long-flight", "golden tiny-radius")
 FALSE = ("false-hit", "behind", "leaving", "inside-not-so")
 MISSED = ("passed-over", "never-for", "inside-unseen")
@@ -42,7 +42,7 @@ def judge_line(entry):
 
 
 def introduction_of(entry):
-    """What the engine says of itself when its input is empty: name, version, precision, .."""
+    """The engine's claims, which it prints if its input is empty: name, version, precision, .."""
     said = subprocess.run(["sh", "-c", f"cd examples/engines && exec {entry['command']}"], cwd=ROOT, text=True,
                           stdin=subprocess.DEVNULL, capture_output=True, check=True)
     return json.loads(said.stdout)["engine"]
@@ -100,12 +100,12 @@ def sums(result, kind):
 
 
 def of_cause(result, beginnings):
-    """How many wrong answers have a cause that begins so."""
+    """The number of wrong answers whose cause begins with one of `beginnings`."""
     return sum(f["count"] for f in result["findings"] if f["verdict"] == "wrong" and f["cause"].startswith(beginnings))
 
 
 def interval(count, number):
-    """Wilson's, of 95 %."""
+    """The Wilson interval at 95 %."""
     z, p = 1.96, count / number
     middle, half = p + z * z / (2 * number), z * math.sqrt(p * (1 - p) / number + z * z / (4 * number * number))
     return [max(0.0, (middle - half) / (1 + z * z / number)), (middle + half) / (1 + z * z / number)]
@@ -131,7 +131,7 @@ def largest_radii(result):
 
 
 def simplest(result):
-    """The finding that is told of: of the engine's own faults the first, of wrong obstacles before wrong times."""
+    """The finding to describe: the engine's first own fault; wrong obstacles come before wrong times."""
     faults = [f for f in result["findings"] if f["verdict"] in ("wrong", "error")]
     times = [f for f in result["findings"] if f["verdict"] == "wrong-time"]
     return (faults or times or [None])[0]
@@ -194,7 +194,7 @@ def axes():
 
 
 def box_of(name, x, y, side):
-    """Where a label would be: right, left, above or below of its point."""
+    """The box of a label to the right, to the left, above or below its point."""
     width, height = 6.4 * len(name), 12
     left = {"right": x + 7, "left": x - 7 - width}.get(side, x - width / 2)
     top = {"above": y - 7 - height, "below": y + 7}.get(side, y - height / 2)
@@ -206,7 +206,7 @@ def overlap(one, other):
 
 
 def labels(points):
-    """Each name beside its point where there is room, else further below."""
+    """Places each name beside its point if there is room, else further away."""
     taken, out = [(x - 4, y - 4, x + 4, y + 4) for x, y, _, _ in points], []
     for x, y, name, colour in sorted(points):
         boxes = [box_of(name, x, y + down, side) for down in (0, 14, -14, 28, -28, 42)
@@ -232,7 +232,7 @@ def chart(results):
 
 
 def alone(library):
-    """What the fault's own program prints: the library alone, one ray, one ball."""
+    """The source and output of the program that shows the fault: the library alone, one ray, one ball."""
     for program, command in ((HERE / library / "alone.mjs", ["node", "alone.mjs"]),
                              (HERE / library / "alone.cpp", ["./alone"])):
         if program.exists():
@@ -303,7 +303,7 @@ def write(results):
 # ---- An earlier run
 
 def worse(result, before):
-    """Rows in which there are more wrong answers of as many questions, and causes that are new."""
+    """Rows with more wrong answers to the same number of questions, and new causes."""
     rows = {row["name"]: row for row in before["rows"]}
     for row in result["rows"]:
         old = rows.get(row["name"])

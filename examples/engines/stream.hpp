@@ -1,6 +1,5 @@
-// What every adapter in C++ shares: vectors, lattices of balls, the streams of docs/formats.md, read and
-// written. walk.hpp adds the walk
-// from cell to cell.
+// The parts that all adapters in C++ share: vectors, lattices of balls, reading and writing of the streams of
+// docs/formats.md. walk.hpp adds the walk from cell to cell.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -28,7 +27,7 @@ inline Vec cross(const Vec& a, const Vec& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// A scene, or a query, that an adapter does not do: it is no fault of theirs.
+// A scene or a query that an adapter does not support. The scene or query itself is valid.
 struct Unsupported : std::runtime_error {
   using runtime_error::runtime_error;
 };
@@ -72,7 +71,7 @@ using Name = std::tuple<int, int, Vec>;  // an obstacle: lattice, atom, cell
 // A crystal of balls, or single balls: lattices that have as many vectors as the scene has dimensions, or
 // none.
 struct Lattice {
-  struct Near {  // a ball that reaches into the cell 0, and which cell it belongs to
+  struct Near {  // a ball that reaches into the cell 0, and its own cell
     int atom;
     double r;
     Vec n, centre;
@@ -104,7 +103,7 @@ struct Lattice {
     if (!(r > 0) || std::isinf(r)) throw std::runtime_error("a radius must be positive");
     Vec low{}, high{};
     for (std::size_t k = 0; k < rank; ++k) {
-      // A little wider than the ball, for the rounding of the walk.
+      // Slightly wider than the ball, because the walk rounds.
       const double c = -dot(dual[k], p), e = r * std::sqrt(dot(dual[k], dual[k])) + 1e-9;
       low[k] = std::ceil(c - e), high[k] = std::floor(c + 1 + e);
     }
@@ -128,7 +127,7 @@ struct Query {
   std::optional<Name> from;
 };
 
-// What an engine has found: the ball that the start is in, or the one that is entered first.
+// The result of an engine: the ball that contains the start, or the ball that is entered first.
 struct Found {
   std::optional<Name> inside;
   std::optional<std::pair<double, Name>> hit;
@@ -197,9 +196,9 @@ inline json error_of(const std::exception& error, bool unsupported) {
 }
 
 // Answers the stream on standard input. An engine has
-//   void use(const Scene&);                    the scene of the queries that follow
+//   void use(const Scene&);                    the scene of the following queries
 //   Found first(const Scene&, const Query&);
-//   double seconds();                          of the library's own calls, so far
+//   double seconds();                          the time of the library's own calls up to now
 template <class Engine>
 class Server {
  public:
@@ -227,7 +226,7 @@ class Server {
             {"dimensions", claim_.dimensions}};
   }
 
-  bool take(const std::string& line) {  // true: it was a query
+  bool take(const std::string& line) {  // true if it was a query
     json id, answer;
     try {
       const json item = json::parse(line);
@@ -237,11 +236,11 @@ class Server {
       answer = scene_ ? answer_of(engine_.first(*scene_, query_of(item, *scene_)), *scene_) : trouble_;
     } catch (const Unsupported& error) {
       answer = error_of(error, true);
-    } catch (const std::exception& error) {  // whatever is wrong with a line, the next one may be right
+    } catch (const std::exception& error) {  // an invalid line does not end the stream
       answer = error_of(error, false);
     }
     answer["id"] = id;
-    std::cout << answer << std::endl;  // whoever asks may wait for it
+    std::cout << answer << std::endl;  // flushed, because the asking program may wait for it
     return true;
   }
 
@@ -251,7 +250,7 @@ class Server {
       Scene scene = scene_of(item, claim_.dimensions);
       engine_.use(scene);
       scene_ = std::move(scene);
-    } catch (const Unsupported& error) {  // a good scene: only its queries are answered
+    } catch (const Unsupported& error) {  // a valid scene: only its queries are answered
       trouble_ = error_of(error, true);
     } catch (const std::exception& error) {
       trouble_ = error_of(error, false);

@@ -1,12 +1,12 @@
-// The walk from cell to cell that most adapters in C++ share: along the ray, the library is asked about every
-// ball that reaches into the cell, whether and when the segment that lies in the cell enters it. The library
-// decides about a ball, the walk (in binary64) decides which balls there are. A library is a class with
+// The walk from cell to cell that most adapters in C++ share. Along the ray, the walk asks the library about
+// every ball that reaches into the cell: whether and when the segment in the cell enters it. The library
+// decides about a ball; the walk (in binary64) decides which balls there are. A library is a class with
 //   void place(const Vec& c, double r);                             the ball
-//   bool inside(const Vec& p);                                      is p in it?
+//   bool inside(const Vec& p);                                      whether p lies in it
 //   std::optional<double> enters(const Vec& p, const Vec& d);       at which fraction of d does p + f d enter it?
-// In world coordinates p is the start of the flight, and d goes on to where the cell is left. With the
-// argument `cells` p is where the cell is entered, and all is in coordinates of the cell, as with periodic
-// boundaries: numbers stay small, which is what a library in binary32 needs.
+// In world coordinates p is the start of the flight, and d ends where the flight leaves the cell. With the
+// argument `cells`, p is the point where the flight enters the cell, and all coordinates are relative to the
+// cell, as with periodic boundaries. Numbers then stay small, as a library in binary32 needs.
 #pragma once
 #include <chrono>
 #include <cstring>
@@ -17,10 +17,10 @@ inline bool has_argument(int argc, char** argv, const char* word) {
   return std::any_of(argv + 1, argv + argc, [&](const char* a) { return !std::strcmp(a, word); });
 }
 
-// The time of the library's own ray casts. Casts take some 10 ns, as reading the clock does; so they are
-// noted, and made again a thousand or more in a row between two readings of the clock, which then costs
-// nothing. What placing the balls takes is measured in the same way and taken off: in a real program the
-// balls are where they are. The tests whether the start is in a ball are not in it.
+// The time of the library's own ray casts. A cast takes about 10 ns, like reading the clock. Therefore casts
+// are recorded and repeated, a thousand or more in a row, between two readings of the clock, whose cost is
+// then negligible. The time for placing the balls is measured in the same way and subtracted, because the
+// balls of a real program are already placed. The tests whether the start is in a ball are not included.
 template <class Library>
 class Stopwatch {
  public:
@@ -49,7 +49,7 @@ class Stopwatch {
       library.place(each.c, each.r);
       if (cast) sum += library.enters(each.p, each.d).value_or(0);
     }
-    sink_ = sum;  // so that no compiler leaves the casts out
+    sink_ = sum;  // so that no compiler removes the casts
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
@@ -58,12 +58,12 @@ class Stopwatch {
   volatile double sink_ = 0;
 };
 
-// The cells of a crystal along a ray, each with the times at which it is entered and left.
+// The cells of a crystal along a ray, each with the times at which the ray enters and leaves it.
 class Cells {
  public:
   Vec cell{};
   double enter = 0, leave = 0;
-  int number = 0;  // of cells before this one
+  int number = 0;  // the number of cells before this one
 
   Cells(const Lattice& lattice, const Query& query) : rank_(lattice.rank) {
     for (std::size_t k = 0; k < rank_; ++k) {
@@ -135,7 +135,8 @@ class Walk {
     found.undecided = true;
   }
 
-  // No walk: the library alone. The segment ends behind the ball, at a power of 2, which rounds nothing.
+  // The library alone, without a walk. The segment ends behind the ball, at a power of 2, so nothing is
+  // rounded.
   void single(const Lattice& lattice, int number, const Query& query, Found& found) {
     for (const auto& [atom, r, n, centre] : lattice.near) {
       const Name name{number, atom, n};
@@ -150,7 +151,7 @@ class Walk {
             const Name& name, Found& found) {
     library_.place(c, r);
     if (at_start && library_.inside(p)) found.add_inside(name);
-    if (end <= begin) return;  // no segment in this cell: it is cut at a corner
+    if (end <= begin) return;  // no segment in this cell: the ray only touches its corner
     const Vec d = add({}, v, end - begin);
     if (const auto f = library_.enters(p, d)) found.add_hit(begin + *f * (end - begin), name);
     stopwatch_.note(p, d, c, r);

@@ -1,21 +1,21 @@
-// What the adapters in JavaScript share: reads the query stream of docs/formats.md, walks from cell to cell
-// along the ray, and asks the library about every ball that reaches into the cell, whether and when the
-// segment that lies in the cell enters it. The library decides about a ball, the walk (in binary64) decides
-// which balls there are. A library is
-//   { name, precision,            what it claims
-//     version, or package,        where the version is asked: the library itself, or its package.json
+// The parts that the adapters in JavaScript share. Reads the query stream of docs/formats.md and walks from
+// cell to cell along the ray. The walk asks the library about every ball that reaches into the cell: whether
+// and when the segment in the cell enters it. The library decides about a ball; the walk (in binary64)
+// decides which balls there are. A library is
+//   { name, precision,            its claims
+//     version, or package,        the version from the library itself, or from its package.json
 //     dimensions,                 [2], or [2, 3]
-//     cells,                      how many the walk goes through, if they are too slow for the usual number
+//     cells,                      the most cells of the walk, if calls are too slow for the usual number
 //     place(c, r),                the ball
-//     inside(p),                  is p in it?
+//     inside(p),                  whether p lies in it
 //     enters(p, d) }              at which fraction f of d does p + f d enter it? undefined: it does not
-// In world coordinates p is the start of the flight, and d goes on to where the cell is left. With the
-// argument `cells` p is where the cell is entered, and all is in coordinates of the cell, as with periodic
-// boundaries: numbers stay small, which is what a library in binary32 needs.
+// In world coordinates p is the start of the flight, and d ends where the flight leaves the cell. With the
+// argument `cells`, p is the point where the flight enters the cell, and all coordinates are relative to the
+// cell, as with periodic boundaries. Numbers then stay small, as a library in binary32 needs.
 import fs from "node:fs";
 import readline from "node:readline";
 
-const MOST_CELLS = 2000; // beyond these: undecided
+const MOST_CELLS = 2000; // beyond this number: undecided
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const add = (a, b, s = 1) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -43,7 +43,7 @@ function vector(a, size, component = number, isOne = Number.isFinite) {
   return [...v, ...Array(3 - size).fill(0)];
 }
 
-/** A scene that no adapter does: it is no fault of the scene. */
+/** A scene that no adapter supports. The scene itself is valid. */
 class Unsupported extends Error {}
 
 /** A crystal of balls, or single balls: as many vectors as the scene has dimensions, or none. */
@@ -62,7 +62,7 @@ class Lattice {
     this.dual = [0, 1, 2].map((k) => cross(this.u[(k + 1) % 3], this.u[(k + 2) % 3]).map((c) => c / volume));
     this.atoms = atoms.length;
     if (!(this.atoms > 0)) throw Error("a lattice without atoms");
-    this.near = []; // the balls that reach into the cell 0, and which cells they belong to
+    this.near = []; // the balls that reach into the cell 0, and their own cells
     atoms.forEach((atom, index) => this.addAtom(atom, index, dimension));
   }
 
@@ -72,7 +72,7 @@ class Lattice {
     const r = number(radius);
     if (!(r > 0 && r < Infinity)) throw Error("a radius must be positive");
     const spans = this.dual.map((w, k) => {
-      // A little wider than the ball, for the rounding of the walk.
+      // Slightly wider than the ball, because the walk rounds.
       const c = -dot(w, p),
         e = r * Math.hypot(...w) + 1e-9;
       return k < this.rank ? [Math.ceil(c - e), Math.floor(c + 1 + e)] : [0, 0];
@@ -99,17 +99,17 @@ class Lattice {
 }
 
 /**
- * The time of the library's own ray casts. They are noted, and made again a thousand or more in a row between
- * two readings of the clock, which then costs nothing. What placing the balls takes is measured in the same
- * way and taken off: in a real program the balls are where they are. The tests whether the start is in a ball
- * are not in it.
+ * The time of the library's own ray casts. They are recorded and repeated, a thousand or more in a row,
+ * between two readings of the clock, whose cost is then negligible. The time for placing the balls is
+ * measured in the same way and subtracted, because the balls of a real program are already placed. The tests
+ * whether the start is in a ball are not included.
  */
 class Stopwatch {
   constructor(library) {
     this.library = library;
     this.casts = [];
     this.seconds = 0;
-    this.sum = 0; // of what is found, so that no compiler leaves the casts out
+    this.sum = 0; // of the results, so that no compiler removes the casts
   }
 
   note(p, d, c, r) {
@@ -131,7 +131,7 @@ class Stopwatch {
   }
 }
 
-/** What has been found: the ball that the start is in, or the one that is entered first. */
+/** The result: the ball that contains the start, or the ball that is entered first. */
 class Found {
   inside = undefined;
   hit = undefined;
@@ -193,7 +193,8 @@ class Walk {
     found.undecided = true;
   }
 
-  // No walk: the library alone. The segment ends behind the ball, at a power of 2, which rounds nothing.
+  // The library alone, without a walk. The segment ends behind the ball, at a power of 2, so nothing is
+  // rounded.
   single(lattice, index, { x, v, from }, found) {
     for (const { atom, r, centre } of lattice.near) {
       const name = [index, atom, 0, 0, 0];
@@ -206,7 +207,7 @@ class Walk {
   ball(p, v, begin, end, c, r, atStart, name, found) {
     this.library.place(c, r);
     if (atStart && this.library.inside(p)) found.addInside(name);
-    if (end <= begin) return; // no segment in this cell: it is cut at a corner
+    if (end <= begin) return; // no segment in this cell: the ray only touches its corner
     const d = v.map((q) => q * (end - begin));
     const f = this.library.enters(p, d);
     if (f !== undefined) found.addHit(begin + f * (end - begin), name);
@@ -252,7 +253,7 @@ const errorOf = (error) => ({
   ...(error instanceof Unsupported ? { reason: "unsupported" } : {}),
 });
 
-/** What a package in node_modules says of itself; not by `require`, since many do not export it. */
+/** The version in a package's package.json, not read by `require`, since many packages do not export it. */
 const versionOf = (name) =>
   JSON.parse(fs.readFileSync(new URL(`./node_modules/${name}/package.json`, import.meta.url))).version;
 
@@ -284,7 +285,7 @@ export async function walk(library) {
       id = item.id ?? null;
       answer = scene ? answerOf(engine.first(scene.lattices, queryOf(item, scene)), scene.lattices) : trouble;
     } catch (error) {
-      answer = errorOf(error); // whatever is wrong with a line, the next one may be right
+      answer = errorOf(error); // an invalid line does not end the stream
     }
     ++queries;
     say({ id, ...answer });

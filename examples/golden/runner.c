@@ -1,4 +1,4 @@
-/* What answers are worth, by a golden set alone (docs/golden.md).
+/* Judges answers with a golden set alone (docs/golden.md).
      runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
      cc -std=c11 runner.c -lcjson -lm -o runner    (libcjson-dev) */
 #define _POSIX_C_SOURCE 200809L

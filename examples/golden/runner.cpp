@@ -1,4 +1,4 @@
-// What answers are worth, by a golden set alone (docs/golden.md).
+// Judges answers with a golden set alone (docs/golden.md).
 //   runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
 //   c++ -std=c++17 runner.cpp -o runner    # nlohmann-json3-dev
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 using Json = nlohmann::json;
 
-// A decimal string where it is beyond 2^53.
+// An integer as text; it is a decimal string beyond 2^53.
 static std::string integer(const Json& n) {
   return n.is_string() ? n.get<std::string>() : std::to_string(n.get<long long>());
 }

@@ -1,4 +1,4 @@
-// What answers are worth, by a golden set alone (docs/golden.md).
+// Judges answers with a golden set alone (docs/golden.md).
 //   node runner.js SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
 "use strict";
 const fs = require("node:fs");
@@ -10,7 +10,7 @@ const same = (a, b) =>
   a.outcome === b.outcome && a.lattice === b.lattice && a.atom === b.atom && (a.cell ?? []).join() === (b.cell ?? []).join();
 
 function ulp(t, bits) {
-  const exponent = Math.floor(Math.log2(t)); // may be one too large or too small beside a power of two
+  const exponent = Math.floor(Math.log2(t)); // may be off by one beside a power of two
   const power = 2 ** exponent > t ? exponent - 1 : 2 ** (exponent + 1) <= t ? exponent + 1 : exponent;
   return bits === 24 ? 2 ** (Math.max(power, -126) - 23) : 2 ** Math.max(power - 52, -1074);
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What answers are worth, by a golden set alone (docs/golden.md).
+"""Judges answers with a golden set alone (docs/golden.md).
 
 runner.py SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
 """

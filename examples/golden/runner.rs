@@ -1,4 +1,4 @@
-// What answers are worth, by a golden set alone (docs/golden.md).
+// Judges answers with a golden set alone (docs/golden.md).
 //   runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
 //   cargo init runner && cd runner && cargo add serde_json --features float_roundtrip && cp ../runner.rs src/main.rs && cargo build
 use serde_json::Value;
@@ -10,7 +10,7 @@ fn same(a: &Value, b: &Value) -> bool {
 
 fn ulp(t: f64, binary32: bool) -> f64 {
     if binary32 {
-        let exponent = ((t.to_bits() >> 52) as i32 - 1023).max(-126); // of what is far below binary64's range, too
+        let exponent = ((t.to_bits() >> 52) as i32 - 1023).max(-126); // also far below binary64's range
         return 2f64.powi(exponent - 23);
     }
     f64::from_bits(t.to_bits() + 1) - t

@@ -13,7 +13,7 @@
 namespace lorentz::fitness {
 namespace {
 
-constexpr double kLimit = 200;  // of engines that go from cell to cell
+constexpr double kLimit = 200;  // time limit for engines that go from cell to cell
 
 void add(Hash& hash, const Flight& flight) {
   hash.add(static_cast<int>(flight.outcome));
@@ -103,7 +103,7 @@ void follow_paths(const Scene& scene, Precision precision, std::uint64_t flights
     particles.advance(std::numeric_limits<double>::infinity(), add_collision);
 }
 
-/// A digest that can be made: its name, and how.
+/// How a digest is made, and its name.
 struct Recipe {
   std::string name;
   std::function<void(std::uint64_t flights, Hash&)> make;

@@ -1,5 +1,6 @@
-// What seeded flights come to, in 64 bits a family: the same on every computer, however the program was
-// compiled, or something there is not fit for it (docs/determinism.md).
+// Digests of the results of seeded flights, 64 bits per family. They are the same on every computer, however
+// the program was compiled. If they differ, something on that computer is unfit for exact work
+// (docs/determinism.md).
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,8 @@
 
 namespace lorentz::fitness {
 
-/// Of all answers of one engine in one family of queries: "discs reduction"; of starts: "starts ellipsoids";
-/// of paths: "paths discs binary64".
+/// The digest of all answers of one engine in one family of queries ("discs reduction"), of starts
+/// ("starts ellipsoids"), or of paths ("paths discs binary64").
 struct Digest {
   std::string name;
   std::uint64_t value = 0;
@@ -19,11 +20,11 @@ struct Digest {
   friend bool operator==(const Digest&, const Digest&) = default;
 };
 
-/// Computes those whose names begin with `only`, of so many flights each. With a stream: writes every number
-/// of them, too. Their order, too, is the same everywhere.
+/// Computes the digests whose names begin with `only`, each from `flights` flights. If `trace` is given, it
+/// also gets every number. The order of the digests is the same everywhere, too.
 std::vector<Digest> digests(std::uint64_t flights, std::string_view only = {}, std::ostream* trace = nullptr);
 
-/// Those of kKnownFlights flights, as they should be.
+/// The correct digests of kKnownFlights flights.
 inline constexpr std::uint64_t kKnownFlights = 512;
 const std::vector<Digest>& known_digests();
 

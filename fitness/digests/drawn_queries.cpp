@@ -28,14 +28,14 @@ Query nearly_rational(Random& random, const Scene& scene) {
   return query;
 }
 
-// Any vector across `d`, as long as it.
+// A random vector orthogonal to `d`, with the same length.
 Vec across(Random& random, const Vec& d, int dimension) {
   if (dimension == 2) return scaled({-d[1], d[0], 0}, random.sign());
   const Vec normal = cross(d, random.direction(3));
   return scaled(normal, length(d) / length(normal));
 }
 
-// The flight touches a ball some ten cells away, up to rounding: it hits or passes.
+// A flight that touches a ball about ten cells away, up to rounding: it hits or passes.
 Query grazing(Random& random, const Scene& scene) {
   Query query = uniform(random, scene);
   const Lattice& lattice = scene.lattices[0];
@@ -48,7 +48,7 @@ Query grazing(Random& random, const Scene& scene) {
   return query;
 }
 
-// Starts so far away that few digits are left for the place within a cell.
+// A start so far away that few digits are left for the place within a cell.
 Query far(Random& random, const Scene& scene) {
   Query query = uniform(random, scene);
   for (int i = 0; i < scene.dimension; ++i)

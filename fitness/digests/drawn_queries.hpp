@@ -1,4 +1,4 @@
-// Seeded queries of several kinds, the same bits on every computer.
+// Seeded queries of several kinds, with the same bits on every computer.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,22 @@ namespace lorentz::fitness {
 
 constexpr std::uint64_t kSeed = 20;
 
-/// How queries of one kind are made: by single roundings and square roots, of random words.
+/// A function that makes queries of one kind from random words, with single roundings and square roots only.
 using Draw = Query (*)(cases::Random&, const Scene&);
 
-/// A scene, and queries in it of one kind.
+/// A scene, and queries of one kind in it.
 struct QueryFamily {
   std::string_view name;
   Scene scene;
   Draw draw;
-  bool for_published = true;  ///< the published algorithm does these scenes, in bounded time
+  bool for_published = true;  ///< the published algorithm supports the scene, in bounded time
 
-  /// Query number `index`: it depends on the family's name and the index only.
+  /// Query number `index`. It depends only on the family's name and the index.
   Query query(std::uint64_t index) const;
 };
 
-/// Drawn, nearly rational, grazing and far queries, among discs, ellipses, spheres and ellipsoids, in one
-/// lattice and in two.
+/// Drawn, nearly rational, grazing and far queries in scenes of discs, ellipses, spheres and ellipsoids, with
+/// one lattice and with two.
 const std::vector<QueryFamily>& query_families();
 
 }  // namespace lorentz::fitness

@@ -1,4 +1,4 @@
-// 64 bits that tell whether two computers computed the same numbers.
+// A hash of 64 bits that shows whether two computers computed the same numbers.
 #pragma once
 
 #include <bit>
@@ -10,8 +10,8 @@
 
 namespace lorentz::fitness {
 
-/// A hash of numbers, in the order in which they come. With a stream it also writes them, a line each, so
-/// that two computers' can be compared number by number.
+/// A hash of numbers in their order. If a stream is given, the hash also writes the numbers to it, one per
+/// line, so that the numbers of two computers can be compared one by one.
 class Hash {
  public:
   explicit Hash(std::ostream* trace = nullptr) : trace_(trace) {}
@@ -24,7 +24,7 @@ class Hash {
   void add(std::int64_t number) { add(static_cast<std::uint64_t>(number)); }
   void add(int number) { add(static_cast<std::int64_t>(number)); }
 
-  /// Processors differ in the bits of what is no number: here all are the same.
+  /// All NaNs count as the same, because processors give them different bits.
   void add(double number) {
     add(std::isnan(number) ? ~std::uint64_t{0} : std::bit_cast<std::uint64_t>(number));
   }

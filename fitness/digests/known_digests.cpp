@@ -1,5 +1,5 @@
-// As `print_digests` prints them, on every computer. Another engine, another family, other bits on purpose:
-// print them again.
+// The output of `print_digests`, which is the same on every computer. After a new engine, a new family or an
+// intended change of bits, print the digests again.
 #include "fitness/digests/digests.hpp"
 
 namespace lorentz::fitness {

@@ -1,5 +1,5 @@
-// print_digests [FLIGHTS [NAME]]: the digests, a line each; with NAME, every number of those whose names
-// begin so. What ./run determinism compiles in many ways, and compares.
+// print_digests [FLIGHTS [NAME]]: prints the digests, one per line; with NAME, every number of the digests
+// whose names begin with NAME. ./run determinism compiles this program in many ways and compares the outputs.
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>

@@ -1,4 +1,4 @@
-// Scenes that are written down here, so that what is computed in them needs no file.
+// Scenes defined in code, so that the digests need no files.
 #pragma once
 
 #include <lorentz/scene.hpp>
@@ -12,14 +12,14 @@ inline Scene square(double radius) {
 /// An oblique lattice with two discs of different sizes.
 Scene oblique_motif();
 
-/// The square lattice, and the same turned by about pi / 5.
+/// The square lattice and a copy of it rotated by about pi / 5.
 Scene superposition();
 
-/// Ellipses and ellipsoids that lean, in lattices without right angles.
+/// Tilted ellipses and ellipsoids in lattices without right angles.
 Scene leaning_ellipses();
 Scene leaning_ellipsoids();
 
-/// Hexagonal, two spheres a cell.
+/// A hexagonal lattice with two spheres per cell.
 Scene close_packing();
 
 }  // namespace lorentz::fitness

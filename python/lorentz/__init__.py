@@ -1,9 +1,9 @@
 """The periodic Lorentz gas, exactly: which obstacle is hit first?
 
-`first_hit` answers for arrays, `oracle` exactly, one question at a time; `trajectories` and `itinerary` follow
-particles, `flights` counts free paths, `lyapunov`, `diffusion` and `survival` are statistics of trajectories, `horizon`
-finds the ways that are free for ever; `judge` says what an engine gets wrong, and `golden` has what breaks them.
-docs/python.md shows all of it.
+`first_hit` answers arrays of queries; `oracle` answers exactly, one query at a time. `trajectories` and
+`itinerary` follow particles. `flights` counts free paths. `lyapunov`, `diffusion` and `survival` compute
+statistics of trajectories. `horizon` finds the channels that are never blocked. `judge` reports the errors of
+an engine, and `golden` has hard queries that break engines. docs/python.md has examples of all of them.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from ._statistics import (Diffusion, Estimate, Lyapunov, Survival, diffusion, ly
 from . import oracle
 from .oracle import judge_answer
 
-if _TYPE_CHECKING:  # imported when it is first named: it needs Matplotlib, nothing else does
+if _TYPE_CHECKING:  # imported at its first use, because only it needs Matplotlib
     from . import plot
 
 __version__: str = _lorentz.VERSION
@@ -43,7 +43,7 @@ __all__ = [
     "unit_scene", "unsupported",
 ]
 
-# Scenes and golden sets: those in the package itself (pip's), or beside it, as Debian has them.
+# Folders of scenes and golden sets: in the package (pip), or beside it (Debian).
 _here = _os.path.dirname(_os.path.abspath(__file__))
 for _folder in (_os.path.join(_here, "data"), _os.path.join(_here, "..", "..", "..", "..", "share", "lorentz")):
     if _os.path.isdir(_folder):
@@ -51,7 +51,7 @@ for _folder in (_os.path.join(_here, "data"), _os.path.join(_here, "..", "..", "
 
 
 def __getattr__(name: str) -> object:
-    """`lorentz.plot`."""
+    """Imports `lorentz.plot` at its first use."""
     if name == "plot":
         import importlib
 

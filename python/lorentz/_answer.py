@@ -1,4 +1,4 @@
-"""One query's answer."""
+"""The answer to one query."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def _each_once(members: list[tuple[str, Any]]) -> dict[str, Any]:
 @total_ordering
 @dataclass(frozen=True)
 class ExactTime:
-    """The time ``rational - sqrt(root)``, exactly: when a line enters an obstacle. Times are ordered."""
+    """The exact time ``rational - sqrt(root)`` at which a line enters an obstacle. Times can be compared."""
 
     rational: Fraction
     root: Fraction
@@ -41,38 +41,38 @@ class ExactTime:
     def __post_init__(self) -> None:
         if self.root < 0:
             raise Error(f"root: {self.root} is below 0")
-        exact = self.fraction()  # equal times are equal: a rational one has the root 0
+        exact = self.fraction()  # so that equal times compare equal: a rational time has the root 0
         if exact is not None and self.root != 0:
             object.__setattr__(self, "rational", exact)
             object.__setattr__(self, "root", Fraction(0))
 
     def fraction(self) -> Fraction | None:
-        """The same as one rational number; None if it is irrational."""
+        """The time as one rational number; None if it is irrational."""
         numerator, denominator = self.root.numerator, self.root.denominator
         n, d = math.isqrt(numerator), math.isqrt(denominator)
         return self.rational - Fraction(n, d) if (n * n, d * d) == (numerator, denominator) else None
 
     def bounds(self, bits: int) -> tuple[Fraction, Fraction]:
-        """Rational numbers not above and not below it, at most 2**-bits apart."""
+        """A rational lower and upper bound of the time, at most 2**-bits apart."""
         bits = whole(bits, "bits")
         below = math.isqrt((self.root.numerator << 2 * bits) // self.root.denominator)
         return (self.rational - Fraction(below + 1, 1 << bits), self.rational - Fraction(below, 1 << bits))
 
     def __float__(self) -> float:
-        """Correctly rounded, ties to even; an infinity beyond the range of floats."""
+        """The time, correctly rounded, ties to even; an infinity beyond the range of floats."""
         return self._where_ends_agree(_nearest_float)
 
     def decimal(self, digits: int) -> Decimal:
-        """To so many significant digits, correctly rounded, ties to even."""
+        """The time to ``digits`` significant digits, correctly rounded, ties to even."""
         context = Context(prec=whole(digits, "digits", 1, 10**6), rounding=ROUND_HALF_EVEN)
         return self._where_ends_agree(lambda t: context.divide(Decimal(t.numerator), Decimal(t.denominator)))
 
     def __lt__(self, other: ExactTime) -> bool:
-        """Earlier, exactly."""
+        """True if this time is earlier; decided exactly."""
         if not isinstance(other, ExactTime):
             return NotImplemented
         bits = 64
-        while self != other:  # equal times have equal parts, see above; others some bits tell apart
+        while self != other:  # equal times have equal parts (see above); enough bits separate others
             (low, high), (other_low, other_high) = self.bounds(bits), other.bounds(bits)
             if high < other_low or other_high < low:
                 return high < other_low
@@ -84,7 +84,7 @@ class ExactTime:
         if exact is not None:
             return rounded(exact)
         bits = 128
-        while True:  # ends: an irrational number is midway between no two rounded ones
+        while True:  # ends, because no irrational number is midway between two rounded ones
             low, high = (rounded(end) for end in self.bounds(bits))
             if low == high:
                 return low
@@ -93,13 +93,14 @@ class ExactTime:
 
 @dataclass(frozen=True)
 class Answer:
-    """What a query came to.
+    """The answer to a query.
 
-    ``outcome`` is "hit", "never", "inside", "later", "undecided" or "error". ``lattice``, ``atom`` and
-    ``cell`` (ints of any size) are of "hit" and "inside", ``time`` is of "hit": in units in which x + t v is
-    the place, perhaps infinite. The oracle's also has ``exact_time``; ``time_decimal`` if digits were asked
-    for; point of the collision, unit outward ``normal`` and ``impact_parameter`` if detail was. Of "error"
-    there are ``message``, and ``unsupported``: the query is good, but not for this engine.
+    ``outcome`` is "hit", "never", "inside", "later", "undecided" or "error". "hit" and "inside" have
+    ``lattice``, ``atom`` and ``cell`` (ints of any size). "hit" has ``time``, the t at which the particle is
+    at x + t v; it may be infinite. The oracle's answers also have ``exact_time``; with `digits` they have
+    ``time_decimal``; with `detail` they have the ``point`` of the collision, the unit outward ``normal`` and
+    the ``impact_parameter``. "error" has ``message``, and ``unsupported`` is true if the query is valid but
+    this engine does not support it.
     """
 
     outcome: str
@@ -117,13 +118,13 @@ class Answer:
 
     @property
     def obstacle(self) -> Obstacle | None:
-        """(lattice, atom, cell): what a query that goes on from here takes as start_from."""
+        """(lattice, atom, cell): the start_from of a query that continues from here."""
         if self.lattice is None or self.atom is None or self.cell is None:
             return None
         return self.lattice, self.atom, self.cell
 
     def to_line(self) -> str:
-        """The answer in the form of docs/formats.md, as far as that has it."""
+        """The answer as a line of docs/formats.md, with the members that this format has."""
         line: dict[str, Any] = {"id": None, "outcome": self.outcome}
         if self.cell is not None:
             line |= {"lattice": integer(self.lattice, "lattice"), "atom": integer(self.atom, "atom"),
@@ -142,7 +143,7 @@ class Answer:
 
     @staticmethod
     def from_line(line: str) -> Answer:
-        """Of a line in that form. Raises Error where it is none."""
+        """Reads a line of that format. Raises Error if the line is invalid."""
         try:
             return Answer._from_fields(json.loads(line, object_pairs_hook=_each_once))
         except (AttributeError, KeyError, TypeError, ValueError) as error:
@@ -161,27 +162,27 @@ class Answer:
 
 
 def hit(time: float, cell: Any, lattice: int = 0, atom: int = 0) -> Answer:
-    """What an engine answers that found a first hit: when, and which obstacle."""
+    """The answer of an engine that found a first hit: its time and obstacle."""
     return Answer("hit", *_obstacle(lattice, atom, cell), float(time))
 
 
 def inside(cell: Any, lattice: int = 0, atom: int = 0) -> Answer:
-    """What an engine answers if the start lies in an obstacle."""
+    """The answer of an engine if the start lies in an obstacle."""
     return Answer("inside", *_obstacle(lattice, atom, cell))
 
 
 def never() -> Answer:
-    """What an engine answers if nothing is ever hit."""
+    """The answer of an engine if no obstacle is ever hit."""
     return Answer("never")
 
 
 def undecided() -> Answer:
-    """What an engine answers that does not know, and says so."""
+    """The answer of an engine that cannot decide."""
     return Answer("undecided")
 
 
 def unsupported(message: str) -> Answer:
-    """What an engine answers to a good query that it does not do."""
+    """The answer of an engine to a valid query that it does not support."""
     return Answer("error", message=message, unsupported=True)
 
 
@@ -194,6 +195,6 @@ def _tuple(numbers: list[Any] | None) -> tuple[float, ...] | None:
 
 
 def _number(value: Any) -> Any:
-    if hasattr(value, "item"):  # a scalar of NumPy
+    if hasattr(value, "item"):  # a NumPy scalar
         return value.item()
     raise TypeError(f"{type(value).__name__} is not a number")

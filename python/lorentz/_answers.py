@@ -26,7 +26,7 @@ class Outcome(IntEnum):
 
 
 class Answers(Columns):
-    """The answers to N queries, in columns: what `lorentz.first_hit` returns."""
+    """The answers to N queries, in columns. `lorentz.first_hit` returns them."""
 
     __slots__ = ("_large_cells", "_reasons")
 
@@ -52,19 +52,19 @@ class Answers(Columns):
 
     @property
     def large_cells(self) -> dict[int, tuple[int, ...]]:
-        """The cells that 64 bits do not hold, by row."""
+        """The cells that do not fit into 64 bits, by row."""
         cells: dict[int, tuple[int, ...]] = self._large_cells if self._native is None else self._native.large_cells
         return cells
 
     @property
     def reasons(self) -> dict[int, tuple[str, bool]]:
-        """Why rows are errors, by row; and whether the query is good, but not for this engine."""
+        """By row: why the row is an error, and whether its query is valid but not supported by the engine."""
         reasons: dict[int, tuple[str, bool]] = self._reasons if self._native is None else self._native.reasons
         return reasons
 
     @property
     def hit(self) -> npt.NDArray[np.bool_]:
-        """(N,): what is hit at all. ``answers[answers.hit]`` are the hits."""
+        """(N,): True for hits. ``answers[answers.hit]`` are the hits."""
         hits: npt.NDArray[np.bool_] = self.outcome == Outcome.HIT
         return hits
 
@@ -77,7 +77,7 @@ class Answers(Columns):
         return columns | by_component("cell", cell)
 
     def to_frame(self) -> Any:
-        """As of `Columns.to_frame`; outcomes are categories, by their names."""
+        """As `Columns.to_frame`, but outcomes are categories with their names."""
         import pandas
 
         names = [outcome.name.lower() for outcome in Outcome]

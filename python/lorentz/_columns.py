@@ -1,4 +1,4 @@
-"""Results in columns: what they have in common with arrays, lists and data frames."""
+"""Results in columns, with the interfaces of arrays, lists and data frames."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Array = npt.NDArray[Any]
 
 
 class Column(Generic[Number]):
-    """A column of a result, by the name that the class gives it; its docstring says what is in it."""
+    """A column of a result, under its name in the class. Its docstring describes the contents."""
 
     def __init__(self, kind: type[Number], doc: str) -> None:
         self.__doc__ = doc
@@ -30,19 +30,20 @@ class Column(Generic[Number]):
 
 
 class Columns:
-    """Columns of N rows. They are read-only views of what the engine wrote, if they are of a whole result; those
-    of a part, of a copy or of an unpickled result are arrays of their own.
+    """Columns of N rows. The columns of a whole result are read-only views of the memory that the engine
+    wrote; those of a part, of a copy or of an unpickled result are separate arrays.
 
-    ``result[i]`` is row i, ``result[rows]`` of a slice, a mask or an array of numbers is the same of these rows,
-    ``result["time"]`` a column; a loop goes over the rows. Results can be pickled and copied; slices, copies and
-    data frames do not change when an engine writes over the result (``out=``), columns and `to_dict` do.
+    ``result[i]`` is row i. ``result[rows]``, with a slice, a mask or an array of numbers, is a result with
+    these rows. ``result["time"]`` is a column. A loop goes over the rows. Results can be pickled and copied.
+    When an engine writes over the result (``out=``), columns and `to_dict` change; slices, copies and data
+    frames do not.
     """
 
     __slots__ = ("_native", "_columns")
     _NAMES: ClassVar[tuple[str, ...]] = ()
 
     def __init__(self, native: Any, columns: dict[str, Array] | None = None) -> None:
-        self._native = native  # None: of a part, or a copy
+        self._native = native  # None for a part or a copy
         self._columns = columns if columns is not None else {name: getattr(native, name) for name in self._NAMES}
 
     def __len__(self) -> int:
@@ -79,17 +80,17 @@ class Columns:
         raise TypeError(f"{type(self).__name__} are columns ({', '.join(self._NAMES)}); take one of them")
 
     def to_frame(self) -> Any:
-        """The rows as a DataFrame of pandas, which must be installed; its columns are those of `to_dict`."""
+        """The rows as a pandas DataFrame with the columns of `to_dict`. pandas must be installed."""
         import pandas
 
         return pandas.DataFrame(self.to_dict())
 
     def to_dict(self) -> dict[str, Array]:
-        """One-dimensional columns by name; ``cell`` becomes ``cell_0``, ``cell_1`` ..."""
+        """One-dimensional columns by name. ``cell`` becomes ``cell_0``, ``cell_1`` ..."""
         raise NotImplementedError
 
     def _of_rows(self, rows: Array) -> dict[str, Array]:
-        """The columns of these rows alone."""
+        """The columns with these rows only."""
         return _frozen({name: column[rows] for name, column in self._columns.items()})
 
     def _row(self, i: int) -> Any:
@@ -105,7 +106,7 @@ class Columns:
         raise NotImplementedError
 
     def _rest(self) -> tuple[Any, ...]:
-        """What there is besides columns: further arguments of the constructor."""
+        """The data besides columns: further arguments of the constructor."""
         return ()
 
 
@@ -120,5 +121,5 @@ def _unpickled(kind: Any, columns: dict[str, Array], *rest: Any) -> Any:
 
 
 def by_component(name: str, column: Array) -> dict[str, Array]:
-    """Columns of the components of an array (N, d)."""
+    """One column for each component of an array (N, d)."""
     return {f"{name}_{k}": column[:, k] for k in range(column.shape[1])}

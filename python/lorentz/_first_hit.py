@@ -1,4 +1,4 @@
-"""First hits of arrays."""
+"""First hits for arrays of queries."""
 
 from __future__ import annotations
 
@@ -14,24 +14,25 @@ from ._lorentz import Error
 from ._numbers import integer, rational, whole, word
 from ._scene import SceneLike, native
 
-#: What queries leave: None, one obstacle (lattice, atom, cell) of all, or columns of the three; a lattice
-#: below 0 means none; or a list of N obstacles and None. Answers will do: then each query leaves what was hit.
+#: The obstacles that queries leave: None, one obstacle (lattice, atom, cell) for all, columns of the three (a
+#: lattice below 0 means none), or a list of N obstacles and None. With Answers, each query leaves the
+#: obstacle that was hit.
 StartFrom = Union[None, Answers, Answer, tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike], list[Any]]
 
 
 class Engine:
-    """An engine made ready for one scene: for many small arrays.
+    """An engine prepared for one scene. It saves time for many small arrays.
 
     Args:
-        scene: whatever `Scene` takes.
-        name: one of `engines`. ``certified-batch`` is always exact; ``batch`` is a little faster, and says
-            UNDECIDED where it does not know; ``oracle`` is the exact one.
-        jobs: threads, of ``batch`` and ``certified-batch``; the answers are the same, to the bit.
+        scene: anything that `Scene` takes.
+        name: one of `engines`. ``certified-batch`` is always exact; ``batch`` is a little faster, but answers
+            UNDECIDED if it cannot decide; ``oracle`` is the exact oracle.
+        jobs: the threads of ``batch`` and ``certified-batch``. The answers are the same, to the bit.
 
-    Any number of threads may use one; they wait for each other.
+    Any number of threads may use an engine; their calls wait for each other.
 
     Raises:
-        Error: an unknown engine; a scene whose numbers are not all floats.
+        Error: the engine is unknown, or not all numbers of the scene are floats.
     """
 
     def __init__(self, scene: SceneLike, name: str = "certified-batch", *, jobs: int = 1) -> None:
@@ -47,12 +48,12 @@ class Engine:
 
     def first_hit(self, x: npt.ArrayLike, v: npt.ArrayLike, *, max_time: npt.ArrayLike | None = None,
                   start_from: StartFrom = None, on_error: str = "raise", out: Answers | None = None) -> Answers:
-        """As `lorentz.first_hit`, in this engine's scene.
+        """As `lorentz.first_hit`, for this engine's scene.
 
         Args:
-            out: what an earlier call returned for as many queries. It is written over and returned, and its columns
-                change with it: new memory costs as much as some of the flights. After an exception all of its outcomes
-                are ERROR.
+            out: the result of an earlier call with the same number of queries. It is overwritten and
+                returned, and its columns change. This saves the cost of new memory, which is as large as that
+                of some of the flights. After an exception all of its outcomes are ERROR.
         """
         if word(on_error, "on_error") not in ("raise", "mark"):
             raise Error(f'on_error: "{on_error}" is unknown; expected "raise" or "mark"')
@@ -73,25 +74,27 @@ def first_hit(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, radius: floa
     """Which obstacle is hit first, and when?
 
     Args:
-        scene: whatever `Scene` takes: a Scene, a dict, a file, a name of the catalogue.
-        x: places, shape (N, d) or (d,), in the scene's unit of length. Any layout; nothing is copied as a whole.
-        v: velocities, shape (N, d) or (d,), of any length but 0. One place and many velocities, or the other way
-            round, are broadcast.
+        scene: anything that `Scene` takes: a Scene, a dict, a file, a name of the catalogue.
+        x: places, shape (N, d) or (d,), in the scene's unit of length, in any layout. The array is not copied
+            as a whole.
+        v: velocities, shape (N, d) or (d,), of any length except 0. One place and many velocities, or the
+            other way round, are broadcast.
         radius: every ball gets this radius.
         engine, jobs: as in `Engine`.
-        max_time: a number, or shape (N,): the outcome is LATER where nothing is entered before.
-        start_from: the obstacle that a query leaves, which it ignores: one (lattice, atom, cell) for all, or columns of
-            the three (a lattice below 0: none), or a list of N obstacles and None; or Answers, whose hits are left.
-        on_error: ``"raise"``, or ``"mark"``: then a row that is not a query, or that the engine does not do, has
-            the outcome ERROR.
+        max_time: a number, or shape (N,). The outcome is LATER if no obstacle is entered before it.
+        start_from: the obstacle that a query leaves, which it ignores: one (lattice, atom, cell) for all,
+            columns of the three (a lattice below 0 means none), or a list of N obstacles and None. With
+            Answers, each query leaves the obstacle that was hit.
+        on_error: ``"raise"`` or ``"mark"``. With ``"mark"`` a row that is not a query, or that the engine
+            does not support, has the outcome ERROR.
 
     Returns:
-        Answers, in columns of N.
+        Answers, in columns with N rows.
 
     Raises:
-        Error: a row that is not a query, by its number (``row 17: v is zero``); shapes that do not fit; an
-            unknown engine.
-        UnsupportedError: a row that is a query, but not for this engine.
+        Error: a row is not a query; the message has its number (``row 17: v is zero``). Or shapes do not fit,
+            or the engine is unknown.
+        UnsupportedError: a row is a valid query, but the engine does not support it.
     """
     from ._scene import Scene
 
@@ -110,7 +113,7 @@ def engines() -> list[str]:
 
 
 def vectors_of(x: npt.ArrayLike, v: npt.ArrayLike, dimension: int) -> tuple[Floats, Floats]:
-    """Places and velocities of shape (N, d): one of either, alone, is that of all."""
+    """Places and velocities of shape (N, d). A single place or velocity is used for all rows."""
     places, velocities = (_rows(floats_of(numbers, name), name, dimension) for numbers, name in ((x, "x"), (v, "v")))
     count = max(len(places), len(velocities)) if len(places) and len(velocities) else 0
     for numbers, name in ((places, "x"), (velocities, "v")):
@@ -133,7 +136,7 @@ def _limits(max_time: npt.ArrayLike, count: int) -> Floats:
 
 
 def floats_of(numbers: npt.ArrayLike, name: str) -> Floats:
-    """The array of floats that these numbers are. Raises Error for no array of numbers, or what would be rounded."""
+    """The numbers as an array of floats. Raises Error if they are not numbers, or if one would be rounded."""
     if isinstance(numbers, np.ma.MaskedArray):
         raise Error(f"{name}: is a masked array; fill it first")
     try:
@@ -149,9 +152,9 @@ def floats_of(numbers: npt.ArrayLike, name: str) -> Floats:
 
 
 def _is_kept(numbers: npt.ArrayLike, given: npt.NDArray[Any], floats: Floats, name: str) -> bool:
-    """Is every number the float that it became? (Integers beyond 2**53, Fractions and long doubles may not be.)"""
+    """Whether every number equals its float. (Integers beyond 2**53, Fractions and long doubles may not.)"""
     if isinstance(numbers, (list, tuple)) and given.dtype == np.float64:
-        given = np.asarray(numbers, dtype=object)  # what was an int there is a float in `given`
+        given = np.asarray(numbers, dtype=object)  # `given` already has floats in place of ints
     if given.dtype == object:
         pairs = zip(given.ravel().tolist(), floats.ravel().tolist())
         return all(isinstance(number, float) or rational(number, name) == value for number, value in pairs)
@@ -160,7 +163,7 @@ def _is_kept(numbers: npt.ArrayLike, given: npt.NDArray[Any], floats: Floats, na
     return given.dtype.itemsize <= 8 or bool(((given == floats) | np.isnan(floats)).all())
 
 
-#: Columns lattice, atom, cell, and the rows whose cells 64 bits do not hold: (row, lattice, atom, cell).
+#: Columns lattice, atom, cell, and the rows whose cells do not fit into 64 bits: (row, lattice, atom, cell).
 _Left = tuple[Any, Any, Any, list[Any]]
 
 
@@ -198,7 +201,7 @@ def _is_obstacle_or_none(row: Any) -> bool:
 
 
 def _whole_row(row: Any, scene: Any) -> tuple[int, int, tuple[int, ...]]:
-    """A cell has as many coordinates as its lattice has vectors, or zeros after them."""
+    """An obstacle with its cell padded by zeros. A cell has one coordinate per vector of its lattice."""
     lattice, cell = _index(row[0]), tuple(integer(n, "cell") for n in row[2])
     rank = scene.rank(lattice)
     if len(cell) not in (rank, scene.dimension):
@@ -207,7 +210,7 @@ def _whole_row(row: Any, scene: Any) -> tuple[int, int, tuple[int, ...]]:
 
 
 def _columns_of_rows(rows: list[Any], count: int, scene: Any) -> _Left:
-    """Columns from a list of obstacles and None, as a judge's function gets it."""
+    """Columns from a list of obstacles and None, in the form that a judged function gets."""
     if len(rows) != count:
         raise ValueError(f"there are {len(rows)}")
     none = (-1, 0, (0,) * scene.dimension)

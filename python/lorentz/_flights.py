@@ -1,4 +1,4 @@
-"""Very many free flights, counted, with theory beside them; and the ways that are free for ever."""
+"""Counts of large numbers of free flights, the theory for them, and the channels that are never blocked."""
 
 from __future__ import annotations
 
@@ -24,11 +24,12 @@ def _known(number: float | None) -> float:
 
 @dataclass(frozen=True, repr=False, eq=False)
 class FreePaths:
-    """What many free flights came to. Lengths are in the scene's unit, the speed is 1.
+    """The statistics of many free flights. Lengths are in the scene's unit; the speed is 1.
 
-    ``edges`` (K,): of logarithmic bins, eight an octave; ``counts`` (K + 1,): flights below the first edge, in
-    each bin, beyond the last; ``beyond`` (K,): flights longer than each edge. ``report`` is what
-    `lorentz flights --json` says: mean, its error, the exact mean, laws and how they fit, tails.
+    ``edges`` (K,): the edges of logarithmic bins, eight per octave; ``counts`` (K + 1,): flights below the
+    first edge, in each bin, and beyond the last edge; ``beyond`` (K,): flights longer than each edge.
+    ``report`` is the report of `lorentz flights --json`: mean, its error, the exact mean, laws and their
+    fits, tails.
     """
 
     scene: Scene
@@ -40,17 +41,17 @@ class FreePaths:
 
     @property
     def count(self) -> int:
-        """Flights that were flown."""
+        """The number of flights."""
         return int(self.report["count"])
 
     @property
     def mean(self) -> float:
-        """Of the flights that end; nan if none does."""
+        """The mean of the flights that end; nan if no flight ends."""
         return _known(self.report["mean"])
 
     @property
     def mean_error(self) -> float:
-        """One standard error of it, by chance alone; nan of fewer than two flights."""
+        """One standard error of the mean, statistical only; nan for fewer than two flights."""
         return _known(self.report["mean_error"])
 
     def survival_function(self) -> Floats:
@@ -59,20 +60,20 @@ class FreePaths:
 
     @property
     def mean_free_path(self) -> float | None:
-        """The exact mean from collision to collision, of starts on the obstacles (``surface``), whatever the starts of
-        these flights are; None where no formula is known."""
+        """The exact mean between collisions, that is, for starts on the obstacles (``surface``), whatever the
+        starts of these flights are; None if no formula is known."""
         return mean_free_path(self.scene)
 
     def density(self) -> Floats:
-        """Of the path, in each bin between two edges, shape (K - 1,)."""
+        """The density of the path in each bin between two edges, shape (K - 1,)."""
         return self.counts[1:-1] / (max(self.count - int(self.report["undecided"]), 1) * np.diff(self.edges))
 
     def laws(self) -> dict[str, Floats]:
-        """P(path > t) at ``edges`` by each law that theory has of the scene, by name."""
+        """P(path > t) at ``edges`` by each known law for the scene, by name."""
         return laws(self.scene, self.edges, start=self.start)
 
     def to_dict(self) -> dict[str, Any]:
-        """The numbers of the report that are single: one row of a table."""
+        """The single numbers of the report, as one row of a table."""
         row = single_numbers(self.report)
         return {"start": row.pop("from")} | row
 
@@ -81,24 +82,24 @@ class FreePaths:
 
 
 def single_numbers(report: dict[str, Any]) -> dict[str, Any]:
-    """What a table has of a report: numbers and texts, without lists of them."""
+    """The members of a report for a table: numbers and texts, without lists."""
     return {key: value for key, value in report.items() if key != "scene" and not isinstance(value, (list, dict))}
 
 
 def flights(scene: SceneLike, radius: float | None = None, *, count: int = 1_000_000, start: str = "uniform",
             seed: int = 20161115, engine: str = "batch", jobs: int = 1) -> FreePaths:
-    """Flies drawn starts, and counts their free paths; constant memory, 10^7 flights a second and thread in 2D.
+    """Flies drawn starts and counts free paths, in constant memory: 10^7 flights per second and thread in 2D.
 
     Args:
-        scene, radius: as of `lorentz.first_hit`.
-        count: how many.
-        start: ``uniform`` (anywhere, in any direction), or ``surface`` (off an obstacle by the cosine law:
-            paths from collision to collision). Their means differ: `mean_free_path` is that of ``surface``.
-        seed: start n depends on scene, start, seed and n alone.
+        scene, radius: as in `lorentz.first_hit`.
+        count: the number of flights.
+        start: ``uniform`` (anywhere, in any direction), or ``surface`` (on an obstacle, by the cosine law:
+            paths between collisions). Their means differ: `mean_free_path` is that of ``surface``.
+        seed: start n depends only on scene, start, seed and n.
         engine: ``batch`` leaves a few flights undecided and counts them; ``certified-batch`` leaves none.
-        jobs: threads; the counts are the same.
+        jobs: the number of threads; the counts do not depend on it.
 
-    Source: docs/free_paths.md. Raises Error where the scene leaves nothing free, or the engine cannot fly it.
+    Source: docs/free_paths.md. Raises Error if the scene leaves no free space or the engine cannot fly it.
     """
     place = Scene(scene, radius)
     report, edges, counts, beyond = _lorentz.flights(
@@ -108,13 +109,13 @@ def flights(scene: SceneLike, radius: float | None = None, *, count: int = 1_000
 
 
 def laws(scene: SceneLike, times: npt.ArrayLike, *, start: str = "uniform") -> dict[str, Floats]:
-    """P(path > t) by each law that is known for the scene, by name, in the shape of `times`; an empty dict where none is known."""
+    """P(path > t) by each known law for the scene, by name, in the shape of `times`; empty without a law."""
     t = floats_of(times, "times")
     return {name: np.asarray(survival) for name, _, survival in _lorentz.laws(native(scene), word(start, "start"), t)}
 
 
 def mean_free_path(scene: SceneLike, radius: float | None = None) -> float | None:
-    """From collision to collision, exact up to rounding; None where no formula is known."""
+    """The mean free path between collisions, exact up to rounding; None if no formula is known."""
     return _lorentz.mean_free_path(native(Scene(scene, radius)))[0]
 
 
@@ -122,19 +123,21 @@ def horizon(scene: SceneLike, radius: float | None = None, *, min_width: float =
             cylinders: bool = True, direction: Vector | None = None) -> dict[str, Any]:
     """The infinite channels that a scene leaves open, decided exactly (docs/horizon.md).
 
-    Returns what `lorentz horizon --json` says: ``horizon`` ("finite", "infinite" or "undecided"), ``channels``
-    with their widths, ``cylinders`` in 3D, ``tail_constant`` C of P(path > t) ~ C / t; and ``verdict``, all of
-    it in words. A scene of rows has no channels and no tail, but ``closed``: the arcs of directions that are closed.
+    Returns the report of `lorentz horizon --json`: ``horizon`` ("finite", "infinite" or "undecided"),
+    ``channels`` with their widths, ``cylinders`` in 3D, ``tail_constant`` C in P(path > t) ~ C / t; and
+    ``verdict``, a summary in words. A scene of rows has no channels and no tail, but ``closed``: the arcs of
+    closed directions.
 
     Args:
-        min_width: only corridors and planar channels at least that wide.
-        cylinders: search for cylindrical channels, too (3D; among small obstacles the longer search).
-        direction: of a layer, three floats: whether a way is ``open`` in this direction; if so ``point`` and ``radius``
-            are those of a cylinder in it, but in directions along the layer.
+        min_width: the least width of the corridors and planar channels to find.
+        cylinders: search for cylindrical channels, too (3D; this is the longer search among small obstacles).
+        direction: for a layer, three floats: whether a channel is ``open`` in this direction. If so,
+            ``point`` and ``radius`` describe a cylinder along it, except for directions along the layer.
 
     Raises:
         Error: the obstacles are so small that there are too many channels to list, or the scene is unsupported
-            (single obstacles, layers without a direction, crystals beside other lattices, rows in different directions).
+            (single obstacles, layers without a direction, crystals beside other lattices, rows in different
+            directions).
     """
     if not finite(min_width, "min_width") >= 0:
         raise Error(f"min_width: {min_width} is below 0")

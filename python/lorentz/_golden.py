@@ -1,4 +1,4 @@
-"""Golden sets: hard queries with their exact answers, and the proofs of these."""
+"""Golden sets: hard queries with their exact answers and proofs."""
 
 from __future__ import annotations
 
@@ -18,12 +18,13 @@ class GoldenRecord:
     """A record of a golden set (docs/golden.md).
 
     Attributes:
-        question: the text of the query. If it is not a query, ``flaw`` says why, x, v and start_from are None, and
-            the answer is "error".
-        margin, condition, time_change: how hard it is, in ulps of the set's precision (docs/verdicts.md).
-        acceptable: obstacles (None: "never") that errors of at most 16 ulps in the inputs make right, and these
-            ulps; the tag "needs-judge" says that they are too many to list.
-        comment: what is hard about it. source_id: the id, as JSON, of the query that it was made from.
+        question: the text of the query. If it is not a valid query, ``flaw`` is the reason, x, v and
+            start_from are None, and the answer is "error".
+        margin, condition, time_change: how hard the query is, in ulps of the set's precision
+            (docs/verdicts.md).
+        acceptable: obstacles (None: "never") that errors of at most 16 ulps in the inputs make right, with
+            these ulps. The tag "needs-judge" marks records with too many to list.
+        comment: the difficulty of the query. source_id: the id, as JSON, of the query from which it was made.
         certificate: the proof of the answer.
     """
 
@@ -46,15 +47,15 @@ class GoldenRecord:
 
 
 class GoldenSet:
-    """An iterable of the records of a set, read from its file one by one, anew each time.
+    """An iterable of the records of a set. Each iteration reads them anew from the file, one by one.
 
-    ``precision`` is "binary64" or "binary32": of all numbers in the set, and of the ulps that margins count.
+    ``precision``, "binary64" or "binary32", applies to all numbers in the set and to the ulps of margins.
 
     Args:
         name_or_file: one of `golden_sets`, or a file.
 
     Raises:
-        FileError: there is neither; Error, naming the line, where it is no golden set.
+        FileError: there is no such set or file. Error: it is not a golden set; the message has the line.
     """
 
     def __init__(self, name_or_file: str | os.PathLike[str]) -> None:
@@ -66,7 +67,7 @@ class GoldenSet:
         self._count = reader.count
 
     def __len__(self) -> int:
-        """As many as the header promises."""
+        """The number of records in the header."""
         return self._count
 
     def __iter__(self) -> Iterator[GoldenRecord]:
@@ -89,7 +90,7 @@ class GoldenSet:
 
 
 def golden(name_or_file: str | os.PathLike[str]) -> GoldenSet:
-    """The golden set of that name or file: ``for record in lorentz.golden("near-rational"): ..``"""
+    """The golden set with this name or file: ``for record in lorentz.golden("near-rational"): ..``"""
     return GoldenSet(name_or_file)
 
 

@@ -1,4 +1,4 @@
-"""Judging engines: those of the package, other programs, and functions of Python."""
+"""Judging of engines: the engines of the package, other programs, and Python functions."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from ._lorentz import Error, UnsupportedError
 from ._numbers import Obstacle, claim, finite, integer, whole
 from ._scene import Scene, wrapped
 
-#: ``engine(scene, x, v, start_from)``, the last by its name where that is not the fourth parameter, as in
-#: `first_hit`: the answer to one query, or to N (docs/python.md).
+#: ``engine(scene, x, v, start_from)`` returns the answer to one query, or to N (docs/python.md). start_from
+#: is passed by name if it is not the fourth parameter, as in `first_hit`.
 FirstHitFunction = Callable[..., Any]
 
 
@@ -23,39 +23,43 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
           quick: bool = True, time: float | None = None, questions: int | None = None, seed: int = 20161115,
           jobs: int = 1, ulps: float = 4, precision: str = "binary64", time_tolerance: float | None = None,
           times: bool = False, html: str | os.PathLike[str] | None = None) -> dict[str, Any]:
-    """All that can be said of one engine: what it gets wrong, why, and how fast it is (docs/judge.md).
+    """A full report on one engine: its errors, their causes, and its speed (docs/judge.md).
 
     Args:
         engine: the name of an engine, ``"cmd:COMMAND"`` for another program, ``"lib:FILE.so"`` for a shared
-            library (docs/command_engines.md), or a function ``f(scene, x, v, start_from)`` of a `Scene`, a place and
-            a velocity of shape (d,), and the obstacle (lattice, atom, cell) that the particle leaves, or None. It returns an `Answer`: `hit`, `never`,
-            `inside`, `undecided`, `unsupported`; or arrays of one row, as below. An exception is an error of
-            the engine, and so counted, but an UnsupportedError.
-        vectorized: the function takes x and v of shape (N, d), a list of N start_from, and returns N answers,
-            or the `Answers` of `first_hit`, or a dict of such columns: ``outcome`` (codes of `Outcome`, or their names),
-            ``cell`` (N, d), ``time``, ``lattice``, ``atom`` where these are not all 0, and ``reasons``, as
-            `Answers` has them: why a row is an error, and whether only unsupported.
-        name: what the report calls it; else the function's own name.
+            library (docs/command_engines.md), or a function ``f(scene, x, v, start_from)``. Its arguments are
+            a `Scene`, a place and a velocity of shape (d,), and the obstacle (lattice, atom, cell) that the
+            particle leaves, or None. It returns an `Answer`: `hit`, `never`, `inside`, `undecided`,
+            `unsupported`; or arrays of one row, as below. An exception counts as an error of the engine,
+            except an UnsupportedError.
+        vectorized: the function takes x and v of shape (N, d) and a list of N start_from. It returns N
+            answers, or the `Answers` of `first_hit`, or a dict of such columns: ``outcome`` (codes of
+            `Outcome`, or their names), ``cell`` (N, d), ``time``, ``lattice`` and ``atom`` if these are not
+            all 0, and ``reasons`` as in `Answers`: why a row is an error, and whether it is only unsupported.
+        name: the engine's name in the report; by default the function's own name.
         quick: 20 seconds instead of two minutes.
-        time: about so many seconds instead.
-        questions: the number of questions of each row, instead of a time: every machine asks the same.
-        seed: of all that is drawn.
-        jobs: threads of the campaign, if not `questions`; a function of Python runs one at a time all the same.
-        ulps: the tolerance of the verdicts; 0 forgives nothing.
-        precision: of the engine's numbers, "binary64" or "binary32": it is asked what consists of such numbers, and an
-            ulp is one of them.
-        time_tolerance: T: a time is right if it is off by at most T times itself, not by ulps; infinite: times are not
-            judged.
+        time: about this many seconds instead.
+        questions: the number of questions in each row, instead of a time. It is the same on every machine.
+        seed: the seed of all drawn questions.
+        jobs: the number of threads of the campaign, unless `questions` is given. A Python function still runs
+            one call at a time.
+        ulps: the tolerance of the verdicts; 0 means no tolerance.
+        precision: the precision of the engine's numbers, "binary64" or "binary32". The questions consist of
+            such numbers, and ulps are those of this precision.
+        time_tolerance: T: a time is right if it is off by at most T times itself, instead of by ulps. With
+            infinity times are not judged.
         times: wrong times count in the verdict.
-        html: a file to write the report to as a page, whole or not at all.
+        html: a file for the report as a page. It is written as a whole or not at all.
 
     Returns:
-        The report of `lorentz judge --json`: ``verdict``, ``line`` (the verdict in a line), ``difficulties``
-        (rows: what was asked, and what came of it), ``findings`` (what went wrong, each with its simplest
-        case); and ``text``, what `lorentz judge` prints, and how many calls with many queries failed.
+        The report of `lorentz judge --json`: ``verdict``, ``line`` (the verdict in one line),
+        ``difficulties`` (rows with the questions and their results), ``findings`` (faults, each with its
+        simplest case); and ``text``, the output of `lorentz judge`, with the number of calls with many
+        queries that failed.
 
     Raises:
-        Error: an unknown engine. FileError: the page cannot be written, or the package has none (docs/page.md).
+        Error: the engine is unknown. FileError: the page cannot be written, or the package has no page
+            (docs/page.md).
     """
     if isinstance(engine, str):
         function, called, command = None, engine, f"lorentz.judge({engine!r})"
@@ -80,10 +84,10 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
 
 
 def _with_four_parameters(function: FirstHitFunction) -> FirstHitFunction:
-    """The same, called with four arguments; raises Error before two minutes of such calls fail, one by one."""
+    """The function with four arguments. Raises Error now, so that calls do not fail for two minutes."""
     try:
         signature = inspect.signature(function)
-    except (TypeError, ValueError):  # of some that are written in C nothing is known
+    except (TypeError, ValueError):  # some functions written in C have no signature
         return function
     by_name = _is_fifth_or_named(list(signature.parameters.values()))
     try:
@@ -100,17 +104,17 @@ def _with_four_parameters(function: FirstHitFunction) -> FirstHitFunction:
 
 
 def _is_fifth_or_named(parameters: list[inspect.Parameter]) -> bool:
-    """Would the fourth argument come to another parameter than ``start_from``, which there is?"""
+    """Whether ``start_from`` exists but is not the fourth parameter."""
     return any(p.name == "start_from" and (p.kind is p.KEYWORD_ONLY or i > 3) for i, p in enumerate(parameters))
 
 
 class _Asked:
-    """Asks a function what the judge wants to know, and puts its answers into lines."""
+    """Asks a function the judge's questions, and converts its answers into lines."""
 
     def __init__(self, function: FirstHitFunction, vectorized: bool) -> None:
         self.function, self.vectorized = function, vectorized
         self.seen: tuple[_lorentz.Scene, Scene] | None = None
-        self.failed, self.failure = 0, ""  # calls with many queries, and why the first did
+        self.failed, self.failure = 0, ""  # failed calls with many queries, and the reason of the first
 
     def __call__(self, scene: _lorentz.Scene, x: Any, v: Any, start_from: list[Obstacle | None]) -> list[str]:
         place = self._scene(scene)
@@ -129,7 +133,7 @@ class _Asked:
             if len(x) == 1:
                 return [_error(message)]
             self.failed, self.failure = self.failed + 1, self.failure or message
-        # Which of them is at fault? One by one only those fail that have to.
+        # Asks the queries one by one, so that only the faulty ones fail.
         return [line for i in range(len(x)) for line in self(scene, x[i:i + 1], v[i:i + 1], start_from[i:i + 1])]
 
     def _scene(self, scene: _lorentz.Scene) -> Scene:

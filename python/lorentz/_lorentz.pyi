@@ -1,4 +1,4 @@
-"""The extension module: what the package's modules are thin covers of."""
+"""The extension module. The package's modules are thin wrappers of it."""
 
 from typing import Any
 
@@ -36,7 +36,7 @@ class Scene:
     def to_dict(self) -> dict[str, Any]: ...
 
 class Answers:
-    """First hits in columns: read-only views of what the engine wrote, without a copy."""
+    """First hits in columns: read-only views of the memory that the engine wrote, without a copy."""
 
     def __len__(self) -> int: ...
     @property

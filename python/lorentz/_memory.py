@@ -1,4 +1,4 @@
-"""How much memory there is."""
+"""The available memory."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from pathlib import Path
 
 
 def free_memory() -> int:
-    """Bytes that this process may still take: what the system says is available, within a container's limit."""
+    """The bytes that this process may still allocate: the system's available memory, within a container's
+    limit."""
     return min(_of_system(), _of_container())
 
 

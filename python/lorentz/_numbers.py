@@ -1,4 +1,4 @@
-"""Numbers as the exchange formats have them: every float as it is, fractions as texts."""
+"""Numbers in the form of the exchange formats: floats unchanged, fractions as texts."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ import numpy as np
 
 from ._lorentz import Error
 
-#: A number that is exact: a float (the rational that it is), an int, a Fraction, or a text like ``"1/3"``.
+#: An exact number: a float (exactly its rational value), an int, a Fraction, or a text such as ``"1/3"``.
 Number = Union[float, int, Fraction, str]
 Vector = Union[Sequence[Number], "np.ndarray[Any, Any]"]
-#: An obstacle: number of its lattice, number of its atom there, the cell's coordinates.
+#: An obstacle: the number of its lattice, the number of its atom there, the coordinates of its cell.
 Obstacle = tuple[int, int, Sequence[int]]
 
 
-# What the formats take for a rational number; an exponent of more digits would be work for hours.
+# The rational numbers that the formats accept. An exponent with more digits would take hours.
 _DECIMAL = re.compile(r"-?(\d+/0*[1-9]\d*|(\d+\.?\d*|\.\d+)(e[+-]?\d{1,5})?)", re.ASCII | re.IGNORECASE)
 _HEXADECIMAL = re.compile(r"(-?)0x([0-9a-f]+)\.?([0-9a-f]*)(?:p([+-]?\d{1,5}))?", re.ASCII | re.IGNORECASE)
 
 
 def rational(value: Any, name: str = "number") -> Fraction:
-    """The rational number that a float, an int, a Decimal, a number of NumPy is, exactly. Raises Error."""
+    """The exact rational value of a float, an int, a Decimal or a NumPy number. Raises Error."""
     if isinstance(value, Fraction):
         return value
     if not isinstance(value, (bool, np.bool_)):
@@ -50,8 +50,8 @@ def is_binary64(number: Rational) -> bool:
 
 
 def plain(value: Any, name: str = "number") -> Any:
-    """What JSON can say of a number, a sequence or a dict of them, without a change of any number: a float where
-    there is one that is equal, else a text. Raises Error, naming the place, for what is no number."""
+    """A number, a sequence or a dict of numbers in the form of JSON, without changing any number: as an equal
+    float if there is one, else as a text. Raises Error with the place of a value that is not a number."""
     if value is None or isinstance(value, float) and math.isfinite(value):
         return value
     if isinstance(value, str):
@@ -66,19 +66,19 @@ def plain(value: Any, name: str = "number") -> Any:
 
 
 def text(value: Any) -> str:
-    """The same as a line of JSON."""
+    """The same value as a line of JSON."""
     return json.dumps(plain(value), allow_nan=False)
 
 
 def word(value: Any, name: str) -> str:
-    """A name. Raises Error for what is not a text."""
+    """Checks a name. Raises Error if it is not a text."""
     if not isinstance(value, str):
         raise Error(f"{name}: {value!r} is not a name")
     return value
 
 
 def items(values: Any, name: str) -> list[Any]:
-    """A list of what is in a sequence. Raises Error for a single thing."""
+    """The items of a sequence as a list. Raises Error for a single value."""
     if isinstance(values, (str, bytes, dict)):
         raise Error(f"{name}: {values!r} is not a list")
     try:
@@ -88,14 +88,14 @@ def items(values: Any, name: str) -> list[Any]:
 
 
 def vector(numbers: Any, name: str) -> list[Any]:
-    """The components of a place or a velocity. Raises Error where these are none."""
+    """The components of a place or a velocity. Raises Error if they are not a sequence of numbers."""
     if isinstance(numbers, (str, bytes, dict)) or np.ndim(numbers) != 1:
         raise Error(f"{name}: {numbers!r} is not a sequence of 2 or 3 numbers")
     return list(numbers)
 
 
 def integer(value: Any, name: str) -> int:
-    """The int that an int, a NumPy integer or a float without a fraction is. Raises Error for all else."""
+    """The int that equals an int, a NumPy integer or a float without a fraction. Raises Error otherwise."""
     try:
         if np.ndim(value) or isinstance(value, (str, bytes, complex, np.complexfloating)):
             raise TypeError
@@ -108,7 +108,7 @@ def integer(value: Any, name: str) -> int:
 
 
 def whole(value: Any, name: str, least: int = 0, most: int = 2**63 - 1) -> int:
-    """An integer in this range. Raises Error."""
+    """An integer in this range. Raises Error if it is outside."""
     number = integer(value, name)
     if not least <= number <= most:
         raise Error(f"{name}: {number} is not from {least} to {most}")
@@ -116,22 +116,22 @@ def whole(value: Any, name: str, least: int = 0, most: int = 2**63 - 1) -> int:
 
 
 def parts(obstacle: Any, name: str = "start_from") -> Obstacle:
-    """Lattice, atom, cell. Raises Error where these are not what it is."""
+    """Lattice, atom and cell of an obstacle. Raises Error if it does not have this form."""
     if not isinstance(obstacle, (tuple, list)) or len(obstacle) != 3 or np.ndim(obstacle[2]) != 1:
         raise Error(f"{name}: {obstacle!r} is not an obstacle (lattice, atom, cell)")
     return obstacle[0], obstacle[1], obstacle[2]
 
 
 def obstacle_dict(obstacle: Obstacle) -> dict[str, Any]:
-    """`from` of a query, and what an answer says of an obstacle."""
+    """An obstacle as in the key `from` of a query and in an answer."""
     lattice, atom, cell = parts(obstacle)
-    # As texts, for cells may be larger than what JSON's numbers carry.
+    # As texts, because cells may be too large for JSON's numbers.
     return {"lattice": integer(lattice, "lattice"), "atom": integer(atom, "atom"),
             "cell": [str(integer(n, "cell")) for n in cell]}
 
 
 def finite(value: Any, name: str) -> float:
-    """The float that a number is. Raises Error where there is none that is equal."""
+    """The float that equals a number. Raises Error if there is none."""
     number = rational(value, name)
     if not is_binary64(number):
         raise Error(f"{name}: {value!r} is not a number that a float can be")
@@ -139,8 +139,8 @@ def finite(value: Any, name: str) -> float:
 
 
 def claim(precision: Any, time_tolerance: Any) -> tuple[str, float | None]:
-    """What an engine claims: "binary64" or "binary32", and a tolerance of times, 0 or above, perhaps infinite. Raises
-    Error."""
+    """The claim of an engine: "binary64" or "binary32", and a tolerance of times, 0 or above, possibly
+    infinite. Raises Error."""
     if word(precision, "precision") not in ("binary64", "binary32"):
         raise Error(f"precision: {precision!r} is neither 'binary64' nor 'binary32'")
     if time_tolerance is None or isinstance(time_tolerance, float) and time_tolerance == math.inf:
@@ -152,7 +152,7 @@ def claim(precision: Any, time_tolerance: Any) -> tuple[str, float | None]:
 
 
 def time_limit(value: Any, name: str) -> Any:
-    """A limit of time: above 0, perhaps infinite; or None. Raises Error."""
+    """A time limit: above 0, possibly infinite; or None. Raises Error."""
     try:
         if value is None or np.ndim(value) == 0 and (exact(value) or 0 if isinstance(value, str) else value) > 0:
             return value
@@ -162,7 +162,7 @@ def time_limit(value: Any, name: str) -> Any:
 
 
 def exact(number: Any, name: str = "number") -> Fraction | None:
-    """The rational number that it is; None of a text with a square root."""
+    """The exact rational value of a number; None for a text with a square root."""
     if not isinstance(number, str):
         return rational(number, name)
     if _DECIMAL.fullmatch(number):

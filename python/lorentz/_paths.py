@@ -1,4 +1,4 @@
-"""Particles from collision to collision: arrays in floats, itineraries that are certain; and starts for them."""
+"""Trajectories of particles: arrays in floats, certified itineraries, and starts for both."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from ._memory import free_memory
 from ._numbers import Number, Obstacle, Vector, obstacle_dict, plain, text, time_limit, whole, word
 from ._scene import Scene, SceneLike, native
 
-#: What ``Paths.stop_code`` says: why a particle does not go on (docs of the C++ header trajectory.hpp).
+#: The meaning of ``Paths.stop_code``: why a particle stopped (docs of the C++ header trajectory.hpp).
 STOPS: tuple[str, ...] = _lorentz.STOPS
-#: Which collisions are kept: each k-th, or the last alone.
+#: The collisions that are kept: each k-th, or only the last.
 Every = Union[int, Literal["last"]]
 
 
 class Paths(Columns):
-    """Collisions of N particles, K kept of each, in columns: what `lorentz.trajectories` returns. What did not
-    happen is NaN, or 0 of integers. ``paths[i]`` are the Paths of particle i alone."""
+    """Collisions of N particles, K kept for each, in columns. `lorentz.trajectories` returns them. Collisions
+    that did not happen are NaN, or 0 for integers. ``paths[i]`` are the Paths of particle i alone."""
 
     __slots__ = ("every",)
 
@@ -41,7 +41,7 @@ class Paths(Columns):
 
     def __init__(self, native: Any, columns: dict[str, Array] | None = None, every: Every = 1) -> None:
         super().__init__(native, columns)
-        self.every = every  #: which collisions are kept
+        self.every = every  #: the collisions that are kept
 
     @property
     def dimension(self) -> int:
@@ -49,13 +49,13 @@ class Paths(Columns):
         return int(self.place.shape[2])
 
     def kept(self) -> npt.NDArray[np.int64]:
-        """(N,): how many collisions of each particle are kept."""
+        """(N,): the number of kept collisions of each particle."""
         kept: npt.NDArray[np.int64] = np.minimum(self.count, 1) if self.every == "last" else self.count // self.every
         return kept
 
     def to_dict(self) -> dict[str, Array]:
-        """A row for each collision that is kept, by particle: ``particle``, ``collision`` (from 1 on), and what
-        it was, by columns; ``place`` becomes ``place_0``, ``place_1`` .."""
+        """One row for each kept collision, by particle: ``particle``, ``collision`` (from 1), and the columns
+        of the collision. ``place`` becomes ``place_0``, ``place_1`` .."""
         kept = self.kept()
         happened = np.arange(self.time.shape[1]) < kept[:, None]
         particle, column = np.nonzero(happened)
@@ -89,27 +89,28 @@ class Paths(Columns):
 def trajectories(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, collisions: int, *,
                  radius: Number | None = None, start_from: StartFrom = None, max_time: float = math.inf,
                  every: Every = 1, engine: str = "batch", precision: str = "binary64") -> Paths:
-    """Follows N particles, each for so many collisions or until a time, in floating point.
+    """Follows N particles, each for a number of collisions or until a time, in floating point.
 
     Args:
-        scene, x, v, radius, start_from: as of `lorentz.first_hit`.
-        collisions: C, of each particle, at most.
+        scene, x, v, radius, start_from: as in `lorentz.first_hit`.
+        collisions: C, the most collisions of each particle.
         max_time: a time after which nothing is recorded.
-        every: k: each k-th collision is kept, K = C // k of each particle; ``"last"``: the last alone, K = 1.
-        engine: whose first hits; ``batch`` flies all particles together.
-        precision: of the state, ``"binary64"`` or ``"double-double"``.
+        every: k: each k-th collision is kept, K = C // k for each particle; ``"last"``: only the last, K = 1.
+        engine: the engine that computes the first hits; ``batch`` flies all particles together.
+        precision: the precision of the state, ``"binary64"`` or ``"double-double"``.
 
     Returns:
-        Paths: ``time`` (N, K), ``place`` and ``velocity`` after it (N, K, d), ``lattice``, ``atom`` (N, K),
-        ``cell`` (N, K, d) of each collision that is kept; ``count`` (N,), how many there were, and ``stop_code``
-        (N,), an index into `STOPS`.
+        Paths: for each kept collision ``time`` (N, K), ``place`` and the ``velocity`` after it (N, K, d),
+        ``lattice``, ``atom`` (N, K) and ``cell`` (N, K, d); ``count`` (N,), the number of collisions, and
+        ``stop_code`` (N,), an index into `STOPS`.
 
-    A Lorentz gas is chaotic: in floats a path is right for some collisions only (`survival` says how many).
-    `itinerary` is certain.
+    A Lorentz gas is chaotic: a path in floats is right only for its first collisions (`survival` gives their
+    number). `itinerary` is certified.
 
     Raises:
-        Error: a row that is not a start, by its number; more memory than there is (`memory_of_trajectories`).
-        UnsupportedError: a scene that the engine does not do.
+        Error: a row is not a start; the message has its number. Or the result does not fit into memory
+            (`memory_of_trajectories`).
+        UnsupportedError: the engine does not support the scene.
     """
     if word(precision, "precision") not in ("binary64", "double-double"):
         raise Error(f'precision: "{precision}" is unknown; expected "binary64" or "double-double"')
@@ -127,7 +128,7 @@ def trajectories(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, collision
 
 
 def memory_of_trajectories(particles: int, collisions: int, *, every: Every = 1, dimension: int = 2) -> int:
-    """The memory that `trajectories` needs at most for these numbers of particles and collisions, in bytes."""
+    """The most memory, in bytes, that `trajectories` needs for these numbers of particles and collisions."""
     count, most = whole(particles, "particles"), whole(collisions, "collisions", 0, 2**31 - 1)
     stride, dimension = _stride(every), whole(dimension, "dimension", 2, 3)
     columns = most // stride if stride else min(most, 1)
@@ -148,9 +149,9 @@ def _check_memory(particles: int, collisions: int, every: Every, dimension: int)
 
 @dataclass(frozen=True)
 class CertifiedCollision:
-    """A collision of which everything is certain. Numbers are decimal texts, correctly rounded; ``x`` and
-    ``v`` (after it) are empty unless states were asked for. ``bits``: an error of the start has grown 2**bits
-    times."""
+    """A certified collision. Numbers are decimal texts, correctly rounded. ``x`` and ``v`` (after the
+    collision) are empty unless states were requested. ``bits``: an error of the start has grown by the factor
+    2**bits."""
 
     lattice: int
     atom: int
@@ -168,9 +169,9 @@ class CertifiedCollision:
 
 @dataclass(frozen=True)
 class Itinerary:
-    """Which obstacles a particle hits, one after another, proven. ``end``: "collisions", "time", "never",
-    "inside" or "undecided"; ``bits``: the precision that it took; ``x``, ``v`` and ``distance`` from the origin
-    at the end, decimal texts."""
+    """The proven sequence of obstacles that a particle hits. ``end``: "collisions", "time", "never", "inside"
+    or "undecided"; ``bits``: the precision used; ``x``, ``v`` and ``distance`` from the origin at the end, as
+    decimal texts."""
 
     collisions: list[CertifiedCollision]
     end: str
@@ -180,26 +181,26 @@ class Itinerary:
     distance: str
 
     def to_dict(self) -> dict[str, Any]:
-        """All of it in dicts, lists and numbers."""
+        """The itinerary as dicts, lists and numbers."""
         return asdict(self)
 
 
 def itinerary(scene: SceneLike, x: Vector, v: Vector, *, radius: Number | None = None,
               start_from: Obstacle | None = None, collisions: int | None = None, max_time: Number | None = None,
               digits: int = 17, states: bool = False, most_bits: int = 0) -> Itinerary:
-    """Follows one particle, certainly: every obstacle is the true one, every digit correctly rounded.
+    """Follows one particle with certainty: every obstacle is the true one, every digit is correctly rounded.
 
     Args:
         scene, radius, x, v: numbers are floats, ints, Fractions, or texts: "1/3", and in v also "sqrt(2)", "golden".
-        collisions, max_time: how far; at least one of them.
-        digits: significant decimal digits of times, places and velocities.
-        states: place and velocity at each collision, too.
-        most_bits: the precision at which to give up; 0: 2**18, or what the digits need.
+        collisions, max_time: how far to follow the particle; at least one of them is required.
+        digits: the number of significant decimal digits of times, places and velocities.
+        states: return place and velocity at each collision, too.
+        most_bits: the precision at which to give up; 0: 2**18, or the precision that the digits need.
 
-    Source: docs/itineraries.md. Cost: 1000 collisions in 2D at r = 1e-3 some 0.4 s.
+    Source: docs/itineraries.md. Cost: 1000 collisions in 2D at r = 1e-3 take about 0.4 s.
 
     Raises:
-        Error: not a scene, or not a start; neither collisions nor max_time.
+        Error: the scene or the start is invalid, or neither collisions nor max_time is given.
     """
     if collisions is None and max_time is None:
         raise Error("needs collisions or max_time: how far to follow the particle")
@@ -209,14 +210,14 @@ def itinerary(scene: SceneLike, x: Vector, v: Vector, *, radius: Number | None =
     time_limit(max_time, "max_time")
     start = {"x": x, "v": v} | ({} if start_from is None else {"from": obstacle_dict(start_from)})
     until = plain(max_time, "max_time")
-    limit = until.hex() if isinstance(until, float) else until  # as a text a float would be another number
+    limit = until.hex() if isinstance(until, float) else until  # a float's text is another number
     path = _lorentz.itinerary(native(Scene(scene, radius)), text(start), collisions, limit, digits, states, most_bits)
     path["collisions"] = [CertifiedCollision(**one) for one in path["collisions"]]
     return Itinerary(**path)
 
 
 class Starts(NamedTuple):
-    """Places and velocities (N, d), and what they leave, as `lorentz.first_hit` takes them."""
+    """Places and velocities (N, d), and the obstacles that they leave, as `lorentz.first_hit` takes them."""
 
     x: Floats
     v: Floats
@@ -225,17 +226,18 @@ class Starts(NamedTuple):
 
 def draw_starts(scene: SceneLike, count: int, start: str = "uniform", *, radius: Number | None = None,
                 seed: int = 20161115, first: int = 0) -> Starts:
-    """Starts in no obstacle, decided exactly: places, velocities, and the obstacles that ``surface`` starts leave, which
-    `first_hit` and `trajectories` take as ``start_from``. Start n depends on scene, start, seed and n alone.
+    """Starts outside all obstacles, decided exactly: places, velocities, and the obstacles that ``surface``
+    starts leave. `first_hit` and `trajectories` take these as ``start_from``. Start n depends only on scene,
+    start, seed and n.
 
     Args:
-        start: ``uniform`` (anywhere, in any direction), ``surface`` (off an obstacle by the cosine law),
+        start: ``uniform`` (anywhere, in any direction), ``surface`` (on an obstacle, by the cosine law),
             ``near-rational`` (beside small lattice vectors), ``grazing`` (past the edge of an obstacle).
-        radius: every ball gets this radius; give the same to what flies them.
-        first: the number of the first.
+        radius: every ball gets this radius. Give the same radius to the function that flies the starts.
+        first: the number of the first start.
 
-    Velocities have length 1 up to rounding, but those of ``near-rational``. Raises Error where the obstacles
-    leave nothing free.
+    Velocities have length 1 up to rounding, except those of ``near-rational``. Raises Error if the obstacles
+    leave no free space.
     """
     return Starts(**_lorentz.draw(native(Scene(scene, radius)), whole(count, "count"), word(start, "start"),
                                   whole(seed, "seed", 0, 2**64 - 1), whole(first, "first")))

@@ -1,4 +1,4 @@
-"""The command `lorentz`, where the package has the program in it."""
+"""The command `lorentz`, if the package contains the program."""
 
 import os
 import sys
@@ -6,6 +6,6 @@ from pathlib import Path
 
 
 def main() -> None:
-    """Becomes the program."""
+    """Replaces this process by the program."""
     program = Path(__file__).resolve().parent / "bin" / "lorentz"
     os.execv(program, ["lorentz", *sys.argv[1:]])

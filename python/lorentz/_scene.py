@@ -15,7 +15,7 @@ SceneLike = Union["Scene", Mapping[str, Any], str, "os.PathLike[str]"]
 
 
 class Scene:
-    """Obstacles on lattices, in 2 or 3 dimensions: balls, or ellipsoids, in motifs that repeat.
+    """Obstacles on lattices in 2 or 3 dimensions: balls or ellipsoids, in motifs that repeat.
 
     Args:
         source: a dict in the form of docs/formats.md (``{"dimension": 2, "lattices": [{"vectors": [[1, 0],
@@ -23,17 +23,17 @@ class Scene:
             scene of the catalogue (`catalogue`); or another Scene.
         radius: every ball gets this radius, in the scene's unit of length.
 
-    A number is a float, an int, a ``fractions.Fraction``, or a text: ``"1/3"``, ``"0.1"`` (the tenth, not the
-    float near it). Floats mean exactly the rational numbers that they are.
+    A number is a float, an int, a ``fractions.Fraction``, or a text: ``"1/3"``, ``"0.1"`` (exactly one tenth,
+    not the nearest float). Floats stand for their exact rational values.
 
     Raises:
-        Error: it is no scene; the text names the place, as ``lattices[0].atoms[1].radius``.
+        Error: the scene is invalid; the message names the place, such as ``lattices[0].atoms[1].radius``.
         FileError: there is no such file, and no such name in the catalogue.
     """
 
     __slots__ = ("_scene", "_oracle")
     _scene: _lorentz.Scene
-    _oracle: _lorentz.Oracle | None  # made when it is first asked
+    _oracle: _lorentz.Oracle | None  # created at its first use
 
     def __init__(self, source: SceneLike, radius: Number | None = None) -> None:
         self._oracle = None
@@ -50,7 +50,8 @@ class Scene:
 
     @property
     def is_binary64(self) -> bool:
-        """True if every number is a float; else only certified itineraries and the oracle's first hits take it."""
+        """True if every number is a float. Otherwise only certified itineraries and the oracle's first hits
+        support it."""
         return self._scene.is_binary64
 
     def nearest(self) -> Scene:
@@ -58,7 +59,7 @@ class Scene:
         return wrapped(self._scene.nearest())
 
     def to_dict(self) -> dict[str, Any]:
-        """The scene in the form that the constructor takes; numbers are floats, or Fractions that are none."""
+        """The scene as a dict for the constructor. Numbers are floats, or Fractions if no float is equal."""
         return self._scene.to_dict()
 
     def __eq__(self, other: object) -> bool:
@@ -88,12 +89,12 @@ def catalogue() -> list[str]:
 
 
 def native(scene: SceneLike) -> _lorentz.Scene:
-    """What the extension module knows of a scene, however it was given."""
+    """The extension module's object for a scene in any form."""
     return scene._scene if isinstance(scene, Scene) else Scene(scene)._scene
 
 
 def wrapped(native_scene: _lorentz.Scene) -> Scene:
-    """The other way round."""
+    """The Scene for an object of the extension module."""
     scene = Scene.__new__(Scene)
     scene._scene, scene._oracle = native_scene, None
     return scene
@@ -107,12 +108,12 @@ def _read(source: SceneLike) -> _lorentz.Scene:
     if not isinstance(source, (str, os.PathLike)):
         raise Error(f"scene: {source!r} is not a Scene, a dict, a file or a name of the catalogue")
     scene = _lorentz.Scene.load(os.fspath(source))
-    # A text like "0.25" in a file is a float, too.
+    # A text such as "0.25" in a file is a float, too.
     return scene if scene.is_binary64 else _lorentz.Scene.from_json(text({"scene": scene.to_dict()}))
 
 
 def _frozen(value: Any) -> Any:
-    """Lists and dicts as tuples, which have a hash, equal for equal numbers of any type."""
+    """Lists and dicts as tuples, whose hashes are equal for equal numbers of any type."""
     if isinstance(value, dict):
         return tuple((key, _frozen(value[key])) for key in sorted(value))
     return tuple(map(_frozen, value)) if isinstance(value, (list, tuple)) else value

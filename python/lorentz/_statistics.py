@@ -1,4 +1,4 @@
-"""What many trajectories come to: Lyapunov exponents, diffusion, how long they stay right; and scans."""
+"""Statistics of many trajectories: Lyapunov exponents, diffusion, how long they stay right; and scans."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SEED = 20161115
 
 
 class Estimate(NamedTuple):
-    """A number and its standard error; either is None where it is not known."""
+    """A number and its standard error. Either is None if it is not known."""
 
     value: float | None
     error: float | None
@@ -29,19 +29,20 @@ class Estimate(NamedTuple):
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Lyapunov:
-    """Lyapunov exponents in nats, the largest first. ``report`` is what `lorentz lyapunov --json` says, without the scene."""
+    """Lyapunov exponents in nats, the largest first. ``report`` is that of `lorentz lyapunov --json`, without
+    the scene."""
 
     scene: Scene
     report: dict[str, Any]
 
     @property
     def exponents(self) -> list[Estimate]:
-        """A collision."""
+        """The exponents per collision."""
         return [Estimate(one["map"], one["map_error"]) for one in self.report["exponents"]]
 
     @property
     def exponents_in_time(self) -> list[Estimate]:
-        """A unit of time, at speed 1."""
+        """The exponents per unit of time, at speed 1."""
         return [Estimate(one["flow"], one["flow_error"]) for one in self.report["exponents"]]
 
     def to_dict(self) -> dict[str, Any]:
@@ -59,24 +60,24 @@ class Lyapunov:
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Diffusion:
-    """Mean squared displacements. ``report`` is what `lorentz diffusion --json` says, without the scene."""
+    """Mean squared displacements. ``report`` is that of `lorentz diffusion --json` without the scene."""
 
     scene: Scene
     report: dict[str, Any]
 
     @property
     def coefficient(self) -> Estimate | None:
-        """D of <|x|^2> ~ 2 d D t; None where corridors are open, so that there is no D."""
+        """D in <|x|^2> ~ 2 d D t; None if corridors are open, because D then does not exist."""
         return None if self.report["D"] is None else Estimate(self.report["D"], self.report["D_error"])
 
     @property
     def times(self) -> Floats:
-        """When displacements were looked at."""
+        """The times at which displacements were measured."""
         return np.array([one["t"] for one in self.report["displacements"]])
 
     @property
     def displacements(self) -> list[Estimate]:
-        """<|x|^2> at these times, in squares of the scene's unit of length."""
+        """<|x|^2> at these times, in units of the squared unit of length of the scene."""
         return [Estimate(one["msd"], one["msd_error"]) for one in self.report["displacements"]]
 
     def to_dict(self) -> dict[str, Any]:
@@ -93,15 +94,15 @@ class Diffusion:
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Survival:
-    """How many collisions of trajectories are right. ``report`` is what `lorentz survival --json` says, without
-    the scene."""
+    """How many collisions of trajectories are right. ``report`` is the report of `lorentz survival --json`
+    without the scene."""
 
     scene: Scene
     report: dict[str, Any]
 
     @property
     def right(self) -> dict[int, list[int]]:
-        """By bits of the arithmetic: of each start the collisions before the first wrong one."""
+        """By bits of the arithmetic: for each start the number of collisions before the first wrong one."""
         return {one["bits"]: one["right"] for one in self.report["arithmetics"]}
 
     def share(self, bits: int, collisions: int) -> float:
@@ -121,20 +122,20 @@ class Survival:
 
 def lyapunov(scene: SceneLike, radius: Number | None = None, *, collisions: int = 1_000_000, spectrum: bool = False,
              seed: int = SEED, jobs: int = 1) -> Lyapunov:
-    """Lyapunov exponents, with standard errors, and theory beside them.
+    """Lyapunov exponents with standard errors, and theory for comparison.
 
     Args:
         scene, radius: as of `lorentz.first_hit`.
-        collisions: how many are counted, about, of 4096 particles together.
-        spectrum: the exponents below zero, too.
-        seed: of the starts, which are on the obstacles.
-        jobs: threads; the result is the same.
+        collisions: about how many collisions are counted, for 4096 particles together.
+        spectrum: compute the negative exponents, too.
+        seed: the seed of the starts, which are on the obstacles.
+        jobs: the number of threads; the result does not depend on it.
 
     Source: docs/chaos.md.
 
     Raises:
-        Error: the scene leaves nothing free; negative exponents that rounding takes. UnsupportedError: a scene
-            that the engine ``batch`` does not do.
+        Error: the scene leaves no free space, or rounding destroys the negative exponents. UnsupportedError:
+            the engine ``batch`` does not support the scene.
     """
     place = Scene(scene, radius)
     return Lyapunov(place, _report(_lorentz.lyapunov(
@@ -143,14 +144,14 @@ def lyapunov(scene: SceneLike, radius: Number | None = None, *, collisions: int 
 
 def diffusion(scene: SceneLike, radius: Number | None = None, *, count: int = 100_000, max_time: float = 100.0,
               start: str = "uniform", seed: int = SEED, jobs: int = 1) -> Diffusion:
-    """Mean squared displacements of many particles at unit speed, and theory beside them.
+    """Mean squared displacements of many particles at unit speed, and theory for comparison.
 
     Args:
         scene, radius: as of `lorentz.first_hit`.
-        count: how many particles.
-        max_time: T, until when they are followed.
-        start: ``uniform`` or ``surface``, as of `flights`.
-        seed, jobs: as of `lyapunov`.
+        count: the number of particles.
+        max_time: T, the time until which they are followed.
+        start: ``uniform`` or ``surface``, as in `flights`.
+        seed, jobs: as in `lyapunov`.
 
     Source: docs/chaos.md. Raises as `lyapunov` does.
     """
@@ -166,12 +167,13 @@ def survival(scene: SceneLike, radius: Number | None = None, *, count: int = 100
 
     Args:
         scene, radius: as of `lorentz.first_hit`.
-        count: starts, each followed with certainty, and in each arithmetic until that hits another obstacle.
-        collisions: at most so many of each start.
-        bits: arithmetics: 53 is the engine in binary64, 106 in double-double, any other number plain arithmetic of
-            that many bits.
-        engine: whose flights binary64 and double-double have.
-        seed: of the starts, which are on the obstacles.
+        count: the number of starts. Each is followed with certainty, and in each arithmetic until that hits a
+            wrong obstacle.
+        collisions: the most collisions of each start.
+        bits: the arithmetics: 53 is the engine in binary64, 106 in double-double, any other number is plain
+            arithmetic with that many bits.
+        engine: the engine of the binary64 and double-double trajectories.
+        seed: the seed of the starts, which are on the obstacles.
 
     Source: docs/itineraries.md. Raises as `lyapunov` does.
     """
@@ -187,19 +189,21 @@ def survival(scene: SceneLike, radius: Number | None = None, *, count: int = 100
 def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLike]],
          radii: Number | Iterable[Number] | None = None, *, on_error: str = "raise",
          **options: Any) -> list[dict[str, Any]]:
-    """A table of what a function finds in each of some scenes, at each of some radii.
+    """A table of the results of a function for each scene at each radius.
 
     Args:
-        function: `lyapunov`, `diffusion`, `survival`, `flights`, `mean_free_path`, `horizon`, or another that takes a
-            scene and a radius.
-        scenes: one, or a list of them.
-        radii: every ball gets each of these in turn; without them scenes are as they are.
-        on_error: ``"raise"``, or ``"mark"``: then a scene and radius that are refused have the column ``error``.
-        options: what the function takes besides.
+        function: `lyapunov`, `diffusion`, `survival`, `flights`, `mean_free_path`, `horizon`, or another
+            function of a scene and a radius.
+        scenes: one scene, or a list of scenes.
+        radii: every ball gets each of these in turn; without radii the scenes are unchanged.
+        on_error: ``"raise"`` or ``"mark"``. With ``"mark"`` a refused scene and radius have the column
+            ``error``.
+        options: further arguments of the function.
 
     Returns:
-        A dict for each: ``scene`` as it was given, ``radius``, and the single numbers and texts that were found (``value`` where
-        the function returns one number). ``pandas.DataFrame(scan(..))`` is a table of them.
+        A dict for each scene and radius: ``scene`` as given, ``radius``, and the single numbers and texts of
+        the result (``value`` if the function returns one number). ``pandas.DataFrame(scan(..))`` makes a
+        table of them.
     """
     if not callable(function):
         raise Error(f"function: {function!r} is not a function")

@@ -1,9 +1,10 @@
 """The exact oracle, one question at a time: first hits in ints and Fractions, margins, verdicts, proofs.
 
-Every decision is the sign of an integer; nothing is rounded but what is called so. A scene is whatever
-`lorentz.Scene` takes (make a Scene once where many questions are asked: it keeps what was prepared), x and v
-are sequences of numbers, lengths are in the scene's unit, times are such that x + t v is the place. `first_hit`
-and `entry_time` take rational numbers, too; the others need floats, or numbers that are equal to one.
+Every decision is the sign of an integer. Only values that are documented as rounded are rounded. A scene is
+anything that `lorentz.Scene` takes; for many questions, make a Scene once, because it keeps the prepared
+oracle. x and v are sequences of numbers. Lengths are in the scene's unit; the particle is at x + t v at the
+time t. `first_hit` and `entry_time` take rational numbers, too; the other functions need floats, or numbers
+that equal a float.
 """
 
 from __future__ import annotations
@@ -29,22 +30,23 @@ def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
     """Which obstacle is hit first, exactly.
 
     Args:
-        scene, x, v: numbers are floats, ints, Fractions, or texts like "1/3", and mean exactly what they are.
+        scene, x, v: numbers are floats, ints, Fractions, or texts such as "1/3", with their exact values.
         start_from: the obstacle that the particle leaves, (lattice, atom, cell).
-        digits: significant decimal digits of the time that are wanted besides, as ``time_decimal``.
-        detail: ``point``, ``normal`` and ``impact_parameter`` too, each correctly rounded.
-        max_time: the outcome is "later" if nothing is entered before.
+        digits: the number of significant decimal digits of the time that are also returned as
+            ``time_decimal``.
+        detail: also return ``point``, ``normal`` and ``impact_parameter``, each correctly rounded.
+        max_time: the outcome is "later" if no obstacle is entered before it.
 
     Returns:
-        The Answer: cells in ints, ``time`` correctly rounded, ``exact_time`` the time itself. Never
-        "undecided" where all numbers are floats. If some are not, a certified itinerary of one collision
-        answers, which says "undecided" of a line that touches an obstacle, has no ``detail``, and does not
-        name the obstacle that x lies in.
+        The Answer: cells in ints, ``time`` correctly rounded, ``exact_time`` the exact time. It is never
+        "undecided" if all numbers are floats. If some are not, a certified itinerary of one collision
+        answers. It answers "undecided" for a line that touches an obstacle, has no ``detail``, and does not
+        name the obstacle in which x lies.
 
     Raises:
-        Error: it is no scene or no query.
+        Error: the scene or the query is invalid.
 
-    Cost: 5 us (2D) or 20 us (3D) an atom, and some 20 us for Python.
+    Cost: 5 us (2D) or 20 us (3D) per atom, and about 20 us for Python.
     """
     digits = whole(digits, "digits", 0, 100_000)
     if time_limit(max_time, "max_time") == math.inf:
@@ -62,13 +64,13 @@ def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
 
 
 def is_free(scene: SceneLike, x: Vector) -> bool:
-    """True if x lies in no open obstacle. Numbers must be floats, or equal to one."""
+    """True if x lies in no open obstacle. Numbers must be floats, or equal a float."""
     place = _scene(scene)
     return _oracle(place).is_free(_text(x, [1] + [0] * (place.dimension - 1), None))
 
 
 def entry_time(scene: SceneLike, x: Vector, v: Vector, obstacle: Obstacle | None) -> ExactTime:
-    """When the line x + t v enters this obstacle, whatever else is in the way; perhaps before 0.
+    """The time at which the line x + t v enters this obstacle, ignoring all others; it may be below 0.
 
     In the coordinates in which the obstacle is the unit ball around 0, the line is w + t u, and the time is
     the smaller root of (u.u) t^2 + 2 (w.u) t + (w.w - 1). Raises Error if the line misses it.
@@ -92,12 +94,12 @@ def entry_time(scene: SceneLike, x: Vector, v: Vector, obstacle: Obstacle | None
 
 @dataclass(frozen=True)
 class Margin:
-    """How hard a question was (docs/verdicts.md).
+    """How hard a question is (docs/verdicts.md).
 
-    ``margin``: by so many ulps each input must move, at the least and to first order, for the answer to be
-    another; at most 2**20, and None of "never". ``condition``: how many ulps of the time one ulp in each
-    input makes; None without a hit. The decision that is hardest: ``decision`` is "containing", "meeting" or
-    "order", ``decided`` what it came to, of which ``obstacle``.
+    ``margin``: the least number of ulps that each input must move, to first order, to change the answer; at
+    most 2**20, and None for "never". ``condition``: the ulps of the time that one ulp in each input causes;
+    None without a hit. The hardest decision: its kind ``decision`` is "containing", "meeting" or "order",
+    ``decided`` is its result, and ``obstacle`` is its obstacle.
     """
 
     margin: float | None
@@ -108,14 +110,14 @@ class Margin:
 
 
 def margin(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | None = None) -> Margin:
-    """How far the inputs are from another answer. Cost: 100 us and more."""
+    """How far the inputs are from a different answer. Cost: at least 100 us."""
     return Margin(**_oracle(scene).margin(_text(x, v, start_from)))
 
 
 @dataclass(frozen=True)
 class Approach:
-    """An obstacle that a flight came near: ``gap`` in units of its radius (below 0: it is met), ``time`` at
-    which the line is nearest to its centre, ``margin`` of that decision in ulps."""
+    """An obstacle near a flight: ``gap`` in units of its radius (below 0: the line meets it), the ``time`` at
+    which the line is nearest to its centre, and the ``margin`` of that decision in ulps."""
 
     obstacle: Obstacle
     time: float
@@ -125,19 +127,19 @@ class Approach:
 
 def passed(scene: SceneLike, x: Vector, v: Vector, *, most: int = 5,
            start_from: Obstacle | None = None) -> list[Approach]:
-    """The obstacles that the flight came nearest to, at most so many, in order of time; the one hit is last."""
+    """At most ``most`` obstacles, the nearest to the flight, in order of time; the one hit is last."""
     return [Approach(**one) for one in _oracle(scene).passed(_text(x, v, start_from), whole(most, "most"))]
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What an answer is worth beside the exact one (docs/verdicts.md).
+    """The verdict on an answer compared with the exact one (docs/verdicts.md).
 
     ``verdict``: "agree", "ill-posed", "wrong", "undecided", "unsupported" or "error". ``wrong_time``: the
-    obstacle is right, its time is off by more than rounding of the inputs explains; ``other_quantity``: by so
-    much that it is no time of that collision. ``ulps``: the error of the time, in its ulps. ``departs``: how
-    far the inputs must move for the answer to be right. ``cause`` and ``sentence``: what went wrong, as
-    `lorentz.judge` tells it (docs/judge.md).
+    obstacle is right, but its time is off by more than the rounding of the inputs explains;
+    ``other_quantity``: by so much that it is not a time of that collision. ``ulps``: the error of the time,
+    in its ulps. ``departs``: how far the inputs must move for the answer to be right. ``cause`` and
+    ``sentence``: the fault, as `lorentz.judge` describes it (docs/judge.md).
     """
 
     verdict: str
@@ -151,10 +153,10 @@ class Verdict:
 
 def judge_answer(scene: SceneLike, x: Vector, v: Vector, answer: Answer, *, start_from: Obstacle | None = None,
                  ulps: float = 4, precision: str = "binary64", time_tolerance: float | None = None) -> Verdict:
-    """Is this answer right? An answer that inputs moved by up to `ulps` ulps would make right is "ill-posed".
+    """Is this answer right? One that is right only if inputs move by up to `ulps` ulps is "ill-posed".
 
     Ulps are those of `precision`, "binary64" or "binary32". With `time_tolerance` T a time is right if it is off by at
-    most T times itself; infinite: times are not judged.
+    most T times itself. If T is infinite, times are not judged.
     """
     tolerance = finite(ulps, "ulps")
     if not 0 <= tolerance < 1e300:
@@ -164,18 +166,19 @@ def judge_answer(scene: SceneLike, x: Vector, v: Vector, answer: Answer, *, star
 
 
 def certificate(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | None = None) -> Certificate:
-    """A proof of the exact answer (docs/certificates.md), for those who do not believe the oracle.
+    """A proof of the exact answer (docs/certificates.md), which can be checked without trusting the oracle.
 
-    Raises Error if it takes more steps than any checker goes: around obstacles that are hundreds of cells large.
+    Raises Error if it takes more steps than any checker goes: around obstacles hundreds of cells large.
     """
     return _oracle(scene).prove(_text(x, v, start_from))
 
 
 def check(scene: SceneLike, x: Vector, v: Vector, answer: Answer, proof: Certificate, *,
           start_from: Obstacle | None = None) -> str | None:
-    """None if the certificate proves the answer; else what is wrong with it.
+    """None if the certificate proves the answer; else the reason why it does not.
 
-    Of the answer outcome, obstacle, time and ``time_decimal`` are proved. Shares no code with the searches.
+    The proof covers the answer's outcome, obstacle, time and ``time_decimal``. The check shares no code with
+    the searches.
     """
     if not isinstance(proof, Certificate):
         raise Error(f"proof: {type(proof).__name__} is not a Certificate; Certificate.from_dict makes one of a dict")
@@ -187,7 +190,7 @@ def check(scene: SceneLike, x: Vector, v: Vector, answer: Answer, proof: Certifi
 
 @dataclass(frozen=True)
 class Convergent:
-    """A step of a continued fraction: partial quotient a, convergent p / q, remainder q m - p, exactly."""
+    """A step of a continued fraction: partial quotient a, convergent p / q, exact remainder q m - p."""
 
     a: int
     p: int
@@ -196,7 +199,7 @@ class Convergent:
 
 
 def convergents(rise: float, run: float = 1.0, limit: int = 1000) -> list[Convergent]:
-    """The exact continued fraction of the slope rise / run of two floats, until it ends or for `limit` terms."""
+    """The exact continued fraction of the slope rise / run of two floats, up to its end or `limit` terms."""
     terms = _lorentz.convergents(finite(rise, "rise"), finite(run, "run"), whole(limit, "limit"))
     return [Convergent(*one) for one in terms]
 
@@ -246,7 +249,7 @@ def _first_hit_of_rationals(scene: Scene, x: Vector, v: Vector, start_from: Obst
         return itinerary(scene, x, v, start_from=start_from, collisions=1, max_time=limit, digits=decimals)
 
     path = follow(limit, max(digits, 17))
-    if path.end == "undecided" and limit is not None:  # that may be the very time of the hit
+    if path.end == "undecided" and limit is not None:  # the limit may be exactly the time of the hit
         path = follow(None, max(digits, 17))
     if path.end == "time" or path.end == "never" and limit is not None:
         return Answer("later")
@@ -254,7 +257,7 @@ def _first_hit_of_rationals(scene: Scene, x: Vector, v: Vector, start_from: Obst
         return Answer(path.end)
     first = path.collisions[0]
     answer = Answer("hit", first.lattice, first.atom, first.cell, float(first.time))
-    if any(exact(number) is None for number in [*x, *v]):  # among square roots
+    if any(exact(number) is None for number in [*x, *v]):  # with square roots
         if limit is not None and Fraction(first.time) >= limit:
             return Answer("later" if Fraction(first.time) > limit else "undecided")
         return replace(answer, time_decimal=follow(None, digits).collisions[0].time) if digits else answer
@@ -265,7 +268,7 @@ def _first_hit_of_rationals(scene: Scene, x: Vector, v: Vector, start_from: Obst
 
 
 def _decimal_text(time: ExactTime, digits: int) -> str | None:
-    """As `time_decimal` has it."""
+    """The time in the form of `time_decimal`."""
     if digits == 0:
         return None
     decimal = time.decimal(digits)
@@ -309,7 +312,7 @@ def _number_of(name: str, value: Any, count: int) -> int:
 
 
 def _solved(columns: Sequence[Sequence[Fraction]], right: Sequence[Fraction]) -> list[Fraction]:
-    """y of sum_k y_k column_k = right, by elimination; the columns are independent."""
+    """The y with sum_k y_k column_k = right, by elimination. The columns must be independent."""
     count = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(count)]
     for k in range(count):

@@ -1,11 +1,11 @@
-"""Pictures, with Matplotlib: a scene with flights, paths, free paths. Each draws into axes and returns them.
+"""Pictures with Matplotlib: a scene with flights, paths, free paths. Each draws into axes and returns them.
 
     ax = lorentz.plot.scene("honeycomb")
     lorentz.plot.flights("honeycomb", x, v, answers, ax=ax)
     ax.set_title("Honeycomb")
     ax.figure.savefig("honeycomb.pdf")  # or .svg, .png
 
-Axes of other sizes: ``plt.subplots(figsize=(4, 3))[1]`` as ``ax``.
+For axes of other sizes pass ``plt.subplots(figsize=(4, 3))[1]`` as ``ax``.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from ._statistics import Diffusion, Survival
 
 __all__ = ["displacements", "flights", "free_paths", "scene", "survival", "survival_function", "trajectory"]
 
-#: Obstacles of lattice 0, 1, ..; lines are drawn in the other colours.
+#: Colours of the obstacles of lattice 0, 1, ..; lines have the other colours.
 OBSTACLES = ("#9db4c8", "#d8b48c", "#a9c9a4", "#c9a9c6")
 FLIGHT, HIT = "#b3362b", "#202020"
 COLOURS = ("#b3362b", "#2b62b3", "#3a8a4d", "#8a5ba8", "#b37f2b", "#2b9a9a")
@@ -41,8 +41,8 @@ Runs = Union[FreePaths, Sequence[FreePaths]]
 
 
 def scene(of: SceneLike, box: Box | None = None, *, ax: Any = None) -> Any:
-    """The obstacles of a 2D scene in ``box`` = (x low, x high, y low, y high), else around some cells; each at
-    least a dot."""
+    """The obstacles of a 2D scene in ``box`` = (x low, x high, y low, y high), or around several cells
+    without a box. Each obstacle is at least a dot."""
     place = _flat(of)
     limits = _around_cells(place) if box is None else _box(box)
     ax = _axes(ax)
@@ -60,8 +60,8 @@ def scene(of: SceneLike, box: Box | None = None, *, ax: Any = None) -> Any:
 
 def flights(of: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, answers: Answers, *, ax: Any = None,
             longest: float = 40.0) -> Any:
-    """Flights of a 2D scene (N at most some hundred) up to their hits; what is longer than ``longest``, or never
-    ends, is cut and dashed. Without axes the scene is drawn, too."""
+    """Flights of a 2D scene (N at most several hundred) up to their hits. Flights that are longer than
+    ``longest``, or never end, are cut and dashed. Without axes the scene is drawn, too."""
     starts, velocities = np.reshape(np.asarray(x, float), (-1, 2)), np.reshape(np.asarray(v, float), (-1, 2))
     if not isinstance(answers, Answers) or not len(answers) == len(starts) == len(velocities):
         raise Error(f"answers: needs the Answers to these {len(starts)} queries")
@@ -82,8 +82,8 @@ def flights(of: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, answers: Answers,
 
 
 def trajectory(of: SceneLike, start: npt.ArrayLike, paths: Paths, particle: int = 0, *, ax: Any = None) -> Any:
-    """The path of one particle, from its start (or that of all) through the collisions that are kept; without axes with the scene in
-    2D, with the obstacles that it hits in 3D."""
+    """The path of one particle, from its start (or the common start) through the kept collisions. Without
+    axes it is drawn with the scene in 2D, and with the obstacles that it hits in 3D."""
     if not 0 <= particle < len(paths):
         raise Error(f"particle: there is no {particle}; there are {len(paths)}, from 0 on")
     place, kept = of if isinstance(of, Scene) else Scene(of), int(paths.kept()[particle])
@@ -98,7 +98,7 @@ def trajectory(of: SceneLike, start: npt.ArrayLike, paths: Paths, particle: int 
 
 
 def free_paths(runs: Runs, *, ax: Any = None) -> Any:
-    """The density of free paths on logarithmic axes, from counts; of several runs each in a colour of its own."""
+    """The density of free paths on logarithmic axes, from counts. Each of several runs has its own colour."""
     ax = _axes(ax)
     for number, (run, label) in enumerate(_labelled(runs)):
         density = run.density()
@@ -112,8 +112,8 @@ def free_paths(runs: Runs, *, ax: Any = None) -> Any:
 
 
 def survival_function(runs: Runs, *, ax: Any = None) -> Any:
-    """P(path > t) on logarithmic axes, with the laws that theory has of each scene as lines; of several runs each in a
-    colour of its own."""
+    """P(path > t) on logarithmic axes, with the known laws for each scene as lines. Each of several runs has
+    its own colour."""
     ax = _axes(ax)
     for number, (run, label) in enumerate(_labelled(runs)):
         measured = run.survival_function()
@@ -130,7 +130,7 @@ def survival_function(runs: Runs, *, ax: Any = None) -> Any:
 
 
 def survival(found: Survival, *, ax: Any = None) -> Any:
-    """The share of trajectories that are still right, by collisions, in each arithmetic."""
+    """The share of trajectories that are still right after a number of collisions, for each arithmetic."""
     _check_kind(found, Survival)
     ax = _axes(ax)
     for number, (bits, right) in enumerate(found.right.items()):
@@ -144,7 +144,7 @@ def survival(found: Survival, *, ax: Any = None) -> Any:
 
 
 def displacements(found: Diffusion, *, ax: Any = None) -> Any:
-    """MSD / (2 d t) over time, with standard errors: level where there is a diffusion coefficient."""
+    """MSD / (2 d t) over time, with standard errors. It is level if there is a diffusion coefficient."""
     _check_kind(found, Diffusion)
     ax = _axes(ax)
     scale = 2 * found.scene.dimension * found.times
@@ -163,7 +163,7 @@ def _check_kind(found: Any, kind: type) -> None:
 
 
 def _labelled(runs: Runs) -> list[tuple[FreePaths, str]]:
-    """Each run with what it is called: its radius, where they have several, else how many flights it has."""
+    """Each run with its label: its radius if several runs have radii, else its number of flights."""
     several = [runs] if isinstance(runs, FreePaths) else list(runs)
     if not several or not all(isinstance(run, FreePaths) for run in several):
         raise Error("runs: needs what lorentz.flights returns, one or a list")
@@ -184,7 +184,7 @@ def _colour(number: int) -> str:
 
 
 def _met_in_space(place: Scene, path: Paths, kept: int) -> Any:
-    """Axes in space with the obstacles that a path meets."""
+    """3D axes with the obstacles that a path hits."""
     ax = plt.figure(layout="constrained").add_subplot(projection="3d")
     lattices = place.nearest().to_dict()["lattices"]
     met = {(int(path.lattice[0, k]), int(path.atom[0, k]), tuple(path.cell[0, k].tolist())) for k in range(kept)}
@@ -230,7 +230,7 @@ def _around_cells(place: Scene) -> Box:
 
 
 def _obstacles(lattice: dict[str, Any], box: Box) -> Iterator[Ellipse]:
-    """Those of a lattice that reach into the box."""
+    """The obstacles of a lattice that reach into the box."""
     vectors = np.array(lattice["vectors"])
     for atom in lattice["atoms"]:
         position = np.array(atom["position"])
@@ -242,7 +242,7 @@ def _obstacles(lattice: dict[str, Any], box: Box) -> Iterator[Ellipse]:
 
 def _cells(vectors: npt.NDArray[np.float64], position: npt.NDArray[np.float64], box: Box,
            reach: float) -> npt.NDArray[np.int64]:
-    """Cells (K, 2) whose obstacle's centre is at most ``reach`` outside of the box."""
+    """The cells (K, 2) of obstacles whose centre is at most ``reach`` outside the box."""
     corners = np.array([(a, b) for a in box[:2] for b in box[2:]], float)
     corners += reach * np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)])
     coordinates = (corners - position) @ np.linalg.inv(vectors)

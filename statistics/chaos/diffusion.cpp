@@ -13,14 +13,14 @@ namespace {
 
 constexpr std::uint64_t kTogether = 512;
 
-// One particle's way so far, and what it was at the times.
+// One particle's path up to now, and its values at the times of times_of().
 struct Way {
-  Vec first_velocity{}, displacement{}, integral{};  ///< of the displacement over time
+  Vec first_velocity{}, displacement{}, integral{};  ///< integral: of the displacement over time
   double time = 0;
-  int next = 0;  ///< of the times
+  int next = 0;  ///< index of the next time
   std::array<double, kTimes> square{}, from_velocity{};
 
-  // A flight with the velocity v until the time `until`.
+  // Adds a flight with the velocity v until the time `until`.
   void fly(const Vec& v, double until, const std::vector<double>& times) {
     for (; next < kTimes && times[next] <= until; ++next) {
       const double s = times[next] - time;
@@ -40,7 +40,7 @@ struct Way {
   }
 };
 
-// The values of a group: the squares at all times, then the same from velocities.
+// The values of a group: the squares at all times, then their estimates from velocities.
 constexpr int kFromVelocity = kTimes, kDiffusionValues = 2 * kTimes;
 
 void add(const Way& way, Sums& sums) {
@@ -58,7 +58,7 @@ bool can_be_displacements(const Sums& sums, GroupShare share) {
          sums.particles == share.last - share.first - sums.stopped;
 }
 
-// The particles [first, last), to the time T, or until the work is stopped: then the sums are no use.
+// Flies the particles [first, last) to the time T. If the work is stopped earlier, the sums are unusable.
 void fly(const DiffusionPlan& plan, const Batch& engine, const starts::FreeStarts& starts, GroupShare share,
          const std::vector<double>& times, const Work& work, Sums& sums) {
   Particles particles(engine, plan.scene);
@@ -81,7 +81,7 @@ void fly(const DiffusionPlan& plan, const Batch& engine, const starts::FreeStart
   }
 }
 
-// The slope of the straight line nearest to the points, by least squares.
+// The slope of the least-squares line through the points.
 double slope_of(const std::vector<double>& x, const std::vector<double>& y) {
   const auto n = static_cast<double>(x.size());
   double mx = 0, my = 0, xx = 0, xy = 0;
@@ -90,7 +90,7 @@ double slope_of(const std::vector<double>& x, const std::vector<double>& y) {
   return xy / xx;
 }
 
-// Of one group.
+// The diffusion coefficient from one group.
 double coefficient_of(const Sums& sums, int dimension, const std::vector<double>& times) {
   const auto n = static_cast<double>(sums.particles);
   const int last = kTimes - 1;

@@ -21,7 +21,7 @@ Estimate DiffusionReport::rate(const Displacement& at) const {
   return {at.square.value / all, at.square.error / all};
 }
 
-// D, if there is one: with open corridors it is but a number at the time T.
+// D. With open corridors D does not exist, and the estimate is only the value at the time T.
 std::string DiffusionReport::lines_of_coefficient() const {
   const std::string estimate =
       fmt::format("{:.6g} +- {:.1e}", found.coefficient.value, found.coefficient.error);

@@ -1,4 +1,4 @@
-// Mean squared displacements for people and for programs, with theory beside them.
+// Reports of mean squared displacements as text, CSV and JSON, with theory for comparison.
 #pragma once
 
 #include <optional>
@@ -12,19 +12,19 @@ namespace lorentz::chaos {
 struct DiffusionReport {
   DiffusionReport(std::string scene_name, DiffusionPlan its_plan, Diffusion what_was_found);
 
-  std::string scene;  ///< its name, as it was asked for
+  std::string scene;  ///< its name as given by the user
   DiffusionPlan plan;
   Diffusion found;
   std::optional<double> random_walk;  ///< Machta and Zwanzig's coefficient
   flights::Tail tail;                 ///< of free paths from uniform starts, t -> infinity
 
-  /// False: no particle got beyond its first obstacle, or no part was done. Those that are left after others
-  /// ended are the ones that met nothing.
+  /// False if no particle got beyond its first obstacle, or no group was finished. When particles ended early
+  /// and no collision is counted, the remaining particles are those that hit nothing.
   bool has_content() const { return found.particles > 0 && !(found.collisions == 0 && found.stopped > 0); }
 
   std::string table() const;
-  std::string csv() const;   ///< the displacements, a line each
-  std::string json() const;  ///< one object, in a line
+  std::string csv() const;   ///< one line per displacement
+  std::string json() const;  ///< one object on one line
 
  private:
   bool is_uniform() const { return plan.from == flights::Ensemble::uniform; }

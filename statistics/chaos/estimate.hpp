@@ -1,4 +1,4 @@
-// A mean over independent parts of a run, with what its scatter tells of its error.
+// The mean over independent parts of a run, and its standard error from the scatter of the parts.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@ struct Estimate {
   double value = 0, error = 0;
 };
 
-/// The mean of equal parts, and the standard deviation of that mean. Of one part the error is an infinity.
+/// The mean of equal parts, and the standard deviation of that mean. With one part the error is infinite.
 inline Estimate estimate_of(const std::vector<double>& parts) {
   const auto n = static_cast<double>(parts.size());
   Estimate estimate;
@@ -23,8 +23,8 @@ inline Estimate estimate_of(const std::vector<double>& parts) {
   return estimate;
 }
 
-/// The mean of the first over that of the second, of as many equal parts; to first order the error of what
-/// each part departs from it.
+/// The ratio of two means, each over the same number of equal parts. The error is that of the deviations of
+/// the parts from this ratio, to first order.
 inline Estimate estimate_of_ratio(const std::vector<double>& above, const std::vector<double>& below) {
   const double mean = estimate_of(below).value, ratio = estimate_of(above).value / mean;
   std::vector<double> parts;

@@ -76,7 +76,7 @@ AllSums for_each_group(const Work& work, const std::function<Sums(std::uint64_t)
   };
   const auto hand_in = [&](std::uint64_t group, Sums sums) {
     const std::lock_guard lock(mutex);
-    if (work.is_stopped()) return;  // it may be a part of the group only
+    if (work.is_stopped()) return;  // the group may be incomplete
     if (work.kept) work.kept->add(text_of(group, sums));
     all[group] = std::move(sums);
     if (work.on_progress) work.on_progress(++finished);

@@ -11,7 +11,7 @@
 namespace lorentz::chaos {
 namespace {
 
-// The values of a group: the growth of each tangent vector, and the time of all flights.
+// The values of a group: the growth of each tangent vector, and the total time of flight.
 constexpr std::size_t kFlight = Tangents::kMost, kLyapunovValues = kFlight + 1;
 
 class Group {
@@ -61,7 +61,7 @@ class Group {
   const std::uint64_t each_;
 };
 
-// Of all exponents, of their sum, and of that of the first `half`.
+// Estimates of all exponents, of their sum, and of the sum of the first `half`.
 Lyapunov told(const std::vector<Sums>& groups, int exponents, int half) {
   Lyapunov result;
   std::vector<double> part, sum(groups.size()), growing(groups.size()), flight;

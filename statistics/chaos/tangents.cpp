@@ -21,7 +21,7 @@ std::array<Vec, 3> gradient_of(const Atom& atom, int dimension) {
   return matrix;
 }
 
-// Unit vectors across v: one in the plane, two in space.
+// Unit vectors orthogonal to v: one in 2D, two in 3D.
 std::array<Vec, 2> directions_across(const Vec& v, int dimension) {
   if (dimension == 2) return {scaled(Vec{-v[1], v[0], 0}, 1 / length(v)), Vec{}};
   const Vec first = cross(v, std::fabs(v[0]) < std::fabs(v[1]) ? Vec{1, 0, 0} : Vec{0, 1, 0});
@@ -53,7 +53,7 @@ Vec Curvatures::change_of_normal(const Particle& at, const Vec& normal, const Ve
                 1 / length(coordinates(obstacle.gradient, at.offset)));
 }
 
-// Diverging pencils first: they lie among the directions that grow.
+// Diverging pencils come first, because they lie among the growing directions.
 Tangents::Tangents(const Vec& v, int dimension, int count) : count_(count) {
   const std::array<Vec, 2> e = directions_across(v, dimension);
   for (int i = 0; i < count; ++i) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi, kZeta3 = 1.2020569031595942854;
 
-// One ball a cell.
+// The ball of a scene with one ball per cell, else nullptr.
 const Atom* only_ball(const Scene& scene, int dimension) {
   const bool one =
       scene.dimension == dimension && scene.lattices.size() == 1 && scene.lattices[0].atoms.size() == 1;
@@ -35,8 +35,9 @@ std::optional<double> exponents_of_small_balls(const Scene& scene) {
          2 * std::numbers::ln2 + 2 * kMeanLogarithm;
 }
 
-// A particle leaves the trap between three discs, of area F, through one of three gaps of width w at the rate
-// 3 w / (pi F), to another whose middle is s / sqrt(3) away, s the spacing: D = rate s^2 / 12.
+// A particle leaves the trap between three discs, which has the area F, through one of three gaps of width w
+// at the rate 3 w / (pi F). The centre of the next trap is s / sqrt(3) away, where s is the spacing. Hence D
+// = rate s^2 / 12.
 std::optional<double> machta_zwanzig(const Scene& scene) {
   const Atom* disc = only_ball(scene, 2);
   if (!disc) return std::nullopt;

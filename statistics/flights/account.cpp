@@ -21,7 +21,7 @@ namespace lorentz::flights {
 // ---- ranges
 
 bool Ranges::meets(std::uint64_t first, std::uint64_t last) const {
-  const auto next = ranges_.upper_bound(last);  // the range before begins at `last` at most
+  const auto next = ranges_.upper_bound(last);  // the preceding range begins at `last` or before
   return next != ranges_.begin() && std::prev(next)->second >= first;
 }
 
@@ -67,7 +67,7 @@ void Account::add(const Account& other) {
 
 namespace {
 
-// A histogram as pairs of a bin and its count; most are empty.
+// A histogram as pairs of a bin and its count. Empty bins are omitted, because most bins are empty.
 using Pairs = std::vector<std::array<json::Digits, 2>>;
 Pairs pairs_of(const std::vector<std::uint64_t>& counts) {
   Pairs pairs;
@@ -155,11 +155,11 @@ Account Account::of(std::string_view text) {
   }
 }
 
-// ---- does it fit together?
+// ---- consistency of an account
 
 namespace {
 
-// Flights of blocks that the plan has.
+// The number of flights in the blocks. Refuses blocks that are not in the plan.
 std::uint64_t flights_in(const Ranges& blocks, const FlightsPlan& plan) {
   if (blocks.all().empty()) return 0;
   if (blocks.all().rbegin()->second >= plan.blocks()) refuse("a block that the plan has not");
@@ -167,13 +167,13 @@ std::uint64_t flights_in(const Ranges& blocks, const FlightsPlan& plan) {
   return blocks.size() * kBlock - (has_last ? plan.blocks() * kBlock - plan.count : 0);
 }
 
-// No count is above n, and together they are n.
+// Whether no count is above n and their sum is n.
 bool add_up_to(std::uint64_t n, const std::vector<std::uint64_t>& counts) {
   if (std::any_of(counts.begin(), counts.end(), [&](std::uint64_t count) { return count > n; })) return false;
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}) == n;
 }
 
-// Is a sum of n numbers from `least` to `most` possible? Rounded, all of it is still in this order.
+// Whether the sum is possible for n numbers from `least` to `most`. Rounding preserves this order.
 bool lies_between(const ExactSum& sum, std::uint64_t n, double least, double most) {
   const auto number = static_cast<double>(n);
   return n == 0 ? sum == ExactSum() : number * least <= sum.value() && sum.value() <= number * most;
@@ -183,7 +183,7 @@ double squared(double t) {
   return std::min(t * t, std::numeric_limits<double>::max());
 }
 
-// The first and the last bin that are not empty must be those of the extremes.
+// Whether the first and the last non-empty bin are those of the extremes.
 bool has_extremes(const Bins& bins, double shortest, double longest) {
   Bins ends(bins.exponent());
   ends.count(shortest), ends.count(longest);
@@ -199,7 +199,7 @@ bool has_extremes(const Bins& bins, double shortest, double longest) {
   return true;
 }
 
-// Logarithms may differ in their last digits from one machine to another.
+// The slack is needed because the last digits of logarithms may differ between machines.
 bool has_logarithms(const FlightTally& tally) {
   const double slack = 1e-9 * 745 * static_cast<double>(tally.logarithms);
   const double least = tally.shortest > 0 ? std::log(tally.shortest) : std::log(0x1p-1074);

@@ -1,5 +1,5 @@
-// What a run of flights has come to so far: which of its blocks are done, and their tally. As JSON it is what
-// a run is gone on from, and what shards of one run are added up from.
+// The state of a run of flights: which of its blocks are done, and their tally. A run is resumed from this
+// state in JSON, and the shards of one run are added up from it.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,23 @@
 
 namespace lorentz::flights {
 
-/// Flights are flown in blocks of so many that follow one another; the last may be shorter.
+/// The number of consecutive flights in a block; the last block may be shorter.
 inline constexpr std::uint64_t kBlock = 1 << 16;
 
-/// A set of numbers, as ranges with gaps between them. Looking up and inserting one of n takes O(log n).
+/// A set of numbers, stored as ranges with gaps between them. Lookup and insertion take O(log n) for n
+/// ranges.
 class Ranges {
  public:
-  /// The numbers first to last. Throws std::invalid_argument, and changes nothing, if last < first, or the
-  /// set has one of them.
+  /// Inserts the numbers first to last. Throws std::invalid_argument and changes nothing if last < first or
+  /// if the set already has one of them.
   void insert(std::uint64_t first, std::uint64_t last);
   void insert(std::uint64_t number) { insert(number, number); }
-  /// Throws std::invalid_argument, and changes nothing, if both have a number in common.
+  /// Throws std::invalid_argument and changes nothing if the sets have a number in common.
   void add(const Ranges& other);
   bool contains(std::uint64_t number) const { return meets(number, number); }
   std::uint64_t size() const;
 
-  /// The last number of each range by its first.
+  /// Maps the first number of each range to its last.
   const std::map<std::uint64_t, std::uint64_t>& all() const { return ranges_; }
 
   bool operator==(const Ranges&) const = default;
@@ -41,22 +42,22 @@ class Ranges {
 struct FlightsPlan;
 
 struct Account {
-  Ranges done;  ///< numbers of blocks
+  Ranges done;  ///< the numbers of the finished blocks
   FlightTally tally;
 
-  /// What a run of this plan begins with.
+  /// The account at the beginning of a run of this plan.
   static Account begun(const FlightsPlan& plan);
 
-  /// Another account of the same plan; throws std::invalid_argument if a block is in both.
+  /// Adds another account of the same plan. Throws std::invalid_argument if a block is in both.
   void add(const Account& other);
 
-  /// Throws InputError if no run of this plan can have come to this: a block that the plan has not, counts
-  /// that do not add up to the flights of the blocks, sums or extremes that the bins exclude.
+  /// Throws InputError if no run of this plan can produce this account: if a block is not in the plan, the
+  /// counts do not add up to the flights of the blocks, or the bins exclude the sums or extremes.
   void check(const FlightsPlan& plan) const;
 
   /// A JSON object.
   std::string text() const;
-  /// What text() gave. Throws InputError.
+  /// The inverse of text(). Throws InputError.
   static Account of(std::string_view text);
 
   bool operator==(const Account&) const = default;

@@ -1,4 +1,4 @@
-// Bins of times whose edges are exact in binary64, so that a count is the same on every machine.
+// Bins of times. Their edges are exact in binary64, so that counts are the same on every machine.
 #pragma once
 
 #include <bit>
@@ -7,7 +7,7 @@
 
 namespace lorentz::flights {
 
-/// Two histograms of times. Logarithmic: eight bins an octave, with the edges 2^k (1 + j/8), from 2^-40 to
+/// Two histograms of times. Logarithmic: eight bins per octave, with the edges 2^k (1 + j/8), from 2^-40 to
 /// 2^60 units. Linear: 256 bins of 1/16 unit. The unit is a power of two, 2^exponent, near the mean free path
 /// of a dilute gas of the same obstacles.
 class Bins {
@@ -29,15 +29,15 @@ class Bins {
   double log_edge(int i) const;
   double linear_edge(int i) const;
 
-  /// First below the first edge, then the bins, last beyond the last edge.
+  /// The count below the first edge, the bins, and the count beyond the last edge.
   std::vector<std::uint64_t> logarithmic = std::vector<std::uint64_t>(kLogarithmic + 2);
-  /// The bins, last beyond the last edge.
+  /// The bins, and the count beyond the last edge.
   std::vector<std::uint64_t> linear = std::vector<std::uint64_t>(kLinear + 1);
 
   bool operator==(const Bins&) const = default;
 
  private:
-  // The exponent and the three highest bits of the fraction number the bins of all positive numbers.
+  // The exponent and the three highest bits of the fraction give the bin number of a positive number.
   static constexpr int kShift = 49;
 
   std::size_t log_index(double time) const {

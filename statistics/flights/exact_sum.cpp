@@ -29,22 +29,22 @@ void ExactSum::add(double x) {
 }
 
 void ExactSum::add(const ExactSum& other) {
-  carry();  // below 2^32 then, and the other's below 2^62
+  carry();  // now digits are below 2^32, and the other's below 2^62
   for (std::size_t i = 0; i < kDigits; ++i) digits_[i] += other.digits_[i];
   carry();
 }
 
-// All digits in [0, 2^32), but for the highest, which has the sign.
+// Brings all digits into [0, 2^32), except the highest, which has the sign.
 void ExactSum::carry() {
   for (std::size_t i = 0; i + 1 < kDigits; ++i) {
     const std::int64_t over = digits_[i] >> kDigitBits;
     digits_[i] -= over * (std::int64_t{1} << kDigitBits);
     digits_[i + 1] += over;
   }
-  pending_ = 1;  // what is carried over counts as a number
+  pending_ = 1;  // the carried digits count as one number
 }
 
-// Its size, carried; and its sign.
+// The absolute value, with carried digits, and the sign.
 ExactSum ExactSum::size(bool& negative) const {
   ExactSum sum = *this;
   sum.carry();
@@ -61,14 +61,14 @@ double ExactSum::value() const {
   const ExactSum sum = size(negative);
   int top = kDigits - 1;
   while (top > 0 && sum.digits_[static_cast<std::size_t>(top)] == 0) --top;
-  // The four highest digits have at least 97 bits; what is below them only breaks ties.
+  // The four highest digits have at least 97 bits. Lower digits only break ties.
   Wide head = 0;
   for (int i = top; i > top - 4; --i)
     head =
         head << kDigitBits | static_cast<std::uint32_t>(i < 0 ? 0 : sum.digits_[static_cast<std::size_t>(i)]);
   for (int i = 0; i <= top - 4; ++i)
     if (sum.digits_[static_cast<std::size_t>(i)] != 0) head |= 1;
-  // To the 53 bits that the result has, or to fewer where it is subnormal: then scaling does not round.
+  // Round to the 53 bits of the result, or to fewer if it is subnormal, so that the scaling does not round.
   const int place = kDigitBits * (top - 3) + kLowest;
   int bits = 0;
   for (Wide rest = head; rest != 0; rest >>= 1) ++bits;

@@ -1,4 +1,4 @@
-// A sum of binary64 numbers without rounding, so that it does not depend on their order.
+// A sum of binary64 numbers without rounding. It does not depend on their order.
 #pragma once
 
 #include <array>
@@ -8,27 +8,29 @@
 
 namespace lorentz::flights {
 
-/// The same to the bit however the numbers are split among threads, processes and machines, and whenever the
-/// parts are added. (Kulisch's long accumulator: an integer in units of 2^-1074, in digits of 32 bits.)
+/// The sum is the same to the bit however the numbers are split among threads, processes and machines, and
+/// whenever the parts are added. (Kulisch's long accumulator: an integer in units of 2^-1074, in digits of 32
+/// bits.)
 class ExactSum {
  public:
-  /// Of finite numbers.
+  /// x must be finite.
   void add(double x);
   void add(const ExactSum& other);
 
-  /// The nearest binary64; an infinity beyond them.
+  /// The nearest binary64 number; an infinity if the sum is out of range.
   double value() const;
 
-  /// The number in units of 2^-1074, in hexadecimal, like -1f3; and back. Throws std::invalid_argument.
+  /// The sum in units of 2^-1074, in hexadecimal, such as -1f3, and the inverse. `of` throws
+  /// std::invalid_argument.
   std::string text() const;
   static ExactSum of(std::string_view text);
 
   bool operator==(const ExactSum& other) const;
 
  private:
-  // 2098 bits for one number, and 62 for how many there are.
+  // 2098 bits for one number, and 62 for the number of summands.
   static constexpr int kDigits = 68, kDigitBits = 32, kLowest = -1074;
-  // So many numbers may be added before a digit that grows by less than 2^32 each time overflows.
+  // The number of summands before a digit can overflow; each summand adds less than 2^32 to a digit.
   static constexpr std::uint32_t kMostPending = 1u << 30;
 
   void carry();

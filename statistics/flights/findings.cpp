@@ -31,7 +31,7 @@ std::optional<TailConstant> FlightsFindings::measured_constant_of(const Tail& ta
   return tail_constant(edges, counts, total, slow, tail_begins(slow.power, total) * *mean.value);
 }
 
-// What is shorter than `from` is one bin.
+// All paths shorter than `from` are one bin.
 ChiSquared FlightsFindings::fit_of(const std::function<double(double)>& survival, double from) const {
   std::size_t first = 0;
   while (first + 1 < edges.size() && edges[first] < from) ++first;

@@ -1,4 +1,4 @@
-// What theory says of a run, and how the counts fit it.
+// The predictions of theory for a run, and how well the counts fit them.
 #pragma once
 
 #include <optional>
@@ -12,26 +12,26 @@
 
 namespace lorentz::flights {
 
-/// Flights that the engine left undecided are in no bin.
+/// Flights that the engine answers with `undecided` are in no bin.
 struct FlightsFindings {
   explicit FlightsFindings(const FlightsReport& report);
 
   struct Fit {
     Law law;
-    ChiSquared as_it_is, two_percent_more;  ///< the second shows what the test can see
-    std::optional<double> local_exponent;   ///< of its density, from where that of the flights is
+    ChiSquared as_it_is, two_percent_more;  ///< the second shows the power of the test
+    std::optional<double> local_exponent;   ///< of its density, from where that of the flights begins
   };
 
-  std::vector<double> edges;                  ///< of the logarithmic bins
-  std::vector<std::uint64_t> counts, beyond;  ///< beyond[i]: longer than edges[i], or without end
+  std::vector<double> edges;                  ///< edges of the logarithmic bins
+  std::vector<std::uint64_t> counts, beyond;  ///< beyond[i]: longer than edges[i], or endless
   std::uint64_t total = 0;
   std::vector<Fit> fits;
-  std::string no_law;       ///< why there is none
-  std::vector<Tail> tails;  ///< that of long paths the last
+  std::string no_law;       ///< why no law is known
+  std::vector<Tail> tails;  ///< the tail of long paths is the last
   std::optional<TailExponent> exponent;
-  MeanFreePath mean;  ///< from collision to collision
+  MeanFreePath mean;  ///< between collisions
 
-  /// The tail's constant as measured, where the tail is approached so slowly that it must be extrapolated.
+  /// The measured constant of a tail that is approached so slowly that its constant must be extrapolated.
   std::optional<TailConstant> measured_constant_of(const Tail& tail) const;
 
  private:

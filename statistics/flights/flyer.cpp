@@ -7,7 +7,7 @@
 namespace lorentz::flights {
 namespace {
 
-// So many flights are drawn and flown together that their columns stay in the cache.
+// The number of flights that are drawn and flown together: small enough that their columns stay in the cache.
 constexpr std::uint64_t kTogether = 4096;
 
 }  // namespace
@@ -26,7 +26,7 @@ void Flyer::fly(std::uint64_t first, std::uint64_t count, FlightTally& tally) {
   }
 }
 
-// False: the start lies in an obstacle.
+// Counts a flight. Returns false if the start lies in an obstacle.
 bool Flyer::count(const Flight& flight, std::uint64_t index, FlightTally& tally) {
   switch (flight.outcome) {
     case Outcome::hit:

@@ -1,4 +1,4 @@
-// One block of flights after the other: draws the starts, flies them, counts.
+// Draws the starts of flights, flies them and counts the results, block by block.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace lorentz::flights {
 
-/// A thread's own.
+/// Each thread has its own Flyer.
 class Flyer {
  public:
   Flyer(const FlightsPlan& plan, const question::ColumnFlyer& engine);
 
-  /// Flies the starts [first, first + count), and adds what came of them. Throws InputError if a start cannot
-  /// be found, or the engine cannot answer.
+  /// Flies the starts [first, first + count) and adds the results to the tally. Throws InputError if a start
+  /// cannot be found, or the engine cannot answer.
   void fly(std::uint64_t first, std::uint64_t count, FlightTally& tally);
 
  private:
@@ -28,7 +28,7 @@ class Flyer {
   starts::StartColumns columns_;
   QueryTable again_;
   FlightTable flights_;
-  std::uint64_t inside_in_a_row_ = 0;  ///< candidates
+  std::uint64_t inside_in_a_row_ = 0;  ///< consecutive candidates inside
   std::vector<std::uint64_t> inside_;  ///< starts whose last candidate lay in an obstacle
 };
 

@@ -1,4 +1,4 @@
-// The pictures of runs of flights: survival and density over time, theory drawn in.
+// Pictures of runs of flights: survival and density over time, with the curves of theory.
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +23,7 @@ std::string title_of(const std::vector<FlightsReport>& reports) {
   return fmt::format("Free paths: {}{} starts", scene, name_of(first.plan.from));
 }
 
-// The first of each scene.
+// The names of the laws: the first law of each scene.
 std::string laws_behind(const std::vector<FlightsReport>& reports) {
   std::vector<std::string> names;
   for (const FlightsReport& report : reports) {
@@ -34,7 +34,7 @@ std::string laws_behind(const std::vector<FlightsReport>& reports) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// What both pictures say: of which scene and starts, and how many.
+// The parts that both pictures share: scene, starts, number of flights.
 FreePathPlot plot_of(const std::vector<FlightsReport>& reports, const PictureStyle& style) {
   const FlightsReport& first = reports.front();
   const auto nothing_hit = [](const FlightsReport& report) { return report.account.tally.hits == 0; };
@@ -50,7 +50,7 @@ FreePathPlot plot_of(const std::vector<FlightsReport>& reports, const PictureSty
   return plot;
 }
 
-// By what differs.
+// The names of the series: the properties in which the reports differ.
 std::vector<std::string> series_names(const std::vector<FlightsReport>& reports) {
   const bool one_scene = are_of_one_scene(reports);
   std::vector<std::string> names;
@@ -61,8 +61,8 @@ std::vector<std::string> series_names(const std::vector<FlightsReport>& reports)
   return names;
 }
 
-// A curve of theory, of the last series: grey if there is but one, else in its points' colour. The legend has each
-// name once.
+// Adds a theory curve for the last series: grey if there is only one series, else in the colour of its
+// points. The legend lists each name once.
 void add_curve(FreePathPlot& plot, bool is_grey, PlotCurve curve) {
   curve.series = is_grey ? -1 : static_cast<int>(plot.series.size()) - 1;
   for (const PlotCurve& other : plot.curves)
@@ -76,7 +76,7 @@ constexpr int kPointsAnOctave = 2, kCurveAnOctave = 8;
 constexpr std::uint64_t kFewest = 10;  // flights behind a point
 constexpr double kNearlyAllShown = 0.995;
 
-// From where on paths end at all, to where too few go on.
+// From the first edge at which paths have ended, to the last edge that enough paths pass.
 struct PathSpan {
   std::size_t first = 0, last = 0;
 };
@@ -100,7 +100,7 @@ PlotCurve survival_curve(const std::string& name, const FlightsFindings& found, 
   return curve;
 }
 
-// The power, from where it is below one half.
+// The power law, drawn from where it is below one half.
 PlotCurve tail_curve(const Tail& tail, const FlightsFindings& found, PathSpan span) {
   const double power = *tail.exponent - 1;
   const auto survival = [&](double t) { return *tail.constant * std::pow(t, -power); };
@@ -130,9 +130,9 @@ void add_survival(FreePathPlot& plot, const FlightsReport& report, const std::st
 // ---- density: both axes linear, and from 0
 
 constexpr double kMostPoints = 48, kCurvePerBin = 4;
-constexpr double kHardlyAny = 0.01;  // of the highest density: the picture ends there
+constexpr double kHardlyAny = 0.01;  // fraction of the highest density at which the picture ends
 
-// Some linear bins taken together, so that points can be told apart.
+// Several linear bins combined, so that points can be told apart.
 struct Density {
   double from, to, value, error;
 };
@@ -158,7 +158,7 @@ std::vector<Density> densities_of(const FlightsFindings& found, const Bins& bins
   return points;
 }
 
-// `unit`: of times.
+// `unit`: the unit of time.
 void add_density(FreePathPlot& plot, const FlightsReport& report, double unit, const std::string& name,
                  bool is_alone) {
   const FlightsFindings found(report);
@@ -191,8 +191,8 @@ std::string survival_svg(const std::vector<FlightsReport>& reports, const Pictur
   return draw_free_paths(plot);
 }
 
-// Times in mean free paths from collision to collision, where that mean is known: the limit law is one curve
-// then.
+// Times are in units of the mean free path between collisions, if it is known. In these units the limit law
+// is one curve.
 std::string density_svg(const std::vector<FlightsReport>& reports, const PictureStyle& style) {
   FreePathPlot plot = plot_of(reports, style);
   plot.axes = pictures::AxisScale::linear;

@@ -1,4 +1,4 @@
-// What is to be flown.
+// The plan of a run: which flights to fly.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace lorentz::flights {
 
-/// Wide enough for flights of 10^4 cells, so that they see no two places of a superposition alike.
+/// Wide enough for flights of 10^4 cells, so that they find no two places of a superposition alike.
 inline constexpr std::uint64_t kCellsOfBox = 100'000'000;
 
 /// The flights 0 to count - 1 from the drawn starts of a scene.
@@ -20,17 +20,16 @@ struct FlightsPlan {
   std::string engine = "batch";
   Ensemble from = Ensemble::uniform;
   std::uint64_t seed = 0, count = 0;
-  std::uint64_t cells =
-      kCellsOfBox;  ///< of the first lattice, in the box in which a superposition's starts lie
+  std::uint64_t cells = kCellsOfBox;  ///< of the first lattice, in the box with the starts of a superposition
 
   std::uint64_t blocks() const;
 
-  /// All of it, as names and values: what two runs have in common that can be added up.
+  /// The whole plan as names and values. Two runs can be added up only if these agree.
   std::vector<std::pair<std::string, std::string>> words() const;
 };
 
-/// The exponent of the unit in which times are counted: near the mean free path of a dilute gas of these
-/// obstacles, and nothing that answers depend on.
+/// The exponent of the unit in which times are counted. The unit is near the mean free path of a dilute gas
+/// of these obstacles. Answers do not depend on it.
 int unit_exponent(const Scene& scene);
 
 }  // namespace lorentz::flights

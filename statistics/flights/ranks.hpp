@@ -16,14 +16,15 @@ class Ranks : public runs::World {
   Ranks();
   ~Ranks();
 
-  /// A run begins, the first or the next one: what rank 0 has of it already, told to all.
+  /// Begins a run, the first or a later one: rank 0 sends its account so far to all ranks.
   void share(Account& account);
 
-  /// The other ranks: this is what came of their blocks so far; the last time, of all of them.
+  /// For the ranks other than 0: reports the account of their blocks so far; the last report covers all of
+  /// them.
   void report(const Account& account, bool last);
 
-  /// Rank 0: the account with what all others have reported. Without waiting; or when all of them have
-  /// reported for the last time.
+  /// For rank 0: the sum of its account and the latest reports of all others. `wait`: waits until all of them
+  /// have sent their last report.
   Account sum(const Account& own, bool wait);
 
  private:

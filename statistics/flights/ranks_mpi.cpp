@@ -1,5 +1,5 @@
-// Ranks by MPI. What is sent are accounts, as text; each is all that a rank has done so far, so that one that
-// is overtaken by the next is not missed.
+// Ranks by MPI. The messages are accounts as text. Each account covers all that a rank has done so far, so
+// that an account may be replaced by a later one.
 #include <boost/serialization/string.hpp>
 #include <chrono>
 #include <thread>
@@ -14,12 +14,12 @@ namespace mpi = boost::mpi;
 
 enum FlightsMessage { kSoFar = 1, kLast };
 
-// A wait inside MPI keeps a processor busy.
+// The interval between polls. A wait inside MPI would keep a processor busy.
 constexpr std::chrono::milliseconds kLook{2};
 
 }  // namespace
 
-// Of rank 0: what the others have reported of this run.
+// For rank 0: the reports of the others in this run.
 struct Ranks::Inbox {
   std::vector<std::string> latest;  // from each rank
   int at_work = 0;
@@ -38,7 +38,7 @@ Ranks::Ranks() = default;
 Ranks::~Ranks() = default;
 
 void Ranks::share(Account& account) {
-  // All reports of the run before have been received.
+  // All reports of the previous run have been received.
   inbox_ = std::make_unique<Inbox>(size());
   std::string text = rank() == 0 ? account.text() : std::string();
   mpi::broadcast(mpi().world, text, 0);

@@ -18,7 +18,7 @@ using json::finite;
 
 namespace {
 
-// A test of fit; where there is but one bin nothing is tested.
+// The result of a test of fit. With only one bin nothing is tested.
 std::string text_of(const ChiSquared& fit) {
   if (!fit.p_value) return "not tested: too few flights for two bins";
   const double p = *fit.p_value;
@@ -27,7 +27,7 @@ std::string text_of(const ChiSquared& fit) {
                                           : fmt::format("{:.4f}", p));
 }
 
-// What the mean and its error mean, where they do not mean what they look like, or may not.
+// A warning if the mean or its error do not, or may not, have their usual meaning.
 std::string remark_on_mean(Ensemble from, const Tail& long_paths) {
   const bool uniform = from == Ensemble::uniform;
   if (!long_paths.open)
@@ -106,7 +106,7 @@ std::optional<double> exact_mean(const FlightsReport& report, const FlightsFindi
   return report.plan.from == Ensemble::surface ? found.mean.value : std::nullopt;
 }
 
-// Of one hit there is no standard error.
+// One hit has no standard error.
 std::string line_of_mean(const FlightsReport& report, const FlightsFindings& found) {
   const double mean = report.account.tally.mean(), error = report.account.tally.standard_error();
   const bool has_error = std::isfinite(error);
@@ -121,7 +121,8 @@ std::string line_of_mean(const FlightsReport& report, const FlightsFindings& fou
   return text;
 }
 
-// A first flight from anywhere is another one than a flight between collisions, which "mean free path" means.
+// "Mean free path" means that of flights between collisions. The first flight from a uniform start differs
+// from these.
 std::string line_of_mean_free_path(const FlightsFindings& found) {
   const std::string value = found.mean.value ? fmt::format("{:.10g}", *found.mean.value) : "not known";
   return fmt::format("mean free path between collisions (--from surface): {} ({})\n", value, found.mean.how);
@@ -206,7 +207,7 @@ const Law* law_called(const std::string& name, const FlightsFindings& found) {
   return nullptr;
 }
 
-// One histogram's rows. Below the first edge nothing is expected but what theory has there.
+// The rows of one histogram. `below`: the count below the first edge, which has no row.
 void append_rows(std::string& text, const std::string& bins, const FlightsFindings& found,
                  const LawNames& laws, const std::vector<std::uint64_t>& counts,
                  const std::function<double(int)>& edge, std::uint64_t below) {
@@ -229,7 +230,7 @@ void append_rows(std::string& text, const std::string& bins, const FlightsFindin
   }
 }
 
-// Of all reports, each once.
+// The names of the laws of all reports, each once.
 LawNames law_names(const std::vector<FlightsFindings>& findings) {
   LawNames names;
   for (const FlightsFindings& found : findings)
@@ -251,7 +252,7 @@ std::optional<double> radius_of(const FlightsReport& report) {
   return report.radius ? report.radius : report::common_radius(report.plan.scene);
 }
 
-// At every other bin, where there is chance for a point.
+// The points of the curve, at every other edge. Edges that no path or nearly all paths pass are left out.
 report::FreePathCurve curve_of(const FlightsReport& report, const FlightsFindings& found) {
   constexpr std::size_t kStep = Bins::kAnOctave / 4;
   constexpr double kNearlyAll = 0.995;

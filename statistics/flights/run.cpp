@@ -18,8 +18,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetweenNews{200};
 
-// The blocks, handed out in order; and what came of them. The account is the caller's, and only touched under
-// the lock.
+// Hands out the blocks in order and collects their tallies. The account belongs to the caller and is accessed
+// only under the lock.
 class BlockLedger {
  public:
   BlockLedger(const FlightsPlan& plan, const FlightBounds& bounds, Account& account)
@@ -29,7 +29,7 @@ class BlockLedger {
                                 std::chrono::duration<double>(std::min(bounds.seconds, 1e9)));
   }
 
-  // False: there is nothing left to do.
+  // Returns false if nothing is left to do.
   bool take(std::uint64_t& block) {
     const std::lock_guard lock(mutex_);
     if (failure_ || is_enough()) return false;
@@ -54,7 +54,7 @@ class BlockLedger {
     left_.notify_all();
   }
 
-  // Waits until all have left; tells the news now and then. Throws what a thread threw.
+  // Waits until all threads have left, and reports progress at intervals. Rethrows an exception of a thread.
   void watch(unsigned jobs, const OnProgress& on_progress) {
     std::unique_lock lock(mutex_);
     at_work_ += static_cast<int>(jobs);

@@ -1,4 +1,4 @@
-// Flies a plan on threads, block by block, and tells on the way how far it is.
+// Flies a plan on threads, block by block, and reports progress.
 #pragma once
 
 #include <atomic>
@@ -11,18 +11,18 @@ namespace lorentz::flights {
 
 struct FlightBounds {
   unsigned jobs = 1;
-  double seconds = 0;                       ///< stop after so long; 0: when all is flown
+  double seconds = 0;                       ///< stop after this time; 0: when all is flown
   std::uint64_t shard = 0, shards = 1;      ///< only the blocks `shard` modulo `shards`
-  Ranges done = {};                         ///< blocks that are not to be flown, besides those of the account
+  Ranges done = {};                         ///< blocks to skip, besides those of the account
   const std::atomic<bool>* stop = nullptr;  ///< stop when this becomes true
 };
 
-/// Called from one thread at a time, several times a second, and when all has ended.
+/// Called from one thread at a time, several times a second, and at the end.
 using OnProgress = std::function<void(const Account&)>;
 
-/// Adds to the account the blocks that it has not and that are this shard's, until all are done or the bounds
-/// say that it is enough. A block is in it whole, or not at all: at every call of `on_progress` the account
-/// is one that can be gone on from. Throws InputError where the plan cannot be flown.
+/// Adds the missing blocks of this shard to the account, until all are done or the bounds are reached. The
+/// account contains a block as a whole or not at all, so that at every call of `on_progress` the run can be
+/// resumed from the account. Throws InputError if the plan cannot be flown.
 void run(const FlightsPlan& plan, const FlightBounds& bounds, Account& account,
          const OnProgress& on_progress = {});
 

@@ -1,4 +1,4 @@
-// What many trajectories came to, for people, programs, pictures and pages.
+// The results of many trajectories as text, JSON, CSV, pictures and pages.
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +30,7 @@ double Arithmetic::share(std::uint64_t k) const {
   return static_cast<double>(lasting) / static_cast<double>(right.size());
 }
 
-// Up to where a share is shown: its first 0, or the last collision that was looked at.
+// The last collision for which a share is shown: that of its first 0, or the last one examined.
 std::uint64_t Survival::last_of(const Arithmetic& one) const {
   return std::min(plan.collisions, *std::max_element(one.right.begin(), one.right.end()) + 1);
 }

@@ -18,7 +18,7 @@ oracle::Request request_until(double max_time) {
   return request;
 }
 
-// Another program is asked one query at a time: the next depends on its answer.
+// Another program is asked one query at a time, because the next query depends on its answer.
 AskFirstHit ask_command(question::Answerer& program) {
   return [&program](const Query& query, double, Answer& answer) {
     program.on_reply([&](const question::Reply& reply) { answer = reply.answer; });

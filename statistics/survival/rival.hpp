@@ -1,4 +1,4 @@
-// An engine's trajectory, held against the certified one collision by collision.
+// An engine's trajectory, compared with the certified one collision by collision.
 #pragma once
 
 #include <memory>
@@ -13,34 +13,36 @@
 
 namespace lorentz::survival {
 
-/// An engine of this program as trajectories ask it.
+/// An engine of this program as the function that a trajectory asks.
 AskFirstHit asking(const question::EngineInfo& engine, const Scene& scene);
 
-/// A trajectory with the flights of an engine by name (`cmd:` too), from the binary64 nearest to the start,
-/// in the binary64 scene nearest to the scene.
+/// A trajectory that an engine flies, also an external one (`cmd:`). It begins at the binary64 start nearest
+/// to the given start, in the binary64 scene nearest to the given scene.
 class Rival {
  public:
-  /// Throws InputError for a start that the engine's trajectory cannot have. `listener`: is told what became of
-  /// another program.
+  /// Throws InputError if the engine's trajectory does not support the start. `listener` gets the events of
+  /// an external program.
   Rival(const question::EngineInfo& engine, Precision precision, const RationalScene& scene,
         const Start& start, question::Listener listener = {});
 
-  /// The next certified collision: the rival makes its own, and is compared, as long as it has not diverged.
+  /// Takes the next certified collision, and compares it with the rival's own next collision. Does nothing
+  /// once the rival has diverged.
   void meet(const oracle::CertifiedCollision& truth);
 
-  /// The certified journey is over, at the time `until` if there is one: so does the rival, and a collision
-  /// more is a difference.
+  /// Ends the rival's trajectory, because the certified one has ended, at the time `until` if it is given. A
+  /// further collision of the rival counts as a difference.
   void finish(std::uint64_t collisions, std::optional<double> until);
 
-  /// Goes on by itself to so many collisions, for its path.
+  /// Continues alone up to this number of collisions, to record the path.
   void go_on(std::uint64_t collisions);
 
   std::optional<std::uint64_t> diverged() const { return diverged_; }
-  /// Bits in which it agreed with the last certified collision's place, seen from the obstacle; at most 53.
+  /// The number of bits in which it agrees with the place of the last certified collision, relative to the
+  /// obstacle; at most 53.
   double bits_right() const { return bits_right_; }
-  /// True if it was another program, and that broke.
+  /// True if the engine is an external program and failed.
   bool failed() const { return command_ && command_->failed(); }
-  /// Why it stopped, if it did; else empty.
+  /// Why it stopped; empty if it did not stop.
   std::string stopped() const;
   const std::vector<Vec>& path() const { return path_; }
 
@@ -53,7 +55,7 @@ class Rival {
   std::vector<Vec> path_;
 };
 
-/// Where a certified collision is, rounded.
+/// The place of a certified collision, rounded.
 Vec place_of(const Scene& scene, const oracle::CertifiedCollision& collision);
 
 }  // namespace lorentz::survival

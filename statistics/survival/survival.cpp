@@ -8,7 +8,7 @@ namespace {
 
 using oracle::CertifiedCollision;
 
-// One start in one arithmetic, as long as it is right.
+// Follows one start in one arithmetic, as long as it is right.
 class Runner {
  public:
   Runner(const Arithmetic& arithmetic, const question::EngineInfo& engine, const RationalScene& scene,
@@ -20,7 +20,7 @@ class Runner {
       rounded_ = std::make_unique<oracle::RoundedItinerary>(scene, start, arithmetic.bits);
   }
 
-  /// False from the first wrong obstacle on.
+  /// Returns false from the first wrong obstacle on.
   bool meet(const CertifiedCollision& truth) {
     if (!is_right_) return false;
     if (rival_) rival_->meet(truth);
@@ -57,7 +57,7 @@ void follow(const RationalScene& scene, const Start& start, const std::atomic<bo
     for (Runner& runner : runners) any |= runner.meet(truth);
     return any;
   });
-  if (stop) return;  // the last start is not whole
+  if (stop) return;  // the last start is incomplete
   for (std::size_t i = 0; i < runners.size(); ++i)
     survival.arithmetics[i].right.push_back(runners[i].right());
 }

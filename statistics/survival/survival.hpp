@@ -1,4 +1,4 @@
-// How many collisions of a trajectory are right in arithmetic with a given number of bits.
+// The number of right collisions of a trajectory in arithmetic with a given number of bits.
 #pragma once
 
 #include <atomic>
@@ -14,24 +14,24 @@
 
 namespace lorentz::survival {
 
-/// Arithmetic of so many bits: 53 and 106 are an engine's trajectory in binary64 and double-double, others
-/// the plain one of RoundedItinerary.
+/// Arithmetic with a given number of bits. 53 and 106 bits are the engine's trajectory in binary64 and
+/// double-double; other numbers of bits are the plain arithmetic of RoundedItinerary.
 struct Arithmetic {
   long bits;
-  std::vector<std::uint64_t> right{};  ///< of each start: collisions before the first wrong one
+  std::vector<std::uint64_t> right{};  ///< for each start: collisions before the first wrong one
 
   std::string name(const std::string& engine) const;
   double mean() const;
-  double share(std::uint64_t k) const;  ///< of the starts with at least k right collisions
+  double share(std::uint64_t k) const;  ///< the share of starts with at least k right collisions
 };
 
 struct SurvivalPlan {
-  std::string scene_name;  ///< as it was asked for
-  Scene scene;             ///< of lattices in all directions, without flaws
+  std::string scene_name;  ///< as given by the user
+  Scene scene;             ///< lattices that repeat in all directions, without flaws
   std::optional<double> radius;
-  question::EngineInfo engine;     ///< of this program
-  std::uint64_t count = 100;       ///< starts, off the surface of an obstacle (cosine law)
-  std::uint64_t collisions = 500;  ///< at most, of each start
+  question::EngineInfo engine;     ///< an engine of this program
+  std::uint64_t count = 100;       ///< starts, on the surface of an obstacle (cosine law)
+  std::uint64_t collisions = 500;  ///< at most, for each start
   std::uint64_t seed = starts::kDefaultSeed;
   std::vector<long> bits{53, 106, 128, 256};
 };
@@ -40,22 +40,22 @@ struct Survival {
   SurvivalPlan plan;
   std::vector<Arithmetic> arithmetics;
 
-  /// Starts that were followed to the end: fewer than were asked for if it was stopped.
+  /// The number of starts that were followed to the end. It is smaller than `count` if the run was stopped.
   std::uint64_t starts() const { return arithmetics.empty() ? 0 : arithmetics[0].right.size(); }
 
   std::string table() const;
-  std::string json() const;  ///< one object, in a line
-  std::string csv() const;   ///< the share of each arithmetic, collision by collision
+  std::string json() const;  ///< one object on one line
+  std::string csv() const;   ///< the shares of each arithmetic by number of collisions
   std::string svg() const;
-  std::string page_json(const std::string& command) const;  ///< the report of a page, of kind "survival"
+  std::string page_json(const std::string& command) const;  ///< the report for a page, kind "survival"
 
  private:
   std::uint64_t last_of(const Arithmetic& one) const;
 };
 
-/// Follows each start with certainty, and in each arithmetic until that hits another obstacle. Ends early when
-/// `stop` becomes true; `on_progress` hears how many starts are done. Throws InputError for a scene or bits that
-/// cannot be had.
+/// Follows each start with certainty, and in each arithmetic until that hits a wrong obstacle. Ends early
+/// when `stop` becomes true. `on_progress` gets the number of finished starts. Throws InputError for an
+/// unsupported scene or number of bits.
 Survival survival_of(const SurvivalPlan& plan, const std::atomic<bool>& stop,
                      const std::function<void(std::uint64_t)>& on_progress = {});
 

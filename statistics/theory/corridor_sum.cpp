@@ -11,11 +11,11 @@
 namespace lorentz::flights {
 namespace {
 
-// Points of the lattice to look at; more take longer than a second. With so many of them the sum is as good
-// as an integral if they are in many rows.
+// The most lattice points to examine; more take longer than a second. With this many points, the sum is as
+// good as an integral if the points lie in many rows.
 constexpr double kMostPoints = 1e7, kManyRows = 1000;
 
-// a, b so that |a| <= |b|, and b is the shortest of b + n a.
+// Reduces a and b, so that |a| <= |b| and b is the shortest of b + n a.
 void reduce(Vec& a, Vec& b) {
   for (int step = 0; step < 1000; ++step) {
     if (dot(b, b) < dot(a, a)) std::swap(a, b);
@@ -27,8 +27,8 @@ void reduce(Vec& a, Vec& b) {
 
 }  // namespace
 
-// A corridor along the primitive vector g is area / |g| - 2 r wide. C = sum of |g| width^2 / (pi free area),
-// of g and -g one.
+// A corridor along the primitive vector g has the width area / |g| - 2 r. C = sum of |g| width^2 / (pi free
+// area), where g and -g count once.
 std::optional<CorridorSum> corridor_tail_constant(const Lattice& lattice) {
   const double area = cell_volume(lattice, 2), r = lattice.atoms[0].radius, longest = area / (2 * r),
                free = area - volume_of(lattice.atoms[0], 2);
@@ -44,7 +44,7 @@ std::optional<CorridorSum> corridor_tail_constant(const Lattice& lattice) {
     const double height = static_cast<double>(n) * row, middle = -along * static_cast<double>(n),
                  half = std::sqrt((longest * longest - height * height) / a2);
     auto m = static_cast<std::int64_t>(std::ceil(middle - half));
-    if (n == 0) m = 1;  // of +-a one
+    if (n == 0) m = 1;  // a and -a count once
     for (; static_cast<double>(m) <= middle + half; ++m) {
       if (std::gcd(m, n) != 1) continue;
       const double length = std::hypot(height, (static_cast<double>(m) - middle) * std::sqrt(a2)),

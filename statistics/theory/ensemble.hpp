@@ -1,11 +1,12 @@
-// From where free flights start: what their statistics depend on.
+// The ensembles from which free flights start. The statistics depend on the ensemble.
 #pragma once
 
 namespace lorentz::flights {
 
-/// uniform: a start uniform in the space that the obstacles leave free, a direction that is isotropic.
-/// surface: a start uniform on the obstacles' surfaces, a direction by the cosine law about the outward
-/// normal: the flights from collision to collision of a gas in equilibrium.
+/// uniform: starts are uniform in the space outside the obstacles, directions are isotropic.
+///
+/// surface: starts are uniform on the surfaces of the obstacles, directions follow the cosine law about the
+/// outward normal. This is the ensemble of flights between collisions in a gas in equilibrium.
 enum class Ensemble { uniform, surface };
 
 constexpr const char* name_of(Ensemble ensemble) {

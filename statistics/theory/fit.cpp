@@ -29,7 +29,7 @@ struct Bin {
   std::uint64_t count;
 };
 
-// Neighbours merged, from the left, until 25 are expected in each.
+// Merges neighbouring bins, from the left, until 25 paths are expected in each.
 std::vector<Bin> merged(std::span<const double> edges, std::span<const std::uint64_t> counts, double total,
                         const std::function<double(double)>& survival) {
   constexpr double kLeastExpected = 25;
@@ -57,8 +57,8 @@ std::vector<Bin> merged(std::span<const double> edges, std::span<const std::uint
   return bins;
 }
 
-// Does the survival fall from 1 to 0, up to rounding? Else some bin has a chance below 0, which merging may
-// hide.
+// Whether the survival falls from 1 to 0, up to rounding. If not, some bin has a negative probability, which
+// merging may hide.
 bool is_law(std::span<const double> edges, const std::function<double(double)>& survival) {
   double before = 1;
   for (const double edge : edges) {
@@ -104,9 +104,9 @@ ChiSquared chi_squared(std::span<const double> edges, std::span<const std::uint6
 
 namespace {
 
-// Bins from a first edge on, with what was counted or is expected in them and beyond the last edge, under the
-// power law P(path > t) = (t / first edge)^-a. In u = ln t this is an exponential law, whose likelihood is
-// concave in a.
+// Bins from a first edge on, with the counts, observed or expected, in them and beyond the last edge. The
+// model is the power law P(path > t) = (t / first edge)^-a. In u = ln t this is an exponential law, whose
+// likelihood is concave in a.
 class BinnedTail {
  public:
   void add(double distance, double count) {
@@ -122,12 +122,12 @@ class BinnedTail {
       return -a * starts_[i] + (last ? 0 : std::log(-std::expm1(-a * width(i))));
     });
   }
-  // Its derivative: the sum of the paths' scores.
+  // The derivative of the log-likelihood: the sum of the paths' scores.
   double slope(double a) const {
     return over_bins([&](std::size_t i, bool last) { return score(a, i, last); });
   }
-  // What the counts say of the variance of that sum, over what the power law says: 1 but for chance if it is
-  // one.
+  // The variance of that sum as estimated from the counts, divided by the variance under the power law. If
+  // the law is a power law, this ratio is 1 up to statistical error.
   double scatter(double a) const {
     const double squares =
         over_bins([&](std::size_t i, bool last) { return score(a, i, last) * score(a, i, last); });
@@ -156,7 +156,7 @@ class BinnedTail {
   double total_ = 0;
 };
 
-// Where a function changes sign between `low` and `high`, to 13 digits.
+// The sign change of a function between `low` and `high`, to 13 digits.
 double zero_of(const std::function<double(double)>& f, double low, double high) {
   std::uintmax_t steps = 200;
   const auto [below, above] =
@@ -164,11 +164,11 @@ double zero_of(const std::function<double(double)>& f, double low, double high) 
   return (below + above) / 2;
 }
 
-// Tails fall like t^-(1 + a), a in this range. (Beyond it a is not to be had from counts.)
+// Tails fall like t^-(1 + a) with a in this range. (Outside it, a cannot be determined from counts.)
 constexpr double kFlattest = 1e-6, kSteepest = 1000;
 constexpr std::size_t kLeastBins = 3;
 
-// The a of largest likelihood, or nothing.
+// The a of maximum likelihood, or nothing.
 std::optional<double> best_power(const BinnedTail& tail) {
   const auto slope = [&](double a) { return tail.slope(a); };
   if (!(tail.total() > 0) || !(slope(kFlattest) > 0) || !(slope(kSteepest) < 0)) return std::nullopt;
@@ -192,11 +192,11 @@ std::optional<TailExponent> tail_exponent_from(std::size_t first, std::span<cons
   for (std::size_t i = first; i < edges.size(); ++i)
     tail.add(std::log(edges[i] / edges[first]), static_cast<double>(counts[i + 1]));
   const std::optional<double> a = best_power(tail);
-  constexpr double kLeastScatter = 1e-6;  // below, all paths are in one bin: nothing says how sure it is
+  constexpr double kLeastScatter = 1e-6;  // below, all paths are in one bin, so that no error is known
   const double scatter = a ? tail.scatter(*a) : 0;
   if (scatter < kLeastScatter) return std::nullopt;
-  // Half the 95 % point of chi-squared with one degree, in units in which the slope scatters as under a power
-  // law (Kent, Biometrika 69, 1982).
+  // Half the 95 % point of chi-squared with one degree of freedom, in units in which the slope scatters as
+  // under a power law (Kent, Biometrika 69, 1982).
   const double least = tail.log_likelihood(*a) - 1.9207294103470620 * scatter;
   const auto likely = [&](double x) { return tail.log_likelihood(x) - least; };
   TailExponent result;
@@ -211,7 +211,7 @@ std::optional<TailExponent> tail_exponent_from(std::size_t first, std::span<cons
 
 namespace {
 
-// The last edge with so many paths or more beyond it.
+// The last edge with at least `paths` paths beyond it.
 std::optional<std::size_t> edge_before(double paths, std::span<const double> edges,
                                        std::span<const std::uint64_t> counts) {
   double beyond = 0;

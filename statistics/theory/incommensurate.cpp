@@ -14,7 +14,7 @@ double from_integer(double x) {
   return std::fabs(x - std::round(x));
 }
 
-// Is a vector one of the reciprocal lattice, and not zero?
+// Whether a vector is a non-zero vector of the reciprocal lattice.
 bool is_reciprocal(const Vec& k, const Lattice& lattice, int dimension) {
   double far = 0, largest = 0;
   for (int i = 0; i < dimension; ++i) {
@@ -25,7 +25,7 @@ bool is_reciprocal(const Vec& k, const Lattice& lattice, int dimension) {
   return largest > 0.5 && far <= kCoincidence * largest;
 }
 
-// The reciprocal vectors with indices up to `most`, zero included.
+// The reciprocal vectors with indices up to `most`, including zero.
 std::vector<Vec> reciprocal_vectors(const Lattice& lattice, int dimension, int most) {
   const std::array<Vec, 3> dual = dual_of(lattice.vectors, dimension);
   const int third = dimension == 3 ? most : 0;
@@ -52,8 +52,8 @@ bool three_add_up(const Lattice& a, const Lattice& b, const Lattice& c, int dime
   return false;
 }
 
-// Unit normals of the rows, or planes, between which a lattice leaves a way open: 1/|k| apart for a
-// reciprocal vector k, across which its obstacles are 2 |A^T k| / |k| wide.
+// The unit normals of the rows (2D) or planes (3D) between which a lattice leaves a channel open. For a
+// reciprocal vector k they are 1/|k| apart, and the obstacles are 2 |A^T k| / |k| wide along k.
 std::vector<Vec> normals_of_ways(const Lattice& lattice, int dimension) {
   std::vector<Vec> found;
   for (const Vec& k : reciprocal_vectors(lattice, dimension, dimension == 2 ? 16 : 4)) {
@@ -75,7 +75,7 @@ double angle_between(const Vec& a, const Vec& b) {
 }  // namespace
 
 bool commensurable(const Lattice& a, const Lattice& b, int dimension) {
-  // The vectors of b in the basis of a, up to the factor that makes the largest coordinate 1: all rational?
+  // Are all coordinates of the vectors of b in the basis of a rational, after scaling the largest to 1?
   const std::array<Vec, 3> dual = dual_of(a.vectors, dimension);
   std::vector<double> ratios;
   double largest = 0;
@@ -109,7 +109,7 @@ std::optional<double> nearly_common_way(const Scene& scene) {
     others.push_back(normals_of_ways(scene.lattices[i], scene.dimension));
   std::optional<double> least;
   for (const Vec& normal : normals_of_ways(scene.lattices[0], scene.dimension)) {
-    double largest = 0;  // of the angles to the nearest of each other lattice
+    double largest = 0;  // of the angles to the nearest normal of each other lattice
     for (const std::vector<Vec>& normals : others) {
       double nearest = 1;
       for (const Vec& other : normals) nearest = std::min(nearest, angle_between(normal, other));

@@ -9,15 +9,15 @@
 namespace lorentz::flights {
 namespace {
 
-// In one direction: a start that is uniform is so in every lattice.
+// For one direction. A uniform start is uniform in every lattice.
 double longer_from_uniform(const Rates& rates, double t) {
   double product = 1;
   for (const double rate : rates) product *= limit_survival_from_uniform(rate * t);
   return product;
 }
 
-// In one direction: collisions per time after which all lattices are free for t. Who leaves an obstacle of
-// one lattice is anywhere in the others.
+// For one direction: the rate of collisions after which all lattices are free for t. A particle that leaves
+// an obstacle of one lattice has a uniform position in the others.
 double rate_of_longer(const Rates& rates, double t) {
   double sum = 0;
   for (std::size_t i = 0; i < rates.size(); ++i) {
@@ -48,9 +48,10 @@ std::string name_of(const SmallObstacles& small) {
 
 namespace {
 
-// From an obstacle that is left, others stand at the lattice's distances, and the first few shells of these
-// are seen as such. Shells up to t have about t^2 obstacles, and are even to t^-3/2 of themselves: with 10^8
-// flights at r = 1e-4 less than chance, from here on. A start anywhere sees no shells.
+// Seen from the obstacle that a particle leaves, the other obstacles stand at the distances of the lattice,
+// and the first few shells are visible in the statistics. The shells up to t have about t^2 obstacles, with a
+// relative unevenness of t^-3/2. From kSpacings on, this is below the statistical error of 10^8 flights at
+// r = 1e-4. A uniform start sees no shells.
 double smooth_from(const Scene& scene, Ensemble ensemble) {
   constexpr double kSpacings = 64;
   if (ensemble == Ensemble::uniform) return 0;

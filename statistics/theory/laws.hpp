@@ -1,5 +1,5 @@
-// Which theory holds for the free paths of a scene: laws, tails, the mean. Unit speed; lengths in the scene's
-// unit. docs/free_paths.md has the mathematics. For scenes without flaws (flaw_of, dependence_in).
+// The theory that applies to the free paths of a scene: laws, tails, the mean. Unit speed; lengths in the
+// scene's unit. docs/free_paths.md has the mathematics. For scenes without flaws (flaw_of, dependence_in).
 #pragma once
 
 #include <functional>
@@ -16,48 +16,48 @@ namespace lorentz::flights {
 struct Law {
   std::string name;                        ///< e.g. "Boca-Zaharescu"
   std::string when;                        ///< the limit in which it holds, e.g. "r -> 0"
-  std::function<double(double)> survival;  ///< P(tau > t), of t in the scene's unit
-  double scale = 0;                        ///< of t: the law's mean from collision to collision
-  double smooth_from = 0;                  ///< shorter paths show the lattice itself: count them together
+  std::function<double(double)> survival;  ///< P(tau > t), t in the scene's unit
+  double scale = 0;                        ///< of t: the law's mean between collisions
+  double smooth_from = 0;                  ///< shorter paths show the lattice itself: they are one bin
 };
 
-/// The laws that are known for a scene; none, and the reason.
+/// The known laws for a scene, or the reason why no law is known.
 struct Laws {
   std::vector<Law> laws;
-  std::string none;  ///< why there is none; else empty
+  std::string none;  ///< the reason why no law is known; else empty
 };
 
 Laws laws_of(const Scene& scene, Ensemble ensemble);
 
-/// How P(tau > t) falls in the end: like constant * t^-(exponent - 1).
+/// The asymptotic behaviour P(tau > t) ~ constant * t^-(exponent - 1).
 struct Tail {
-  std::string when;                     ///< "r -> 0", or "t -> infinity": two limits, of two tails
-  std::optional<double> exponent;       ///< of the density of tau; nothing if there is no such tail
+  std::string when;                     ///< "r -> 0" or "t -> infinity": two limits with two tails
+  std::optional<double> exponent;       ///< of the density of tau; empty if there is no such tail
   std::optional<double> constant;       ///< in the scene's unit to the power exponent - 1; 0: it falls faster
-  std::string remark;                   ///< where the constant comes from, or why it or the tail is not known
-  std::optional<double> approach = {};  ///< a: the relative distance from it falls like t^-a only
-  /// t -> infinity: is a corridor or a planar channel open, so that the mean from a uniform start is
-  /// infinite, and the variance from a surface? Nothing: not known.
+  std::string remark;                   ///< the source of the constant, or why it or the tail is not known
+  std::optional<double> approach = {};  ///< a: the relative deviation falls only like t^-a
+  /// For t -> infinity: whether a corridor or a planar channel is open. If so, the mean from a uniform start
+  /// and the variance from a surface are infinite. Empty: not known.
   std::optional<bool> open = {};
 };
 
-/// That of t -> infinity, at the scene's own radii. Whether a way is open is decided exactly (horizon.hpp),
-/// which for a scene of many obstacles may take half a minute, or is not known.
+/// The tail for t -> infinity, at the scene's own radii. Whether a channel is open is decided exactly
+/// (horizon.hpp). This may take half a minute for a scene of many obstacles, and may stay undecided.
 /// held by "Tails: of a superposition what the horizon says"
 Tail tail_of_long_paths(const Scene& scene, Ensemble ensemble);
 
-/// Those that are known: that one the last, at most one for each limit.
+/// The known tails, at most one for each limit. The tail of long paths is the last.
 std::vector<Tail> tails_of(const Scene& scene, Ensemble ensemble);
 
-/// The mean free path from collision to collision. (From a uniform start there may be none: an infinite
-/// horizon makes it infinite.)
+/// The mean free path between collisions. (From a uniform start the mean may not exist: with an infinite
+/// horizon it is infinite.)
 struct MeanFreePath {
   std::optional<double> value;
-  std::string how;  ///< by which formula, or why it is not known
+  std::string how;  ///< the formula, or why the mean is not known
 };
 
-/// Exact up to rounding for obstacles that don't overlap, and for superpositions of incommensurate lattices;
-/// overlaps are decided exactly, which for very many obstacles takes some seconds.
+/// Exact up to rounding for obstacles that don't overlap, and for superpositions of incommensurate lattices.
+/// Overlaps are decided exactly, which takes several seconds for large numbers of obstacles.
 MeanFreePath mean_free_path_of(const Scene& scene);
 
 }  // namespace lorentz::flights

@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kPi2 = std::numbers::pi * std::numbers::pi, kLn2 = std::numbers::ln2;
 
-// Where the series in 1/s takes over: it converges like (2/s)^n, and the closed forms lose digits, for their
-// terms cancel.
+// From here on the series in 1/s is used. It converges like (2/s)^n, and the closed forms lose digits because
+// their terms cancel.
 constexpr double kFar = 2.5;
 
 // x ln |x|
@@ -33,8 +33,8 @@ double log_integral(double u) {
   return kPi2 / 3 - log * log / 2 - dilogarithm(u);
 }
 
-// (1 - 1/u)^2 ln|1 - 1/u|, of which g is made: g(s) = 1/s + 2 k(s) - k(s/2) / 2. Then its antiderivative, and
-// that one's.
+// k(u) = (1 - 1/u)^2 ln|1 - 1/u|, a part of g: g(s) = 1/s + 2 k(s) - k(s/2) / 2. The next two functions are
+// its first and second antiderivatives.
 double kernel(double u) {
   return (1 - 1 / u) * x_log_x(1 - 1 / u);
 }
@@ -49,8 +49,9 @@ double kernel_integral_2(double u) {
          3 * log_difference(u) + std::log(u);
 }
 
-// For s > 2: g(s) = sum over n >= 3 of (2^n - 4) / (n (n-1) (n-2)) s^-n; integrated once or twice from s to
-// infinity each term gets s / (n-1), s / (n-2) more. As 8 s^-3 times a series in 2/s: s may be huge.
+// For s > 2: g(s) = sum over n >= 3 of (2^n - 4) / (n (n-1) (n-2)) s^-n. Integrated once or twice from s to
+// infinity, each term gets the factors s / (n-1) and s / (n-2). Written as 8 s^-3 times a series in 2/s,
+// because s may be huge.
 double far(double s, int integrals) {
   double sum = 0, power = 1, four = 0.5;  // (2/s)^(n-3), 4 / 2^n
   for (int n = 3; power > 1e-17; ++n, power *= 2 / s, four /= 2) {

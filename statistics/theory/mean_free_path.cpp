@@ -1,4 +1,4 @@
-// The mean free path from collision to collision, by Santalo's formula: what is free over the surface.
+// The mean free path between collisions, by Santalo's formula: free volume over surface.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kBeyond = "not given: beyond the range of binary64";
 
-// Why it is not certain that no obstacles overlap, or nothing.
+// Why overlaps cannot be excluded; empty if they can.
 std::string overlap_in(const Scene& scene, oracle::Pairs pairs) {
   const oracle::Contacts contacts = oracle::contacts_in(scene, 1000, pairs);
   for (const oracle::Contact& contact : contacts.found)
@@ -29,7 +29,7 @@ MeanFreePath without_overlaps(const Scene& scene) {
   return {filling->mean_free_path, "exact: free volume over surface"};
 }
 
-// Each lattice shuts its share of what the others leave free, of space and of surface alike.
+// Each lattice covers its share of the space and of the surface that the others leave free.
 MeanFreePath of_independent(const Scene& scene) {
   double free = 1, surface = 0;
   for (const Lattice& lattice : scene.lattices) {

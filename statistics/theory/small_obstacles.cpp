@@ -10,8 +10,8 @@
 namespace lorentz::flights {
 namespace {
 
-// Directions to the half turn for ellipses. The law in one direction has corners, so the error falls only
-// like the third power; and slender ellipses need more.
+// The number of directions per half turn for ellipses. The law in one direction has corners, so the error
+// falls only like the third power; and slender ellipses need more directions.
 constexpr int kDirections = 512;
 
 double width_across(const Atom& atom, double angle) {

@@ -12,7 +12,7 @@ namespace {
 constexpr double kLeastCount = 25;
 constexpr std::size_t kLeastBinsOfTail = 4;
 
-// A merged bin: what either term has between its ends, for a coefficient of 1, and what was counted.
+// A merged bin: the contribution of either term between its ends, for a coefficient of 1, and the count.
 struct MergedBin {
   double leading, next, count;
 };
@@ -21,7 +21,7 @@ class MergedBins {
  public:
   MergedBins(const SlowTail& tail, double total) : tail_(tail), total_(total) {}
 
-  // Up to `to` from where the bin before ended.
+  // Adds the bin from `from`, where the previous bin ended, up to `to`.
   void add(double from, double to, double count) {
     const auto term = [&](double power) {
       return total_ * (std::pow(from, -power) - (std::isfinite(to) ? std::pow(to, -power) : 0));
@@ -32,7 +32,7 @@ class MergedBins {
     else
       merge(row);
   }
-  // The last may have too few.
+  // Merges the last bin with the one before if its count is too small.
   std::vector<MergedBin> all() {
     if (rows_.size() > 1 && rows_.back().count < kLeastCount) {
       const MergedBin rest = rows_.back();
@@ -54,10 +54,10 @@ class MergedBins {
 };
 
 struct TailFit {
-  double leading = 0, next = 0, variance = 0;  // of `leading`
+  double leading = 0, next = 0, variance = 0;  // variance: of `leading`
 };
 
-// One step: the variance of a count is what the fit before expects.
+// One step. The variance of a count is the expectation of the previous fit.
 TailFit weighted_fit(const std::vector<MergedBin>& rows, const std::optional<TailFit>& before) {
   double aa = 0, ab = 0, bb = 0, ac = 0, bc = 0;
   for (const MergedBin& row : rows) {
@@ -102,7 +102,7 @@ std::optional<TailConstant> tail_constant(std::span<const double> edges,
 }
 
 double tail_begins(double power, std::uint64_t total) {
-  // Of 2 10^7 flights at eight 3D scenes chance is then above what is left out (docs/free_paths.md).
+  // For 2 10^7 flights in eight 3D scenes, the statistical error is then above the bias (docs/free_paths.md).
   return 16 / power * std::pow(static_cast<double>(total) / 1e6, 1 / (2 + power));
 }
 

@@ -1,4 +1,4 @@
-// The constant of a tail that is approached slowly, from counts in bins (fit.hpp says what bins are).
+// The constant of a tail that is approached slowly, from counts in bins (fit.hpp defines bins).
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,23 @@ struct SlowTail {
 };
 
 struct TailConstant {
-  double value = 0, error = 0;  ///< one standard error, of chance alone
-  double from = 0;              ///< of paths longer than this, an edge,
-  std::uint64_t count = 0;      ///< so many
+  double value = 0, error = 0;  ///< one standard error, statistical only
+  double from = 0;              ///< measured on paths longer than this edge
+  std::uint64_t count = 0;      ///< the number of these paths
 };
 
-/// The constant, extrapolated: of total paths as many are expected between a and b as total times the
-/// difference there of C t^-power + D t^-(power + approach); C and D by least squares, weighted by chance,
-/// over the bins from the first edge on that is not below `from`. Nothing if fewer than 4 bins have 25 paths,
-/// or more with their neighbours. Bad bins are an std::invalid_argument.
+/// The extrapolated constant C. The model: the number of paths expected between a and b is `total` times the
+/// difference of C t^-power + D t^-(power + approach) between a and b. C and D come from least squares,
+/// weighted by the statistical errors, over the bins from the first edge on that is not below `from`. Empty
+/// if fewer than 4 bins have at least 25 paths after merging with their neighbours. Throws
+/// std::invalid_argument for bad bins.
 std::optional<TailConstant> tail_constant(std::span<const double> edges,
                                           std::span<const std::uint64_t> counts, std::uint64_t total,
                                           const SlowTail& tail, double from);
 
-/// From where on to measure it in 3D, in mean free paths from collision to collision. What the two terms
-/// leave out biases C like 1/t, and chance grows like sqrt(t^power / total): in a fixed proportion they stay
-/// if t grows like total^(1 / (2 + power)).
+/// The t from which to measure the constant in 3D, in mean free paths between collisions. The terms that the
+/// model leaves out bias C like 1/t, and the statistical error grows like sqrt(t^power / total). The two stay
+/// in a fixed proportion if t grows like total^(1 / (2 + power)).
 double tail_begins(double power, std::uint64_t total);
 
 }  // namespace lorentz::flights

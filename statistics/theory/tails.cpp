@@ -1,4 +1,4 @@
-// How the probability of long free paths falls.
+// Tails: how the probability of long free paths falls.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi, kZeta3 = 1.2020569031595942854;
 
-// From the tail C / t^power of uniform starts: the density of these is the survival from collisions over the
-// mean free path, so collisions have one power more.
+// The tail of an ensemble, given the tail C / t^power of uniform starts. Their density is the survival
+// between collisions divided by the mean free path, so that the tail between collisions has one power more.
 Tail tail_of(const char* when, int power, double uniform_constant, std::optional<double> mean,
              Ensemble ensemble, std::string remark) {
   Tail tail{when, power + 1.0, uniform_constant, std::move(remark)};
@@ -27,7 +27,7 @@ Tail tail_of(const char* when, int power, double uniform_constant, std::optional
   return tail;
 }
 
-// The limit law's survival falls like 2 / (pi^2 s), each lattice's.
+// The survival of each lattice's limit law falls like 2 / (pi^2 s).
 std::optional<Tail> tail_2d_of_small(const Scene& scene, Ensemble ensemble) {
   std::string why_not;
   const auto small = small_obstacles_of(scene, why_not);
@@ -43,7 +43,7 @@ std::optional<Tail> tail_2d_of_small(const Scene& scene, Ensemble ensemble) {
                  "of the limit law");
 }
 
-// xi = r^2 t / V: the density from a uniform start is pi / (48 zeta(3)) xi^-2, and 1 / pi is the mean.
+// With xi = r^2 t / V, the density from a uniform start is pi / (48 zeta(3)) xi^-2, and the mean is 1 / pi.
 std::optional<Tail> tail_3d_of_small(const Scene& scene, Ensemble ensemble) {
   const bool ball = scene.lattices.size() == 1 && scene.lattices[0].atoms.size() == 1 &&
                     scene.lattices[0].atoms[0].is_ball();
@@ -61,7 +61,7 @@ Tail tail_without(const char* remark) {
   return tail;
 }
 
-// Of open corridors or planar channels: the power is theirs, whatever else is there.
+// The tail of open corridors or planar channels. They determine the power, whatever the rest of the scene is.
 Tail tail_of_channels(const Scene& scene, Ensemble ensemble, const std::optional<double>& constant,
                       std::string remark) {
   Tail tail = tail_of(kLongPaths, 1, constant.value_or(1), mean_free_path_of(scene).value, ensemble,
@@ -75,7 +75,7 @@ Tail not_known(std::string why) {
   return {kLongPaths, std::nullopt, std::nullopt, std::move(why)};
 }
 
-// No corridor, or no planar channel, is open.
+// The tail if no corridor, or no planar channel, is open.
 Tail tail_of_shut(const Scene& scene) {
   if (const auto angle = nearly_common_way(scene)) {
     char text[32];
@@ -89,9 +89,9 @@ Tail tail_of_shut(const Scene& scene) {
   return tail;
 }
 
-// Of obstacles too small for all directions to be searched: is a wide way open?
+// Whether a wide channel is open. For obstacles that are too small for a search of all directions.
 bool has_wide_channel(const Scene& scene) {
-  constexpr double kWide = 0.03;  // of the cell's size: some 10^4 to 10^5 directions, a second
+  constexpr double kWide = 0.03;  // of the cell's size: about 10^4 to 10^5 directions, a second
   const double wide =
       kWide * std::pow(cell_volume(scene.lattices[0], scene.dimension), 1.0 / scene.dimension);
   try {
@@ -126,11 +126,11 @@ Tail tail_of_horizon(const Scene& scene, Ensemble ensemble) {
   }
 }
 
-// One lattice of discs so small that some corridor is wide: the sum in binary64 cannot miss it, and is there
-// at once, where the exact search takes its time or refuses.
+// For one lattice of discs that are so small that some corridor is wide. The sum in binary64 cannot miss it
+// and is immediate, where the exact search is slow or refuses.
 std::optional<Tail> tail_of_small_discs(const Scene& scene, Ensemble ensemble) {
-  constexpr double kSmall = 0.1;  // of the square root of the cell's area; the shortest vector is at most
-                                  // 1.07 of it, so that its corridor is 0.7 wide or more
+  constexpr double kSmall = 0.1;  // in units of the square root of the cell's area; the shortest vector is at
+                                  // most 1.07, so that its corridor is at least 0.7 wide
   if (scene.dimension != 2 || scene.lattices.size() != 1 || scene.lattices[0].atoms.size() != 1)
     return std::nullopt;
   const Lattice& lattice = scene.lattices[0];

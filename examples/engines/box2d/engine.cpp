@@ -1,7 +1,8 @@
-// Box2D 2: b2CircleShape::RayCast, which is what b2World::RayCast does with each circle that the ray may hit.
+// Box2D 2: b2CircleShape::RayCast, which b2World::RayCast calls for each circle that the ray may hit.
 // Binary32, 2D. (Version 3 has another formula: ../box2d3.)
-// Formula: the discriminant (s.r)^2 - |r|^2 (|s|^2 - radius^2), which cancels far from the circle; a segment
-// whose squared length is below the epsilon of float hits nothing; a start inside hits nothing.
+//
+// Formula: the discriminant (s.r)^2 - |r|^2 (|s|^2 - radius^2), which cancels far from the circle. A segment
+// whose squared length is below the epsilon of float hits nothing. A start inside hits nothing.
 #include <box2d/box2d.h>
 
 #include "../walk.hpp"

@@ -1,7 +1,9 @@
 // Box2D 3 (in WebAssembly): b2Shape_RayCast of a circle on a static body, which is the ray cast of one shape.
 // Binary32, 2D. Its calls go through Embind, which takes most of their time. The version is the package's.
+//
 // Formula: nearest point on the line, then half the chord (Haines and others, Ray Tracing Gems, 2019, chapter
-// 7), from the circle's centre: what ../box2d loses far from the circle is kept. A start inside hits nothing.
+// 7), from the circle's centre. It keeps the digits that ../box2d loses far from the circle. A start inside
+// hits nothing.
 import initialize from "box2d3-wasm";
 import { walk } from "../walk.mjs";
 

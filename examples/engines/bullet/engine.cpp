@@ -1,9 +1,10 @@
-// Bullet: btCollisionWorld::rayTestSingle on a btSphereShape, which is what btCollisionWorld::rayTest does
-// with each body that the ray may hit. In binary32; as `engine64`, with BT_USE_DOUBLE_PRECISION, in binary64.
+// Bullet: btCollisionWorld::rayTestSingle on a btSphereShape, which btCollisionWorld::rayTest calls for each
+// body that the ray may hit. In binary32; as `engine64`, with BT_USE_DOUBLE_PRECISION, in binary64.
+//
 // Formula: none for spheres. The ray is cast as a point by btSubsimplexConvexCast, which advances until the
 // square of the distance is below MAX_CONVEX_CAST_EPSILON (1e-4; in binary64 10 ulps of 1). With the argument
-// `gjk` (btTriangleRaycastCallback::kF_UseGjkConvexCastRaytest), it is cast by btGjkConvexCast, until the
-// distance is below 0.001 (in both precisions).
+// `gjk` (btTriangleRaycastCallback::kF_UseGjkConvexCastRaytest), btGjkConvexCast casts it until the distance
+// is below 0.001 (in both precisions).
 #include <btBulletCollisionCommon.h>
 
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
@@ -21,7 +22,7 @@ struct Bullet {
     object_.setWorldTransform(at(of(c)));
   }
 
-  bool inside(const Vec& p) const {  // Bullet has no such test that is not a search for contacts
+  bool inside(const Vec& p) const {  // Bullet has only a search for contacts for this test
     const btScalar r = shape_.getRadius();
     return of(p).distance2(object_.getWorldTransform().getOrigin()) < r * r;
   }

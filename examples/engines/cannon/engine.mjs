@@ -1,7 +1,8 @@
-// cannon-es: Ray.intersectBody with a body that is a Sphere, which is what World.raycastClosest does with
-// each body that the ray may hit. Binary64; 2D as the plane z = 0.
-// Formula: the textbook's quadratic, b^2 - 4ac, with the segment from end to end: it cancels far from the
-// sphere. If the discriminant is 0 the hit is put at the segment's start. A start inside gets the exit.
+// cannon-es: Ray.intersectBody with a body that is a Sphere, which World.raycastClosest calls for each body
+// that the ray may hit. Binary64; 2D as the plane z = 0.
+//
+// Formula: the textbook's quadratic, b^2 - 4ac, with the segment from end to end. It cancels far from the
+// sphere. If the discriminant is 0, the hit is placed at the segment's start. A start inside gets the exit.
 import { Body, Ray, RaycastResult, Sphere, Vec3 } from "cannon-es";
 import { walk } from "../walk.mjs";
 

@@ -1,8 +1,10 @@
 // CGAL: CGAL::intersection of a line with a sphere in the Exact_spherical_kernel_3, in exact algebraic
-// numbers; 2D as the plane z = 0. A control: it should be right. The walk through the cells is its own, in
+// numbers; 2D as the plane z = 0. A control, which should be right. It has its own walk through the cells, in
 // exact rationals.
-// Formula: whatever it is, it is exact. The time is rounded at the end, by CGAL::to_double of the exact
-// number. This part of CGAL is under the GPL: a program of its own, that nothing of lorentz is linked with.
+//
+// Formula: internal to CGAL, and exact. The time is rounded at the end by CGAL::to_double of the exact
+// number. This part of CGAL is under the GPL, so this is a separate program; no part of lorentz is linked
+// with it.
 #include <CGAL/Exact_spherical_kernel_3.h>
 #include <CGAL/version.h>
 
@@ -83,7 +85,7 @@ class Cgal {
     Point x, v;
     Kernel::Point_3 start;
     Kernel::Line_3 line;
-    std::size_t axis = 0;  // along which places on the line are compared
+    std::size_t axis = 0;  // along which points of the line are compared
     bool up;
     std::optional<std::pair<Root, Name>> best;  // the coordinate of the entry along that axis
     Found found;
@@ -131,12 +133,12 @@ class Cgal {
       flight.best = {*place, name};
   }
 
-  // Where the line enters the sphere: the coordinate along the flight's axis. A line that touches does not
-  // enter.
+  // The coordinate along the flight's axis at which the line enters the sphere. A tangent line does not enter
+  // it.
   std::optional<Root> entry(const Kernel::Sphere_3& sphere, const Flight& flight) {
     using Hit = std::pair<Kernel::Circular_arc_point_3, unsigned>;
     std::vector<CGAL::SK3_Intersection_traits<Kernel, Kernel::Line_3, Kernel::Sphere_3>::type> hits;
-    const auto start = std::chrono::steady_clock::now();  // it takes microseconds: the clock does not matter
+    const auto start = std::chrono::steady_clock::now();  // microseconds: the clock's cost does not matter
     CGAL::intersection(flight.line, sphere, std::back_inserter(hits));
     seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (hits.size() != 2) return {};

@@ -1,5 +1,6 @@
-// Chipmunk: cpShapeSegmentQuery of a cpCircleShape, which is what cpSpaceSegmentQueryFirst does with each
-// shape that the segment may hit. Binary64, 2D.
+// Chipmunk: cpShapeSegmentQuery of a cpCircleShape, which cpSpaceSegmentQueryFirst calls for each shape that
+// the segment may hit. Binary64, 2D.
+//
 // Formula: the discriminant of the textbook's quadratic, from the vectors from the centre to both ends of the
 // segment: |a|^2 - 2 a.b + |b|^2 and a.b - |a|^2 cancel far from the circle.
 #include <chipmunk/chipmunk.h>

@@ -1,9 +1,10 @@
 // Embree: rtcIntersect1 through sphere points (RTC_GEOMETRY_TYPE_SPHERE_POINT), with Embree's own tree.
-// Binary32; 2D as the plane z = 0. The walk is its own: a scene of Embree is a block of 9 cells a side around
-// the cell in which the ray is; a ray that leaves the block goes on in a new block, in coordinates of the
-// cell that it is in by then. So coordinates are always those of cells. Single balls are one block, and no
-// walk.
-// Formula: nearest point on the line (stable), then half the chord; the spheres are two-sided, so a start
+// Binary32; 2D as the plane z = 0. It has its own walk: a scene of Embree is a block with 9 cells per side
+// around the current cell of the ray. A ray that leaves the block continues in a new block, in coordinates of
+// the cell that it has reached. So coordinates are always those of cells. Single balls are one block, without
+// a walk.
+//
+// Formula: nearest point on the line (stable), then half the chord. The spheres are two-sided, so a start
 // that rounding puts inside gets the exit. A filter function leaves out the ball of `from`.
 #include <embree3/rtcore.h>
 
@@ -40,7 +41,7 @@ class Embree {
   }
 
   Found first(const Scene& scene, const Query& query) {
-    for (const double c : query.v)  // Debian's build ends the program (`ray.valid()`)
+    for (const double c : query.v)  // Debian's build would end the program (`ray.valid()`)
       if (std::abs(c) > kLargest) throw Unsupported("Embree takes no direction beyond 1.844e18");
     Found found;
     for (std::size_t number = 0; number < blocks_.size(); ++number)
@@ -134,7 +135,8 @@ class Embree {
     found.undecided = true;
   }
 
-  // Which ball of the block is to be left out; and at the start, in which balls it is (Embree does not say).
+  // Returns the ball of the block to leave out. At the start it also finds the balls that contain the start,
+  // because Embree does not report them.
   unsigned look_around(int number, const Vec& cell, const Vec& q, const Query& query, bool at_start,
                        Found& found) const {
     unsigned skip = RTC_INVALID_GEOMETRY_ID;
@@ -173,7 +175,7 @@ class Embree {
     rtcIntersect1(what.scene, &context.base, &ray);
   }
 
-  void measure(std::size_t at_least) {  // as Stopwatch of walk.hpp does, but for rays through blocks
+  void measure(std::size_t at_least) {  // as Stopwatch in walk.hpp, but for rays through blocks
     if (casts_.empty() || casts_.size() < at_least) return;
     const auto start = std::chrono::steady_clock::now();
     for (const Cast& each : casts_) {

@@ -1,7 +1,8 @@
-// GLM: glm::intersectRaySphere (glm/gtx/intersect.hpp), the one function that it has for a ray and a sphere.
-// In binary64 as it is called with glm::dvec3; with the argument `float`, in binary32 with glm::vec3.
+// GLM: glm::intersectRaySphere (glm/gtx/intersect.hpp), its only function for a ray and a sphere. In binary64
+// with glm::dvec3; with the argument `float`, in binary32 with glm::vec3.
+//
 // Formula: the square of the distance from the line as |w|^2 - (w.d)^2, which cancels far from the sphere,
-// and r^2 - that; entries nearer than epsilon are taken for exits. The direction must be normalised: the
+// and r^2 minus that. Entries nearer than epsilon are taken for exits. The direction must be normalised: the
 // adapter does so, and divides the distance by the length.
 #define GLM_ENABLE_EXPERIMENTAL
 #include <glm/glm.hpp>

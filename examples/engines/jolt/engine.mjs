@@ -1,12 +1,14 @@
-// Jolt Physics (in WebAssembly): TransformedShape.CastRay of a SphereShape, which is what
-// NarrowPhaseQuery.CastRay does with each body that the ray may hit. Binary32; 2D as the plane z = 0.
+// Jolt Physics (in WebAssembly): TransformedShape.CastRay of a SphereShape, which NarrowPhaseQuery.CastRay
+// calls for each body that the ray may hit. Binary32; 2D as the plane z = 0.
+//
 // Formula: the quadratic by q = -(b + sign(b) sqrt(b^2 - 4ac)) / 2 (Numerical Recipes), in the coordinates of
-// the shape; roots do not cancel, the discriminant does, far from the sphere. A start inside is hit at 0.
+// the shape. The roots do not cancel, but the discriminant does, far from the sphere. A start inside is hit
+// at 0.
 import initialize from "jolt-physics";
 import { walk } from "../walk.mjs";
 
 const Jolt = await initialize();
-const shapes = new Map(); // of each radius: a shape cannot be changed
+const shapes = new Map(); // one per radius, because a shape cannot be changed
 const placed = new Jolt.TransformedShape();
 const at = new Jolt.RVec3(0, 0, 0);
 const straight = Jolt.Quat.prototype.sIdentity();

@@ -1,7 +1,8 @@
-// MuJoCo (in WebAssembly): mju_rayGeom with a sphere, which is what mj_ray does with each geom. Binary64; 2D
-// as the plane z = 0. The version is the one that the library says.
-// Formula: the discriminant b^2 - ac, which cancels far from the sphere; one below mjMINVAL = 1e-15, whatever
-// the units, is a miss; a start inside gets the exit.
+// MuJoCo (in WebAssembly): mju_rayGeom with a sphere, which mj_ray calls for each geom. Binary64; 2D as the
+// plane z = 0. The version is the one that the library reports.
+//
+// Formula: the discriminant b^2 - ac, which cancels far from the sphere. A discriminant below mjMINVAL =
+// 1e-15, whatever the units, is a miss. A start inside gets the exit.
 import initialize from "mujoco-js";
 import { walk } from "../walk.mjs";
 

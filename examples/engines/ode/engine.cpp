@@ -1,6 +1,7 @@
-// ODE: dCollide of a ray geom with a sphere geom, which is how ODE casts rays; binary64, if ODE was built so
-// (as Debian's is).
-// Formula: B^2 - C with the unit direction and C = |q|^2 - r^2, which cancels far from the sphere; a start
+// ODE: dCollide of a ray geom with a sphere geom, which is how ODE casts rays. Binary64, if ODE was built for
+// it (as Debian's is).
+//
+// Formula: B^2 - C with the unit direction and C = |q|^2 - r^2, which cancels far from the sphere. A start
 // inside gets the exit. `dGeomRaySet` normalises the direction; the adapter divides the depth by the length.
 #include <ode/ode.h>
 #include <ode/version.h>

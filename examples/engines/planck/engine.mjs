@@ -1,7 +1,8 @@
-// planck: Box2D 2 in JavaScript. CircleShape.rayCast, which is what World.rayCast does with each circle that
-// the ray may hit. Binary64, 2D.
-// Formula: the discriminant (s.r)^2 - |r|^2 (|s|^2 - radius^2), which cancels far from the circle; a segment
-// whose squared length is below the epsilon of binary64 hits nothing; a start inside hits nothing.
+// planck: Box2D 2 in JavaScript. CircleShape.rayCast, which World.rayCast calls for each circle that the ray
+// may hit. Binary64, 2D.
+//
+// Formula: the discriminant (s.r)^2 - |r|^2 (|s|^2 - radius^2), which cancels far from the circle. A segment
+// whose squared length is below the epsilon of binary64 hits nothing. A start inside hits nothing.
 import { CircleShape, Transform, Vec2 } from "planck";
 import { walk } from "../walk.mjs";
 

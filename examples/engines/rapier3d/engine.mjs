@@ -1,6 +1,7 @@
-// Rapier in 3D (its shapes are parry's, in WebAssembly): Ball.castRay, solid, which is what World.castRay
-// does with each ball that the ray may hit. Binary32; 2D as the plane z = 0.
-// Formula: the discriminant b^2 - ac, which cancels far from the ball; a start inside, and one that rounding
+// Rapier in 3D (its shapes are parry's, in WebAssembly): Ball.castRay, solid, which World.castRay calls for
+// each ball that the ray may hit. Binary32; 2D as the plane z = 0.
+//
+// Formula: the discriminant b^2 - ac, which cancels far from the ball. A start inside, also one that rounding
 // puts there, is hit at 0.
 import RAPIER from "@dimforge/rapier3d-compat";
 import { walk } from "../walk.mjs";

@@ -1,8 +1,9 @@
-// three.js: Ray.intersectSphere, binary64; 2D as the plane z = 0. (Its Raycaster goes on to triangles; this
-// is the call for a ball.)
+// three.js: Ray.intersectSphere, binary64; 2D as the plane z = 0. (Its Raycaster continues with triangles;
+// this is the call for a ball.)
+//
 // Formula: the square of the distance from the line as |w|^2 - (w.d)^2, which cancels far from the sphere,
-// and r^2 - that; a start inside gets the exit. It wants a unit direction and gives a point: the adapter
-// normalises by Vector3.normalize, and takes the distance of the point as Raycaster does.
+// and r^2 minus that. A start inside gets the exit. It needs a unit direction and returns a point: the
+// adapter normalises by Vector3.normalize, and takes the distance of the point as Raycaster does.
 import { Ray, Sphere, Vector3 } from "three";
 import { walk } from "../walk.mjs";
 
