@@ -31,13 +31,13 @@ class Answers(Columns):
     __slots__ = ("_large_cells", "_reasons")
 
     outcome = Column(np.int32, "(N,): codes of `Outcome`.")
-    lattice = Column(np.int32, "(N,): number of the lattice of what is hit, or contains x; 0 else.")
-    atom = Column(np.int32, "(N,): number of the atom in its lattice; 0 else.")
-    cell = Column(np.int64, "(N, d): the coordinates of its cell; 0 else, and where 64 bits do not hold them: "
+    lattice = Column(np.int32, "(N,): lattice of the obstacle that is hit, or that contains x; otherwise 0.")
+    atom = Column(np.int32, "(N,): its atom in that lattice; otherwise 0.")
+    cell = Column(np.int64, "(N, d): its cell; 0 without an obstacle, and if 64 bits do not hold it: "
                   "see `large_cells`.")
-    time = Column(np.float64, "(N,): when it is hit, in units in which x + t v is the place; NaN without a hit.")
-    time_is_rounded = Column(np.bool_, "(N,): the time is known to be correctly rounded.")
-    stage = Column(np.uint8, "(N,): how it was decided (docs/formats.md).")
+    time = Column(np.float64, "(N,): time of the hit, so that x + time * v is the place; NaN without a hit.")
+    time_is_rounded = Column(np.bool_, "(N,): True if the time is known to be correctly rounded.")
+    stage = Column(np.uint8, "(N,): the precision that decided (docs/formats.md).")
 
     def __init__(self, native: Any, columns: dict[str, Array] | None = None,
                  large_cells: dict[int, tuple[int, ...]] | None = None,

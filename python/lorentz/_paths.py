@@ -30,14 +30,14 @@ class Paths(Columns):
 
     __slots__ = ("every",)
 
-    count = Column(np.int64, "(N,): how many collisions there were, kept or not.")
-    stop_code = Column(np.uint8, "(N,): why a particle does not go on, an index into `STOPS`.")
-    time = Column(np.float64, "(N, K): of each collision, from the start on.")
-    lattice = Column(np.int32, "(N, K): number of the lattice of what is hit.")
-    atom = Column(np.int32, "(N, K): number of the atom in its lattice.")
+    count = Column(np.int64, "(N,): number of collisions, kept or not.")
+    stop_code = Column(np.uint8, "(N,): why the particle stopped, an index into `STOPS`.")
+    time = Column(np.float64, "(N, K): time of each collision since the start.")
+    lattice = Column(np.int32, "(N, K): lattice of the obstacle that is hit.")
+    atom = Column(np.int32, "(N, K): its atom in that lattice.")
     cell = Column(np.int64, "(N, K, d): its cell.")
-    place = Column(np.float64, "(N, K, d): where the collision is.")
-    velocity = Column(np.float64, "(N, K, d): after it.")
+    place = Column(np.float64, "(N, K, d): place of the collision.")
+    velocity = Column(np.float64, "(N, K, d): velocity after the collision.")
 
     def __init__(self, native: Any, columns: dict[str, Array] | None = None, every: Every = 1) -> None:
         super().__init__(native, columns)
