@@ -148,7 +148,7 @@ TEST_CASE("A program's fault costs the query that it shows at, is reported with 
       {"ends", "cmd ended (exit 0) without an answer", "ended (exit 0)"},
       {"crashes", "cmd died (signal 11, ", "died (signal 11, "},
       {"garbage", bad_line + "wrote a line that is not an answer, rubbish (not JSON",
-       "no answer, rubbish (not JSON"},
+       "not an answer, rubbish (not JSON"},
       {"long-line", bad_line + "wrote a line that is too long", "wrote a line that is too long"},
       {"half", "cmd wrote a line that is not an answer, ", "needs lattice, atom and cell"},
       {"swaps", "cmd gave no answer to this query before that to a later one",
@@ -181,7 +181,7 @@ TEST_CASE("What a program wrote in place of an answer is told of the first that 
   // What it wrote before a right answer is none of this.
   const Run later =
       folder.lorentz("first-hit --engine " + odd("skips-later") + " " + folder.write("q", stream()));
-  CHECK(contains(later.err, "no answer, rubbish (not JSON"));
+  CHECK(contains(later.err, "not an answer, rubbish (not JSON"));
   check_all_but_fifth(later.out, no_answer + "\"}");
 }
 

@@ -321,7 +321,7 @@ TEST_CASE("A library that cannot be loaded is refused before anything is asked",
     CHECK(contains(run.err, message));
     CHECK(run.out.empty());
   };
-  refused("lib:", 2, "lib: is no engine yet");
+  refused("lib:", 2, "lib: needs the path of a shared library");
   refused("lib:" + folder.file("no.so"), 3, "no.so: there is no such file; lib: is followed by the path");
   refused("lib:" + folder.file(""), 3, "there is no such file");
   refused("lib:" + folder.write("text.so", "text"), 3,

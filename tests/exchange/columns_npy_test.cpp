@@ -206,9 +206,9 @@ TEST_CASE("Arrays that are no queries are refused, with what they are", "[exchan
                            "99999999999999999999", "-", "nan", "{'a': 'b' 'c': 'd'}"}) {
     INFO(text);
     const std::string failure = read(npy_file(text, ""), 2).failure;
-    CHECK((contains(failure, "no literal of Python") || contains(failure, "needs descr")));
+    CHECK((contains(failure, "not a literal of Python") || contains(failure, "needs descr")));
   }
-  says(npy_file(std::string(100'000, '('), ""), "no literal of Python");
+  says(npy_file(std::string(100'000, '('), ""), "not a literal of Python");
   says(npy_file("{'descr': '<f8', 'fortran_order': 0, 'shape': (1, 4)}", ""), "neither True nor False");
   says(npy_file("{'descr': '<f8', 'fortran_order': False, 'shape': 4}", ""), "is not a tuple");
   says(npy_file("{'descr': '<f8', 'fortran_order': False, 'shape': (-1, 4)}", ""), "has no numbers");

@@ -185,7 +185,7 @@ TEST_CASE("Every sort of bad line is told by name, and keeps its id where it can
       {"{\"id\":1,\"x\":[0,0.5],\"v\":[0,-0.0]}", "v is zero", "1"},
       {"{\"id\":1,\"x\":[0,NaN],\"v\":[1,0]}", "", "1"},
       {"{\"id\":1,\"x\":[0,1e999],\"v\":[1,0]}", "x: is beyond the range", "1"},
-      {"{\"x\":[0,\"nan\"],\"v\":[1,0],\"id\":\"late\"}", "no hexadecimal float", "\"late\""},
+      {"{\"x\":[0,\"nan\"],\"v\":[1,0],\"id\":\"late\"}", "not a hexadecimal float", "\"late\""},
       {"{\"id\":1,\"x\":[0,\"0x1p2000\"],\"v\":[1,0]}", "range", "1"},
       {"{\"id\":1,\"x\":[0,null],\"v\":[1,0]}", "x: needs a number", "1"},
       {"{\"id\":1,\"x\":5,\"v\":[1,0]}", "x: needs an array", "1"},

@@ -526,7 +526,7 @@ TEST_CASE("Bad options are refused before any work, with what would do", "[fuzz]
   refused("--target nonsense", "--target: \"nonsense\" is not one of generic, near-rational,");
   refused("-t grazing,grazing", "--target: grazing is named twice");
   refused("-e nonsense", "no engine is called \"nonsense\"");
-  refused("-e cmd:", "cmd: is no engine yet");
+  refused("-e cmd:", "cmd: needs the command");
   refused("--time 0", "--time: must be above zero");
   refused("--time soon", "--time: ");
   refused("--count 0", "--count: \"0\" is not a whole number from 1");

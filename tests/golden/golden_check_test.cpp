@@ -318,7 +318,7 @@ TEST_CASE("golden explain: a hit, inside, never, and an invalid query", "[golden
   const Run no_query =
       folder.lorentz("golden explain " + first_id("bad-queries", "v-zero") + " --html " + page);
   CHECK(no_query.status == 2);
-  CHECK(contains(no_query.err, "nothing to be drawn"));
+  CHECK(contains(no_query.err, "nothing to draw"));
   CHECK_FALSE(std::filesystem::exists(page));
   const Run paged = folder.lorentz("golden explain --html " + page + " " + id);
   CHECK(std::filesystem::exists(page) == report::has_page());

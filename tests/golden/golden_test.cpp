@@ -219,7 +219,7 @@ TEST_CASE("Golden: what is no set is refused with the line's number", "[golden]"
   CHECK(complaint(replaced(good, "\"windows\":[{", "\"windows\":[[")).starts_with("3: "));
   CHECK(complaint(replaced(good, "\"windows\":[{", "\"panes\":[{")).starts_with("3: certificate: has neit"));
   CHECK(complaint(replaced(good, ",\"cell\":[1,0]", ",\"cell\":[1,0,0]")).starts_with("3: "));
-  CHECK(complaint(replaced(good, "\"to\":", "\"to\":\"0x1p\",\"t\":")).starts_with("3: to: is not a number"));
+  CHECK(complaint(replaced(good, "\"to\":", "\"to\":\"0x1p\",\"t\":")).starts_with("3: to: is neither a number nor a text"));
   CHECK(complaint(replaced(good, "\"margin\":", "\"margin\":\"much\",\"m\":")).starts_with("3: margin"));
   CHECK(complaint(good.substr(0, good.size() - 9)).starts_with("5: not JSON"));
   // No index that becomes another one in fewer bits.
@@ -476,7 +476,7 @@ TEST_CASE("Golden: each kind of tampering with inside, never and an error is nam
                  {"no margin", [](Record& r) { r.condition = 17; }},
                  {"no margin", [](Record& r) { r.certificate.emplace(); }},
                  {"hits nothing", [](Record& r) { r.expect.time_decimal = "5"; }},
-                 {"no query", [](Record& r) { r.expect = Answer::never(); }},
+                 {"not a query", [](Record& r) { r.expect = Answer::never(); }},
                  {"the id", [](Record& r) { r.question += " "; }}});
 }
 

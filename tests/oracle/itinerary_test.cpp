@@ -249,8 +249,8 @@ TEST_CASE("Itinerary: among obstacles far smaller than the bits to begin with") 
 TEST_CASE("Itinerary: scenes and starts with a flaw are errors with a place") {
   RationalScene dependent = unit(2, "1/4");
   dependent.lattices[0].vectors[1] = {exact("1/3"), 0.0, 0.0};
-  CHECK_THROWS_WITH(Itinerary(dependent), Catch::Contains("lattices[0].vectors"));
-  CHECK_THROWS_WITH(Itinerary(unit(2, "-1/4")), Catch::Contains("lattices[0].atoms[0].radius"));
+  CHECK_THROWS_WITH(Itinerary(dependent), Catch::Contains("lattice 0: the primitive vectors"));
+  CHECK_THROWS_WITH(Itinerary(unit(2, "-1/4")), Catch::Contains("lattice 0, atom 0: radius"));
   Journey no_digits = collisions(1);
   no_digits.digits = 0;
   CHECK_THROWS_AS(Itinerary(unit(2, "1/4")).follow(start_at({"1/2", "1/2"}, {"1", "0"}), no_digits),
