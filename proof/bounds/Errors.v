@@ -278,7 +278,7 @@ Ltac near :=
   end.
 
 (* What is computed is near what the claim says, and the sizes are what it says. *)
-Ltac same_value := first [reflexivity | ring | field; repeat split; other_than_zero].
+Ltac same_value := first [reflexivity | ring | lra | field; repeat split; other_than_zero].
 Ltac same_sizes :=
   first [apply Req_le; sized |
          unfold Rdiv; rewrite ?Rabs_mult, ?Rabs_inv, ?Rabs_R0, ?Rabs_R1;

@@ -6,82 +6,105 @@
 
 namespace lorentz::bounds {
 
-/// A high part, which is left out, and a low one.
-struct LowPart {
+/// A product or a sum in two parts, which add up to it.
+struct TwoParts {
   Symbol hi, lo;
 
   static Inputs*& inputs() {
     static Inputs* in = nullptr;
     return in;
   }
-  static LowPart of(const std::string& name) { return {Symbol("0"), inputs()->number(name)}; }
-  static LowPart both(const std::string& high, const std::string& low) {
+  static TwoParts named(const std::string& high, const std::string& low) {
     return {inputs()->number(high), inputs()->number(low)};
   }
-  static LowPart next() { return of("low" + std::to_string(inputs()->variables().size())); }
-  static LowPart product(const Symbol&, const Symbol&) { return next(); }
-  static LowPart sum(const Symbol&, const Symbol&) { return next(); }
+  static TwoParts product(const Symbol& a, const Symbol& b) { return adding_up_to(a.text + " * " + b.text); }
+  static TwoParts sum(const Symbol& a, const Symbol& b) { return adding_up_to(a.text + " + " + b.text); }
+
+ private:
+  static TwoParts adding_up_to(const std::string& exactly) {
+    const std::string number = std::to_string(inputs()->variables().size());
+    const TwoParts parts = named("high" + number, "low" + number);
+    inputs()->given(parts.hi.text + " + " + parts.lo.text + " = " + exactly);
+    return parts;
+  }
 };
 
-/// Gappa does not put so many terms into another order.
-inline Symbol without_size(Symbol of) {
-  of.size = 0;
-  return of;
+/// What is added to the high part of a sum. (Gappa does not put so many terms into another order.)
+inline Symbol without_high_part(const Symbol& sum) {
+  const std::string& text = sum.before_rounding;
+  return {text.substr(text.find(" + ") + 3), sum.error - 1, 0};
+}
+inline std::string high_part(const Symbol& sum) {
+  return sum.before_rounding.substr(0, sum.before_rounding.find(' '));
 }
 
-/// The exact sum of the low parts, and of their sizes: `terms` are products n lo besides.
-inline FormulaClaim low_parts(const Inputs& in, const std::string& name, const Symbol& computed,
-                              const std::vector<std::string>& terms, int kinds, const std::string& which) {
-  std::string exact, size;
+/// The low part is what is left of the exact sum; sizes are those of all low parts, and of `terms` besides.
+inline FormulaClaim low_part(const Inputs& in, const std::string& name, const Symbol& sum,
+                             const std::string& exact, const std::string& terms, int kinds,
+                             const std::string& which) {
+  std::string size = terms;
   for (const std::string& variable : in.variables())
-    if (variable.starts_with("low")) exact += " + " + variable, size += " + Rabs " + variable;
-  for (const std::string& term : terms) exact += " + " + term, size += " + Rabs (" + term + ")";
+    if (variable.starts_with("low")) size += " + Rabs " + variable;
   return in
-      .claim({"kAnchorTerms", kAnchorTerms / kWideRoundoff, "16"}, name, without_size(computed.unrounded()),
-             exact.substr(3), size.substr(3))
+      .claim({"kAnchorTerms", kAnchorTerms / kWideRoundoff, "16"}, name, without_high_part(sum),
+             exact + " - " + high_part(sum), size)
       .taken(kinds + 0.001, which + "; the forms' own 6, and 1", 7);
 }
 
 inline FormulaClaim low_part_of_height() {
   Inputs in;
-  LowPart::inputs() = &in;
-  const LowPart H[2] = {LowPart::of("f0"), LowPart::of("f1")}, h = LowPart::next();
+  TwoParts::inputs() = &in;
+  const TwoParts H[2] = {TwoParts::named("H0", "h0"), TwoParts::named("H1", "h1")},
+                 h = TwoParts::named("H", "low");
   const Symbol n[2] = {in.number("n0"), in.number("n1")};
-  const Symbol low = compensated_height<true>(h, n, H);
-  return low_parts(in, "low_part_of_height", low, {"n0 * f0", "n1 * f1"}, 4, "products, two sums, forms");
+  return low_part(in, "low_part_of_height", compensated_height<true>(h, n, H),
+                  "H + low + n0 * (H0 + h0) + n1 * (H1 + h1)", "Rabs (n0 * h0) + Rabs (n1 * h1)", 4,
+                  "products, two sums, forms");
 }
 
-inline FormulaClaim low_part_of_sum() {
+/// Three forms, and perhaps a start.
+struct ThreeForms {
   Inputs in;
-  LowPart::inputs() = &in;
-  const LowPart f[3] = {LowPart::of("f0"), LowPart::of("f1"), LowPart::of("f2")};
+  TwoParts f[3];
+
+  ThreeForms() {
+    TwoParts::inputs() = &in;
+    for (int i = 0; i < 3; ++i) f[i] = TwoParts::named(numbered("F", i), numbered("f", i));
+  }
+  static TwoParts start() { return TwoParts::named("S", "low"); }
+};
+inline const std::string kOfForms = "n0 * (F0 + f0) + n1 * (F1 + f1) + n2 * (F2 + f2)",
+                         kLowOfForms = "Rabs (n0 * f0) + Rabs (n1 * f1) + Rabs (n2 * f2)";
+
+inline FormulaClaim low_part_of_sum() {
+  ThreeForms forms;
+  Inputs& in = forms.in;
   const Symbol n[3] = {in.number("n0"), in.number("n1"), in.number("n2")};
-  const Symbol low = compensated_sum<LowPart>(f, n);
-  return low_parts(in, "low_part_of_sum", low, {"n0 * f0", "n1 * f1", "n2 * f2"}, 4,
-                   "products, two sums, forms");
+  return low_part(in, "low_part_of_sum", compensated_sum<TwoParts>(forms.f, n), kOfForms, kLowOfForms, 4,
+                  "products, two sums, forms");
 }
 
 inline FormulaClaim low_part_of_sum_from_start() {
-  Inputs in;
-  LowPart::inputs() = &in;
-  const LowPart f[3] = {LowPart::of("f0"), LowPart::of("f1"), LowPart::of("f2")}, start = LowPart::next();
+  ThreeForms forms;
+  Inputs& in = forms.in;
   const Symbol n[3] = {in.number("n0"), in.number("n1"), in.number("n2")};
-  const Symbol low = compensated_sum_from<LowPart>(start, f, n);
-  return low_parts(in, "low_part_of_sum_from_start", low, {"n0 * f0", "n1 * f1", "n2 * f2"}, 5,
-                   "products, three sums, forms");
+  return low_part(in, "low_part_of_sum_from_start", compensated_sum_from<TwoParts>(forms.start(), forms.f, n),
+                  "S + low + " + kOfForms, kLowOfForms, 5, "products, three sums, forms");
 }
 
 /// With coefficients in double-double: the products of two low parts, 1 u^2, are left out.
 inline FormulaClaim low_part_of_wide_sum() {
-  Inputs in;
-  LowPart::inputs() = &in;
-  const LowPart f[3] = {LowPart::both("F0", "f0"), LowPart::both("F1", "f1"), LowPart::both("F2", "f2")},
-                N[3] = {LowPart::both("N0", "n0"), LowPart::both("N1", "n1"), LowPart::both("N2", "n2")},
-                start = LowPart::next();
-  const Symbol low = compensated_sum<LowPart>(f, N, start);
-  return low_parts(in, "low_part_of_wide_sum", low,
-                   {"N0 * f0", "n0 * F0", "N1 * f1", "n1 * F1", "N2 * f2", "n2 * F2"}, 6,
-                   "products, three sums, two of forms");
+  ThreeForms forms;
+  TwoParts N[3];
+  std::string exact = "S + low", size;
+  for (int i = 0; i < 3; ++i) {
+    const std::string F = numbered("F", i), f = numbered("f", i), M = numbered("N", i), n = numbered("n", i);
+    N[i] = TwoParts::named(M, n);
+    exact += " + " + M + " * (" + F + " + " + f + ") + " + n + " * " + F;
+    size += " + Rabs (" + M + " * " + f + ") + Rabs (" + n + " * " + F + ")";
+  }
+  return low_part(forms.in, "low_part_of_wide_sum", compensated_sum<TwoParts>(forms.f, N, forms.start()),
+                  exact, size.substr(3), 6, "products, three sums, two of forms");
 }
 
 inline std::vector<FormulaClaim> of_compensated_sums() {

@@ -42,6 +42,8 @@ wrong(FORMULAS, "return (s - q) / v2;",
       time_of_leaving="return (s + q) / v2;")
 wrong(FORMULAS, "T low = (a.lo + b.lo) + (ab.lo + all.lo) + h.lo;",
       low_part_forgotten="T low = (a.lo + b.lo) + (ab.lo + all.lo);")
+wrong(FORMULAS, "Pair::product(n[1], H[1].hi)",
+      height_of_one_form_twice="Pair::product(n[1], H[0].hi)")
 wrong(FORMULAS, "  return sum + offset;",
       place_without_the_offset="  return sum;")
 wrong(FORMULAS, "det = det + adjugate[0][k] * a[0][k];",
