@@ -1,0 +1,107 @@
+// What is claimed of one formula: its inputs, what it is over the real numbers (written by hand), and the sizes
+// that its error is relative to.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "proof/bounds/symbolic.hpp"
+
+namespace lorentz::bounds {
+
+/// A constant of bounds.hpp in the unit of the statement, and what docs/bounds.md derives.
+struct Constant {
+  std::string name;
+  double used;
+  std::string derived;
+};
+
+/// Of an input: between two powers of 2.
+struct PositiveInput {
+  std::string name;
+  int low, high;
+};
+
+struct FormulaClaim {
+  Constant constant;
+  std::string name;                    ///< of the theorem
+  std::vector<std::string> variables;  ///< real numbers
+  std::vector<std::string> given;      ///< hypotheses
+  std::vector<std::string> no_underflow;
+  Symbol computed;               ///< by the engine's template
+  std::string exact, size;       ///< by hand
+  bool wide = false;             ///< in double-double, in units of u^2
+  double times = 1, plus = 0;    ///< what the constant has to hold: this much of the error, and more
+  std::string because = "";      ///< why
+  std::string short_since = "";  ///< why the constant is less than that
+  std::vector<PositiveInput> ranges =
+      {};  ///< where Gappa proves a relative bound; empty: all inputs within 1
+
+  FormulaClaim& taken(double as_much, std::string reason, double and_more = 0) {
+    times = as_much, plus = and_more, because = std::move(reason);
+    return *this;
+  }
+  FormulaClaim& is_short(std::string since) {
+    short_since = std::move(since);
+    return *this;
+  }
+  FormulaClaim& within(std::vector<PositiveInput> these) {
+    ranges = std::move(these);
+    return *this;
+  }
+
+  /// The error that is claimed: what the rules bring it to, rounded up.
+  double claimed() const { return std::ceil(computed.error * 1000 + 1e-6) / 1000; }
+  /// What the constant has to be.
+  double needed() const { return std::ceil((claimed() * times + plus) * 1000 - 1e-6) / 1000; }
+  /// Has Gappa a script of it? Not of quotients whose terms cancel, nor of double-double.
+  bool has_script() const { return !wide && (computed.size > 0 || !ranges.empty()); }
+};
+
+/// Makes the inputs of one statement, and the statement.
+class Inputs {
+ public:
+  explicit Inputs(bool wide = false) : wide_(wide) { must_not_underflow().clear(); }
+
+  /// A binary64, as it is.
+  Symbol number(const std::string& name) {
+    variables_.push_back(name);
+    if (!wide_) given_.push_back("number " + name);
+    return {name};
+  }
+  /// A binary64 that stands for exact_NAME, from which it is `roundoffs` away at most.
+  Symbol rounded(const std::string& name, double roundoffs) {
+    variables_.insert(variables_.end(), {name, "exact_" + name});
+    given_.push_back("rounded " + name + " exact_" + name + " " + decimal(roundoffs));
+    return {name, roundoffs};
+  }
+  /// The same, where that is relative to `size`.
+  Symbol rounded_of(const std::string& name, double roundoffs, const std::string& size) {
+    variables_.insert(variables_.end(), {name, "exact_" + name});
+    given_.push_back("rounded_of " + name + " exact_" + name + " " + size + " " + decimal(roundoffs));
+    return {name, roundoffs};
+  }
+  /// Any real number.
+  void real(const std::string& name) { variables_.push_back(name); }
+  const std::vector<std::string>& variables() const { return variables_; }
+  void given(const std::string& hypothesis) { given_.push_back(hypothesis); }
+
+  FormulaClaim claim(Constant constant, std::string name, const Symbol& computed, std::string exact,
+                     std::string size) const {
+    return {std::move(constant), std::move(name), variables_, given_, must_not_underflow(), computed,
+            std::move(exact),    std::move(size), wide_};
+  }
+
+  static std::string decimal(double value) {
+    std::string text = std::to_string(value);
+    text.erase(text.find_last_not_of('0') + 1);
+    return text.back() == '.' ? text + "0" : text;
+  }
+
+ private:
+  bool wide_;
+  std::vector<std::string> variables_, given_;
+};
+
+}  // namespace lorentz::bounds
