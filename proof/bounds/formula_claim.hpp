@@ -29,21 +29,16 @@ struct FormulaClaim {
   std::vector<std::string> variables;  ///< real numbers
   std::vector<std::string> given;      ///< hypotheses
   std::vector<std::string> no_underflow;
-  Symbol computed;               ///< by the engine's template
-  std::string exact, size;       ///< by hand
-  bool wide = false;             ///< in double-double, in units of u^2
-  double times = 1, plus = 0;    ///< what the constant has to hold: this much of the error, and more
-  std::string because = "";      ///< why
-  std::string short_since = "";  ///< why the constant is less than that
+  Symbol computed;             ///< by the engine's template
+  std::string exact, size;     ///< by hand
+  bool wide = false;           ///< in double-double, in units of u^2
+  double times = 1, plus = 0;  ///< what the constant has to hold: this much of the error, and more
+  std::string because = "";    ///< why
   std::vector<PositiveInput> ranges =
       {};  ///< where Gappa proves a relative bound; empty: all inputs within 1
 
   FormulaClaim& taken(double as_much, std::string reason, double and_more = 0) {
     times = as_much, plus = and_more, because = std::move(reason);
-    return *this;
-  }
-  FormulaClaim& is_short(std::string since) {
-    short_since = std::move(since);
     return *this;
   }
   FormulaClaim& within(std::vector<PositiveInput> these) {

@@ -21,7 +21,7 @@ inline FormulaClaim along_on_unit_lattice() {
                R[2] = {in.number("R0"), in.number("R1")}, m = in.number("m"),
                L[2] = {in.number("L0"), in.number("L1")};
   return in.claim(
-      {"kAlong", kAlong, "8"}, "along_on_unit_lattice",
+      {"kAlongOnUnit", kAlongOnUnit, "8"}, "along_on_unit_lattice",
       sum_along(s, n, sum_of_products(R[0], v[0], R[1], v[1]), m, sum_of_products(L[0], v[0], L[1], v[1])),
       "s + n * (R0 * v0 + R1 * v1) + m * (L0 * v0 + L1 * v1)",
       "Rabs s + Rabs n * (Rabs (R0 * v0) + Rabs (R1 * v1)) + Rabs m * (Rabs (L0 * v0) + Rabs (L1 * v1))");
@@ -38,14 +38,12 @@ inline FormulaClaim along_in_plane() {
   const std::string exact0 = "(v0 * exact_x0 + v1 * exact_y0)", exact1 = "(v0 * exact_x1 + v1 * exact_y1)",
                     size0 = "(Rabs (v0 * exact_x0) + Rabs (v1 * exact_y0))",
                     size1 = "(Rabs (v0 * exact_x1) + Rabs (v1 * exact_y1))";
-  return in
-      .claim({"kAlong", kAlong, "8"}, "along_in_plane",
-             sum_along(s, n, sum_of_products(R[0], S0, R[1], S1), m, sum_of_products(L[0], S0, L[1], S1)),
-             "s + n * (R0 * " + exact0 + " + R1 * " + exact1 + ") + m * (L0 * " + exact0 + " + L1 * " +
-                 exact1 + ")",
-             "Rabs s + Rabs n * (Rabs R0 * " + size0 + " + Rabs R1 * " + size1 + ") + Rabs m * (Rabs L0 * " +
-                 size0 + " + Rabs L1 * " + size1 + ")")
-      .is_short("eight roundings are a little more than 8 u");
+  return in.claim(
+      {"kAlong", kAlong, "8"}, "along_in_plane",
+      sum_along(s, n, sum_of_products(R[0], S0, R[1], S1), m, sum_of_products(L[0], S0, L[1], S1)),
+      "s + n * (R0 * " + exact0 + " + R1 * " + exact1 + ") + m * (L0 * " + exact0 + " + L1 * " + exact1 + ")",
+      "Rabs s + Rabs n * (Rabs R0 * " + size0 + " + Rabs R1 * " + size1 + ") + Rabs m * (Rabs L0 * " + size0 +
+          " + Rabs L1 * " + size1 + ")");
 }
 
 /// r |v|. A comparison with it is without a rounding of its own (Errors.v, above).
@@ -84,8 +82,7 @@ inline FormulaClaim number_of_row(const Constant& constant, const std::string& n
                       "+ v1 * v1) * exact_area)");
 }
 inline FormulaClaim row_beside_start() {
-  return number_of_row({"kRowNumber", kRowNumber, "16"}, "row_beside_start")
-      .is_short("the area's two terms may be 2/sqrt(3) of it; kRowSlop, which is added, holds the rest");
+  return number_of_row({"kRowNumber", kRowNumber, "16"}, "row_beside_start");
 }
 inline FormulaClaim row_beside_start_widened() {
   return number_of_row({"kRowSlop", kRowSlop / kRoundoff / 0x1p20, "16"}, "row_beside_start_widened")

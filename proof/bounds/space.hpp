@@ -46,10 +46,8 @@ inline FormulaClaim along_in_space() {
   Inputs in;
   std::string exact, size;
   const Symbol z = after_steps(in, 2.01, exact, size, "z"), begin = in.number("b"), length = in.number("l");
-  return in
-      .claim({"kAlong", kAlong, "6"}, "along_in_space", begin + z * length, "b + (" + exact + ") * l",
-             "Rabs b + (" + size + ") * Rabs l")
-      .is_short("a window's length divides z and multiplies it again");
+  return in.claim({"kAlong", kAlong, "6"}, "along_in_space", begin + z * length, "b + (" + exact + ") * l",
+                  "Rabs b + (" + size + ") * Rabs l");
 }
 
 /// |across|^2, by its two scales.

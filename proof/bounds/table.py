@@ -23,12 +23,11 @@ def bound_by(name):
     return number(re.search(r"<= ([0-9.e+]+) }", file.read_text())[1]) if file.exists() else ""
 
 def row(line):
-    constant, name, _, derived, proved, times, plus, needed, used, because, short = line.split("\t")
+    constant, name, _, derived, proved, times, plus, needed, used, because = line.split("\t")
     gappa = f"{asked(name)} of {bound_by(name)}" if asked(name) else ""
     takes = f"{number(times)} ({because})" if because and times != "1" else because
     names = ", ".join(f"`{one}`" for one in constant.split(", "))
-    used = f"{number(used)}" + (" **short**" if short else "")
-    return f"| {names} | {name.replace('_', ' ')} | {derived} | {number(proved)} | {takes} | {number(needed)} | {used} | {gappa} |"
+    return f"| {names} | {name.replace('_', ' ')} | {derived} | {number(proved)} | {takes} | {number(needed)} | {number(used)} | {gappa} |"
 
 def tables():
     lines = (MADE / "constants.tsv").read_text().splitlines()

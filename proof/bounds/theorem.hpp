@@ -24,11 +24,8 @@ inline void write_comparison(std::ostream& out, const FormulaClaim& of) {
   const std::string needed = Inputs::decimal(of.claimed()) + " * " + Inputs::decimal(of.times) + " + " +
                              Inputs::decimal(of.plus),
                     room = Inputs::decimal(of.constant.used) + " * (1 - 16 * u)";
-  if (of.short_since.empty())
-    out << "Theorem " << of.name << "_is_covered : " << needed << " <= " << room << ".";
-  else
-    out << "Theorem " << of.name << "_is_short : " << room << " < " << needed << ".";
-  out << "  (* " << of.constant.name << " *)\nProof. figure. Qed.\n\n";
+  out << "Theorem " << of.name << "_is_covered : " << needed << " <= " << room << ".  (* " << of.constant.name
+      << " *)\nProof. figure. Qed.\n\n";
 }
 
 inline void write_theorems(std::ostream& out, const std::vector<FormulaClaim>& all) {

@@ -24,13 +24,12 @@ std::vector<FormulaClaim> claims() {
   return all;
 }
 
-// One claim a line: constant, theorem, unit, derived, proved, times, plus, needed, used, because, short since.
+// One claim a line: constant, theorem, unit, derived, proved, times, plus, needed, used, because.
 void write_constants(std::ostream& out, const std::vector<FormulaClaim>& all) {
   for (const FormulaClaim& one : all)
     out << one.constant.name << '\t' << one.name << '\t' << (one.wide ? "u^2" : "u") << '\t'
         << one.constant.derived << '\t' << one.claimed() << '\t' << one.times << '\t' << one.plus << '\t'
-        << one.needed() << '\t' << one.constant.used << '\t' << one.because << '\t' << one.short_since
-        << '\n';
+        << one.needed() << '\t' << one.constant.used << '\t' << one.because << '\n';
 }
 
 void write_all(const std::string& folder) {

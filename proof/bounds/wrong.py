@@ -60,8 +60,8 @@ wrong(BOUNDS, "kSparse = 10, kSparseOfShape = 16;",
 wrong(BOUNDS, "kLayer = 8;", layers_of_7="kLayer = 7;")
 wrong(BOUNDS, "kPlace = 0x1p-102;", places_of_half="kPlace = 0x1p-103;")
 wrong(BOUNDS, "kAnchor = 3, kAnchorTerms = 0x1p-100;", anchors_of_a_quarter="kAnchor = 3, kAnchorTerms = 0x1p-102;")
-# One that is short, and no longer is: the page has to say so.
-wrong(BOUNDS, "kAlong = 8;", along_of_9="kAlong = 9;")
+wrong(BOUNDS, "kAlong = 9,", along_of_8="kAlong = 8,")
+wrong(BOUNDS, "kRowNumber = 18;", rows_of_16="kRowNumber = 16;")
 
 class NotTried(Exception):
     """No verdict."""

@@ -144,6 +144,7 @@ TEST_CASE("Height in a row: kHeight", "[engines][bounds]") {
 
 TEST_CASE("Position along the line: kAlong", "[engines][bounds]") {
   covers(kAlong, sum_along(none, one, along_of_arm(), none, none).error);
+  covers(kAlongOnUnit, sum_along(none, one, sum_of_products(one, one, none, none), none, none).error);
   // 3D: four steps from the anchor, each of a rounded z.
   Carried z = stepped(none, one, Carried{1, 1});
   for (int step = 1; step < 4; ++step) z = stepped(z, none, none);

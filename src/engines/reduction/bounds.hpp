@@ -34,14 +34,15 @@ inline constexpr double kInsideEllipsoid = 16;
 /// terms.
 inline constexpr double kAnchor = 3, kAnchorTerms = 0x1p-100;
 
-/// A sum s + n S_R + m S_L of positions along the line, relative to its terms.
-inline constexpr double kAlong = 8;
+/// A sum s + n S_R + m S_L of positions along the line, relative to its terms; on the unit square, where S is one
+/// sum of products.
+inline constexpr double kAlong = 9, kAlongOnUnit = 8;
 
 /// r |v| as computed from the sum of squares, and the roundings of a comparison with it.
 inline constexpr double kRho = 6;
 
 /// 2D, the number of the row beside the start: relative to its terms.
-inline constexpr double kRowNumber = 16;
+inline constexpr double kRowNumber = 18;
 
 /// 2D, where a row enters the strip, from (y + n D_R - rho) / D_L: relative to the terms.
 inline constexpr double kRowEntry = 16;

@@ -12,6 +12,8 @@ class RowsOf2 {
   using Mask = typename Arch::Mask;
   using Direction = Direction2<Numbers, kUnit, kBall>;
 
+  static constexpr double kPosition = kUnit ? kAlongOnUnit : kAlong;
+
   LORENTZ_INLINE RowsOf2(const Direction& to, const Bravais& lattice, const Offset<Numbers, 2>& offset)
       : to_(to), lattice_(lattice), offset_(offset) {}
 
@@ -26,7 +28,7 @@ class RowsOf2 {
     y_error_ = y_error_ + kAnchorTerms * size + all(kFlushed);
     s_ = sum_of_products(to_.along(0), d[0].hi, to_.along(1), d[1].hi);
     if constexpr (kBall)
-      s_error_ = kAlong * kRoundoff * size;
+      s_error_ = kPosition * kRoundoff * size;
     else
       s_error_ = to_.shape.along_error * size;
     if constexpr (!kUnit && kBall) s_error_ = s_error_ + kForm * error;
@@ -134,7 +136,7 @@ class RowsOf2 {
     ball.error = kHeight * kRoundoff * (Abs(y_) + Abs(n * R.D) + Abs(m * L.D)) + y_error_;
     if constexpr (!kUnit) ball.error = ball.error + Abs(n) * R.D_error + Abs(m) * L.D_error;
     ball.s = sum_along(s_, n, R.S, m, L.S);
-    ball.s_error = s_error_ + kAlong * kRoundoff * (Abs(n * R.S) + Abs(m * L.S));
+    ball.s_error = s_error_ + kPosition * kRoundoff * (Abs(n * R.S) + Abs(m * L.S));
     if constexpr (!kBall) ball.s_error = ball.s_error + (Abs(n) * R.S_error + Abs(m) * L.S_error);
     return ball;
   }
@@ -208,7 +210,7 @@ class RowsOf2 {
     const Number y = to_.sigma * compensated_height<!kUnit>(h, near, to_.H);
     const Number y_error = y_error_ + (kAnchor * kRoundoff * Abs(y) + kAnchorTerms * terms);
     const Number s = s_ + sum_of_products(near[0], to_.S[0], near[1], to_.S[1]);
-    s_error = s_error + kAlong * kRoundoff * along;
+    s_error = s_error + kPosition * kRoundoff * along;
     y_ = select(tiny, y, y_), y_error_ = select(tiny, y_error, y_error_);
     s_ = select(tiny, s, s_), s_error_ = select(tiny, s_error, s_error_);
     anchor_error_ = where(tiny, y_error);
