@@ -124,6 +124,12 @@ Section Line.
     destruct (apart _ _ _ _ _ W W') as [-> ->]. lra.
   Qed.
 
+  Lemma entered_ahead i j : meets i j -> 0 <= entry i j -> 0 < along_line i j.
+  Proof.
+    intros M T0. pose proof (half_chord_positive i j M) as Q. apply Rnot_le_lt. intros N. unfold entry, Rdiv in T0.
+    pose proof (Rinv_0_lt_compat _ moves). nra.
+  Qed.
+
   (* x lies in no disc but `from`; of all discs that the line meets ahead, but `from`, the centre of this one is
      the first: then this disc is. *)
   Theorem first_by_position i j : from <> Some (disc i j) -> meets i j -> 0 < along_line i j ->
@@ -143,12 +149,19 @@ Section Line.
     - intros o t Fo En. assert (exists i' j', o = disc i' j') as (i' & j' & ->).
       { destruct En as (_ & _ & N). destruct (N (t + 1) ltac:(lra)) as (t' & K & _). eapply within_is_disc, K. }
       apply enters_disc in En. destruct En as (M' & T0 & ->).
-      assert (S' : 0 < along_line i' j').
-      { pose proof (half_chord_positive i' j' M') as Q. apply Rnot_le_lt. intros N. unfold entry, Rdiv in T0.
-        pose proof (Rinv_0_lt_compat _ moves). nra. }
+      pose proof (entered_ahead i' j' M' T0) as S'.
       destruct (First i' j' Fo M' S') as [E|L].
       + injection E as -> ->. right. split; [reflexivity|left; reflexivity].
       + left. apply entered_in_order; auto.
+  Qed.
+  Theorem nothing_by_position : (forall i j, from <> Some (disc i j) -> ~ within (disc i j) 0) ->
+    (forall i j, from <> Some (disc i j) -> meets i j -> ~ 0 < along_line i j) -> nothing within from.
+  Proof.
+    intros Out None o Fo. split.
+    - intros W. destruct (within_is_disc o 0 W) as (i & j & ->). exact (Out i j Fo W).
+    - intros t En. assert (exists i j, o = disc i j) as (i & j & ->).
+      { destruct En as (_ & _ & N). destruct (N (t + 1) ltac:(lra)) as (t' & K & _). eapply within_is_disc, K. }
+      apply enters_disc in En. destruct En as (M & T0 & ->). exact (None i j Fo M (entered_ahead i j M T0)).
   Qed.
   (* Where x is at most half a cell from an integer point in each coordinate, no other disc contains it. *)
   Lemma home_only i j i' j' : Rabs (x0 - IZR i) <= 1 / 2 -> Rabs (x1 - IZR j) <= 1 / 2 ->

@@ -202,6 +202,29 @@ Inductive verdict := HitAt (i j : Z) | InsideAt (i j : Z) | NeverHit | Undecided
 
 Definition turn_sign (a : num) : Z := if Fnum a <? 0 then -1 else 1.
 Definition turned (sign : Z) (a : num) : num := if sign <? 0 then neg a else a.
+Definition relative (home : Z * Z) (from : option (Z * Z)) : option (Z * Z) :=
+  match from with Some f => Some (fst f - fst home, snd f - snd home) | None => None end.
+(* From a start in no disc: turned by the symmetry that brings v into the first octant, and back. *)
+Definition fly_outside (home : Z * Z) (d0 d1 v0 v1 r : num) (leaving : option (Z * Z)) : verdict :=
+  let steep := below (size_of v0) (size_of v1) in
+  let sign0 := turn_sign v0 in let sign1 := turn_sign v1 in
+  let there {A} (a b : A) : A * A := if steep then (b, a) else (a, b) in
+  let w := there (size_of v0) (size_of v1) in
+  let d := there (turned sign0 d0) (turned sign1 d1) in
+  let leaving_there :=
+    match leaving with Some f => Some (there (sign0 * fst f) (sign1 * snd f)) | None => None end in
+  match set_direction (fst w) (snd w) r with
+  | None => Undecided
+  | Some to =>
+    match search to (set_start (is_flipped to) (fst w) (snd w) (fst d) (snd d)) leaving_there with
+    | None => Undecided
+    | Some None => NeverHit
+    | Some (Some f) =>
+      let N := cell_at to (at_n f) (at_m f) in
+      let here := there (fst N) (snd N) in
+      HitAt (fst home + sign0 * fst here) (snd home + sign1 * snd here)
+    end
+  end.
 (* The larger component of v is in [1, 2). *)
 Definition fly (x0 x1 v0 v1 r : num) (from : option (Z * Z)) : verdict :=
   let d0 := offset_of x0 in let d1 := offset_of x1 in
@@ -211,31 +234,10 @@ Definition fly (x0 x1 v0 v1 r : num) (from : option (Z * Z)) : verdict :=
      at_most (whole 1) largest && below largest (whole 2) &&
      at_most smallest_radius r && at_most r (power (-1)) then
     let home := (home_of x0, home_of x1) in
-    let leaving := match from with Some f => Some (fst f - fst home, snd f - snd home) | None => None end in
-    let inside := if is_cell leaving (0, 0) then No else is_inside d0 d1 r in
-    match inside with
+    let leaving := relative home from in
+    match (if is_cell leaving (0, 0) then No else is_inside d0 d1 r) with
     | Yes => InsideAt (fst home) (snd home)
     | Doubtful => Undecided
-    | No =>
-      (* the symmetry that brings v into the first octant *)
-      let steep := below (size_of v0) (size_of v1) in
-      let sign0 := turn_sign v0 in let sign1 := turn_sign v1 in
-      let there {A} (a b : A) : A * A := if steep then (b, a) else (a, b) in
-      let w := there (size_of v0) (size_of v1) in
-      let d := there (turned sign0 d0) (turned sign1 d1) in
-      let leaving_there := match leaving with
-        | Some f => Some (there (sign0 * fst f) (sign1 * snd f)) | None => None end in
-      match set_direction (fst w) (snd w) r with
-      | None => Undecided
-      | Some to =>
-        match search to (set_start (is_flipped to) (fst w) (snd w) (fst d) (snd d)) leaving_there with
-        | None => Undecided
-        | Some None => NeverHit
-        | Some (Some f) =>
-          let N := cell_at to (at_n f) (at_m f) in
-          let here := there (fst N) (snd N) in
-          HitAt (fst home + sign0 * fst here) (snd home + sign1 * snd here)
-        end
-      end
+    | No => fly_outside home d0 d1 v0 v1 r leaving
     end
   else Undecided.

@@ -1,6 +1,6 @@
 From Coq Require Import ZArith Reals Lra Lia Psatz Bool.
 From Flocq Require Import Core.
-From Lorentz Require Import Spec Doubles Euclid Rows Model Certain Roundings Errors Errors2.
+From Lorentz Require Import Spec Doubles Euclid Rows Model Certain Roundings Errors ErrorsStart.
 Local Open Scope R_scope.
 
 Section Known.
