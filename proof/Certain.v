@@ -145,7 +145,8 @@ Section Certain.
     best_of (rows_before n) best -> (forall m', (m' < m)%Z -> ~ candidate n m') ->
     look_from to here from candidates best n m = Some b -> best_of (rows_before (n + 1)) b.
   Proof.
-    induction candidates as [|candidates IH]; [intros ? ? ? ? _ _ _ E; discriminate E|]. intros best n m b Hn B Skipped. cbn [look_from].
+    induction candidates as [|candidates IH]; [intros ? ? ? ? _ _ _ E; discriminate E|].
+    intros best n m b Hn B Skipped. cbn [look_from].
     pose proof (look_at_ok (rows_before n) best n m B Hn) as K.
     destruct (look_at to here from best n m) as [|f| |].
     - apply (IH best n (m + 1)%Z b Hn B). intros m' Hm. destruct (Z.eq_dec m' m) as [->|N]; [exact K|].
@@ -185,7 +186,8 @@ Section Certain.
   Lemma look_in_rows_ok rows : forall best n b, n = (first_n + Z.of_nat (max_rows - rows))%Z -> (rows <= max_rows)%nat ->
     best_of (rows_before n) best -> look_in_rows to here from rows best n = Some b -> best_of everywhere b.
   Proof.
-    induction rows as [|rows IH]; [intros ? ? ? _ _ _ E; discriminate E|]. intros best n b En Hr B. pose proof level as Level.
+    induction rows as [|rows IH]; [intros ? ? ? _ _ _ E; discriminate E|].
+    intros best n b En Hr B. pose proof level as Level.
     cbn [look_in_rows].
     assert (Hn : (first_n <= n <= first_n + Z.of_nat max_rows)%Z) by lia.
     destruct (is_beyond_last to here best n) eqn:EB.
@@ -225,7 +227,8 @@ Section Certain.
   (* Of all balls in the strip ahead, but `from`, the one that is found is the first; or there is none. *)
   Theorem search_certain b : search to here from = Some b -> best_of everywhere b.
   Proof.
-    unfold search. destruct (below (plus _ _) _); [|intros E; discriminate E]. apply look_in_rows_ok; [fold first_n; rewrite Nat.sub_diag; cbn [Z.of_nat]; lia|lia|].
+    unfold search. destruct (below (plus _ _) _); [|intros E; discriminate E].
+    apply look_in_rows_ok; [fold first_n; rewrite Nat.sub_diag; cbn [Z.of_nat]; lia|lia|].
     intros n m H. unfold rows_before in H. fold first_n in H. lia.
   Qed.
 End Certain.

@@ -1,4 +1,4 @@
-(* docs/bounds.md: that what the search computes in the plane errs by no more than it believes. *)
+(* docs/bounds.md, "Radius", and what a direction has before any start is known. *)
 From Coq Require Import ZArith Reals Lra Lia Psatz Bool.
 From Flocq Require Import Core Plus_error Mult_error.
 From Lorentz Require Import Spec Doubles Euclid Rows Model Certain Roundings.

@@ -1,3 +1,4 @@
+(* docs/bounds.md, "Height in a row", "Position along the line", "Rows", "Radius": what Certain.v asks for. *)
 From Coq Require Import ZArith Reals Lra Lia Psatz Bool.
 From Flocq Require Import Core.
 From Lorentz Require Import Spec Doubles Euclid Rows Model Certain Roundings Errors ErrorsStart.

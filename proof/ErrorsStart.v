@@ -1,3 +1,4 @@
+(* docs/bounds.md, "Height in a row" and "Position along the line": the home cell's disc as the start sees it. *)
 From Coq Require Import ZArith Reals Lra Lia Psatz Bool.
 From Flocq Require Import Core Plus_error Mult_error.
 From Lorentz Require Import Spec Doubles Euclid Rows Model Certain Roundings Errors.
