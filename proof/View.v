@@ -1,4 +1,4 @@
-(* docs/certificates.md, "What is claimed": "Of an ellipsoid { p + A y : |y| < 1 }: first apply A^-1 to
+(* docs/certificates.md, "What is claimed": "For an ellipsoid { p + A y : |y| < 1 }: first apply A^-1 to
    everything, so it is a ball; lines stay lines and t stays t." Here by adj A = det A A^-1, which is of
    integers: a ball of radius det A. *)
 From Coq Require Import ZArith Reals Lra Lia Psatz.
