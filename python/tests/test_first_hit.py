@@ -224,7 +224,7 @@ def test_what_an_engine_does_not_do_is_no_fault_of_the_row():
     (dict(x=[[0, 0]], v=[[1, 0]], jobs=0), "jobs: 0 is not from 1 to 1024"),
     (dict(x=[[0, 0]], v=[[1, 0]], on_error="ignore"), "on_error"),
     (dict(x=[[0, 0]], v=[[1, 0]], start_from=(0, 7, [0, 0]), on_error="raise"), "row 0"),
-    (dict(x=[[0, 0]], v=[[1, 0]], start_from=(0.5, 0, [0, 0])), "start_from: .* no type of integers"),
+    (dict(x=[[0, 0]], v=[[1, 0]], start_from=(0.5, 0, [0, 0])), "start_from: .* not a type of integers"),
     (dict(x=[[0, 0]], v=[[1, 0]], start_from=(0, 0, [0, 0, 0])), "start_from"),
     (dict(x=[[0, 0]], v=[[1, 0]], max_time=-1), "row 0: max_time must be above zero"),
 ])
