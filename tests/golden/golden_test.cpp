@@ -219,7 +219,8 @@ TEST_CASE("Golden: what is no set is refused with the line's number", "[golden]"
   CHECK(complaint(replaced(good, "\"windows\":[{", "\"windows\":[[")).starts_with("3: "));
   CHECK(complaint(replaced(good, "\"windows\":[{", "\"panes\":[{")).starts_with("3: certificate: has neit"));
   CHECK(complaint(replaced(good, ",\"cell\":[1,0]", ",\"cell\":[1,0,0]")).starts_with("3: "));
-  CHECK(complaint(replaced(good, "\"to\":", "\"to\":\"0x1p\",\"t\":")).starts_with("3: to: is neither a number nor a text"));
+  CHECK(complaint(replaced(good, "\"to\":", "\"to\":\"0x1p\",\"t\":"))
+            .starts_with("3: to: is neither a number nor a text"));
   CHECK(complaint(replaced(good, "\"margin\":", "\"margin\":\"much\",\"m\":")).starts_with("3: margin"));
   CHECK(complaint(good.substr(0, good.size() - 9)).starts_with("5: not JSON"));
   // No index that becomes another one in fewer bits.

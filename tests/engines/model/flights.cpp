@@ -117,7 +117,8 @@ int main(int count, char** words) {
   char line[512], i[32], j[32];
   while (std::fgets(line, sizeof line, stdin)) {
     double a[5];
-    if (std::sscanf(line, "%la %la %la %la %la %31s %31s", a, a + 1, a + 2, a + 3, a + 4, i, j) != 7) return 2;
+    if (std::sscanf(line, "%la %la %la %la %la %31s %31s", a, a + 1, a + 2, a + 3, a + 4, i, j) != 7)
+      return 2;
     lorentz::ObstacleId from;
     from.cell = {std::atoll(i), std::atoll(j), 0};
     lorentz::fly(a, *i == '-' && i[1] == 0 ? nullptr : &from);
