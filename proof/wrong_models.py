@@ -3,8 +3,9 @@ must refuse a proof of each. What does not end, or is refused outside of a proof
 
 python3 proof/wrong_models.py [--count N --seed S | NAME..]
 exit status: 0 all refused, 1 one was not, 2 bad usage, 3 one could not be tried"""
-import argparse, pathlib, random, shutil, sys, tempfile
-from wrong_specs import FOLDER, NotTried, compiles
+import pathlib, shutil, sys, tempfile
+from planting import main, plant
+from wrong_specs import FOLDER, compiles
 
 FILES = ["Doubles", "Euclid", "Rows", "Discs", "Model", "Certain", "Roundings", "Errors", "ErrorsStart", "ErrorsRows",
          "Engine"]  # each needs some of those before it
@@ -36,28 +37,8 @@ def refused_by(change):
     with tempfile.TemporaryDirectory() as folder:
         for path in FOLDER.glob("*.vo"): shutil.copy(path, folder)
         for name in FILES: shutil.copy(FOLDER / f"{name}.v", folder)
-        path = pathlib.Path(folder) / f"{changed}.v"
-        text = path.read_text()
-        if text.count(old) != 1: raise NotTried(f"{text.count(old)} places to plant it")
-        path.write_text(text.replace(old, new))
-        return next((name for name in FILES[FILES.index(changed):] if not compiles(name, folder)), None)
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="NAME")
-    parser.add_argument("--count", type=int, help=f"so many of the {len(WRONG)}, by chance (default: all)")
-    parser.add_argument("--seed", type=int, default=1, help="of that chance (default: 1)")
-    options = parser.parse_args()
-    if unknown := [name for name in options.names if name not in WRONG]: parser.error(f"no wrong model {unknown[0]!r}")
-    names = options.names or [*WRONG]
-    if options.count is not None: names = random.Random(options.seed).sample(names, min(options.count, len(names)))
-    status = 0
-    for name in names:
-        try: by = refused_by(WRONG[name])
-        except NotTried as why: status, said = status or 3, f"NOT TRIED: {why}"
-        else: status, said = status if by else 1, f"refused by {by}.v" if by else "ACCEPTED"
-        print(f"{name:32} {said}", flush=True)
-    return status
+        plant(pathlib.Path(folder) / f"{changed}.v", old, new)
+        return next((f"{name}.v" for name in FILES[FILES.index(changed):] if not compiles(name, folder)), None)
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(__doc__, WRONG, refused_by, unchanged=("Engine", "Local Open Scope", "Local Open Scope")))

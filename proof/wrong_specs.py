@@ -4,7 +4,8 @@ not end, or is refused outside of a proof, is an error of its own. `make` first.
 
 python3 proof/wrong_specs.py [--count N --seed S | NAME..]
 exit status: 0 all refused, 1 one was not, 2 bad usage, 3 one could not be tried"""
-import argparse, concurrent.futures, os, pathlib, random, re, shutil, subprocess, sys, tempfile
+import pathlib, re, shutil, subprocess, sys, tempfile
+from planting import NotTried, main, plant
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 FILES = ["Rounding", "Number", "Sanity", "Examples", "Answers"]  # besides Spec, and Time, which needs none
@@ -306,9 +307,6 @@ wrong("forall o, from q = Some o -> exists L A, atom_of sc o L A.",
       from_or_not="exists o, from q = Some o -> exists L A, atom_of sc o L A.")
 
 # ---- To try one.
-class NotTried(Exception):
-    pass
-
 def compiles(name, folder):
     """Whether Coq accepts it. NotTried, if it does not come to an end or does not refuse a proof."""
     command = ["coqc", "-q", "-Q", ".", "Lorentz", f"{name}.v"]
@@ -330,44 +328,10 @@ def refused_by(change):
     with tempfile.TemporaryDirectory() as folder:
         for name in ["Spec", *FILES]: shutil.copy(FOLDER / f"{name}.v", folder)
         for kind in ("v", "vo"): shutil.copy(FOLDER / f"Time.{kind}", folder)
-        spec = pathlib.Path(folder) / "Spec.v"
-        text = spec.read_text()
-        if text.count(old) != 1: raise NotTried(f"{text.count(old)} places to plant it")
-        spec.write_text(text.replace(old, new))
+        plant(pathlib.Path(folder) / "Spec.v", old, new)
         try: compiles("Spec", folder)  # no proof is in it
         except NotTried as why: raise NotTried(f"no specification at all: {why}") from None
-        return next((name for name in FILES if not compiles(name, folder)), None)
-
-def attempt(change):
-    try: return refused_by(change), None
-    except NotTried as why: return None, str(why)
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="NAME")
-    parser.add_argument("--count", type=int, help=f"so many of the {len(WRONG)}, by chance (default: all)")
-    parser.add_argument("--seed", type=int, default=1, help="of that chance (default: 1)")
-    options = parser.parse_args()
-    if unknown := [name for name in options.names if name not in WRONG]:
-        parser.error(f"no wrong specification {unknown[0]!r}")
-    names = options.names or [*WRONG]
-    if options.count is not None:
-        names = random.Random(options.seed).sample(names, min(options.count, len(names)))
-    by, why = attempt(("Inductive answer", "Inductive answer"))  # no change
-    if by or why:
-        print(f"the specification itself is not accepted: {by or why}", file=sys.stderr)
-        return 3
-    accepted = failed = 0
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for name, (by, why) in zip(names, pool.map(lambda name: attempt(WRONG[name]), names)):
-            accepted += by is None and why is None
-            failed += why is not None
-            said = f"refused by {by}.v" if by else f"NOT TRIED: {why}" if why else "ACCEPTED"
-            print(f"{name:32} {said}", flush=True)
-    refused = len(names) - accepted - failed
-    print(f"{len(names)} wrong specifications: {refused} refused, {accepted} accepted, {failed} not tried")
-    return 1 if accepted else 3 if failed else 0
+        return next((f"{name}.v" for name in FILES if not compiles(name, folder)), None)
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(__doc__, WRONG, refused_by, unchanged=("Inductive answer", "Inductive answer")))

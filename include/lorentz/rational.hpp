@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -85,5 +86,25 @@ const Start& checked(const Start& start, const RationalScene& scene);
 
 /// The same numbers as rational numbers.
 RationalScene rational(const Scene& scene);
+
+/// The same scene with `number(x)` in place of each number x: from Scene to RationalScene, or back.
+template <class To, class From, class Number>
+To mapped(const From& scene, const Number& number) {
+  To result{scene.dimension, {}};
+  for (const auto& lattice : scene.lattices) {
+    auto& its = result.lattices.emplace_back();
+    using Vector = std::remove_reference_t<decltype(its.vectors[0])>;
+    const auto vector = [&](const auto& a) { return Vector{number(a[0]), number(a[1]), number(a[2])}; };
+    its.missing = lattice.missing;
+    for (std::size_t i = 0; i < 3; ++i) its.vectors[i] = vector(lattice.vectors[i]);
+    for (const auto& atom : lattice.atoms) {
+      auto& obstacle = its.atoms.emplace_back();
+      obstacle.position = vector(atom.position);
+      obstacle.radius = number(atom.radius);
+      for (const auto& axis : atom.semiaxes) obstacle.semiaxes.push_back(vector(axis));
+    }
+  }
+  return result;
+}
 
 }  // namespace lorentz

@@ -116,17 +116,7 @@ Vec nearest_vec(const RationalVec& a) {
 }  // namespace
 
 Scene nearest(const RationalScene& scene) {
-  Scene result{scene.dimension, {}};
-  for (const RationalLattice& lattice : scene.lattices) {
-    Lattice& its = result.lattices.emplace_back();
-    its.missing = lattice.missing;
-    for (std::size_t i = 0; i < 3; ++i) its.vectors[i] = nearest_vec(lattice.vectors[i]);
-    for (const RationalAtom& atom : lattice.atoms) {
-      its.atoms.push_back({nearest_vec(atom.position), nearest(atom.radius), {}});
-      for (const RationalVec& axis : atom.semiaxes) its.atoms.back().semiaxes.push_back(nearest_vec(axis));
-    }
-  }
-  return result;
+  return mapped<Scene>(scene, [](const Rational& number) { return nearest(number); });
 }
 
 Query nearest(const Start& start) {

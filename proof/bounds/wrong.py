@@ -4,7 +4,10 @@ compile is an error of its own. `make` first.
 
 python3 proof/bounds/wrong.py [NAME..]
 exit status: 0 all refused, 1 one was not, 2 bad usage, 3 one could not be tried"""
-import argparse, concurrent.futures, os, pathlib, re, shutil, subprocess, sys, tempfile
+import os, pathlib, re, shutil, subprocess, sys, tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from planting import NotTried, main, plant  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ENGINE = ROOT / "src/engines"
@@ -63,9 +66,6 @@ wrong(BOUNDS, "kAnchor = 3, kAnchorTerms = 0x1p-100;", anchors_of_a_quarter="kAn
 wrong(BOUNDS, "kAlong = 9,", along_of_8="kAlong = 8,")
 wrong(BOUNDS, "kRowNumber = 18;", rows_of_16="kRowNumber = 16;")
 
-class NotTried(Exception):
-    """No verdict."""
-
 def run(*command, folder):
     try: return subprocess.run(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, timeout=LONGEST)
     except subprocess.TimeoutExpired: raise NotTried(f"{command[0]} did not end in {LONGEST} seconds") from None
@@ -81,10 +81,7 @@ def refused_by(change):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         set_up(folder)
-        path = folder / "src/engines" / file
-        text = path.read_text()
-        if text.count(old) != 1: raise NotTried(f"{text.count(old)} places to plant it")
-        path.write_text(text.replace(old, new))
+        plant(folder / "src/engines" / file, old, new)
         compiler = os.environ.get("CXX", "c++")
         done = run(compiler, "-std=c++20", "-I.", f"-I{ROOT / 'include'}", "proof/bounds/write.cpp", "-o", "write", folder=folder)
         if done.returncode: raise NotTried(f"it does not compile: {done.stderr[-300:]}")
@@ -97,30 +94,5 @@ def refused_by(change):
         if not before.split("\n")[-1].startswith("Proof."): raise NotTried(f"refused, but not in a proof: {done.stderr[-300:]}")
         return re.findall(r"^Theorem (\w+)", before, re.M)[-1]
 
-def attempt(change):
-    try: return refused_by(change), None
-    except NotTried as why: return None, str(why)
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="NAME")
-    options = parser.parse_args()
-    if unknown := [name for name in options.names if name not in WRONG]: parser.error(f"no change {unknown[0]!r}")
-    names = options.names or [*WRONG]
-    by, why = attempt((BOUNDS, "kHeight = 8;", "kHeight = 8;"))  # no change
-    if by or why:
-        print(f"the claims themselves are not accepted: {by or why}", file=sys.stderr)
-        return 3
-    accepted = failed = 0
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for name, (by, why) in zip(names, pool.map(lambda name: attempt(WRONG[name]), names)):
-            accepted += by is None and why is None
-            failed += why is not None
-            said = f"refused: {by}" if by else f"NOT TRIED: {why}" if why else "ACCEPTED"
-            print(f"{name:32} {said}", flush=True)
-    refused = len(names) - accepted - failed
-    print(f"{len(names)} wrong formulas and constants: {refused} refused, {accepted} accepted, {failed} not tried")
-    return 1 if accepted else 3 if failed else 0
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(__doc__, WRONG, refused_by, unchanged=(BOUNDS, "kHeight = 8;", "kHeight = 8;")))

@@ -122,24 +122,8 @@ double sign_of(const Rational& number) {
   return numerator == Integer(0) ? 0 : is_positive(Fraction{numerator, 1}) ? 1 : -1;
 }
 
-Vec signs_of(const RationalVec& a) {
-  return {sign_of(a[0]), sign_of(a[1]), sign_of(a[2])};
-}
-
 Scene signs_of(const RationalScene& scene) {
-  Scene signs{scene.dimension, {}};
-  for (const RationalLattice& lattice : scene.lattices) {
-    Lattice& its = signs.lattices.emplace_back();
-    its.missing = lattice.missing;
-    for (std::size_t i = 0; i < 3; ++i) its.vectors[i] = signs_of(lattice.vectors[i]);
-    for (const RationalAtom& atom : lattice.atoms) {
-      Atom& obstacle = its.atoms.emplace_back();
-      obstacle.position = signs_of(atom.position);
-      obstacle.radius = sign_of(atom.radius);
-      for (const RationalVec& axis : atom.semiaxes) obstacle.semiaxes.push_back(signs_of(axis));
-    }
-  }
-  return signs;
+  return mapped<Scene>(scene, [](const Rational& number) { return sign_of(number); });
 }
 
 // Zero, a finite number other than zero, or, if a part is not finite, a number that is not.
@@ -155,8 +139,9 @@ std::optional<std::string> flaw_of(const RationalScene& scene) {
 }
 
 std::optional<std::string> flaw_of(const Start& start, const RationalScene& scene) {
-  Query signs{signs_of(start.x), {}, start.from};
+  Query signs{{}, {}, start.from};
   for (std::size_t i = 0; i < 3; ++i) {
+    signs.x[i] = sign_of(start.x[i]);
     if (start.v[i].root && sign_of(*start.v[i].root) < 0)
       return "v has the square root of a number below zero";
     signs.v[i] = sign_of(start.v[i]);
@@ -176,20 +161,7 @@ const Start& checked(const Start& start, const RationalScene& scene) {
 }
 
 RationalScene rational(const Scene& scene) {
-  const auto vector = [](const Vec& a) { return RationalVec{a[0], a[1], a[2]}; };
-  RationalScene result{scene.dimension, {}};
-  for (const Lattice& lattice : scene.lattices) {
-    RationalLattice& its = result.lattices.emplace_back();
-    its.missing = lattice.missing;
-    for (std::size_t i = 0; i < 3; ++i) its.vectors[i] = vector(lattice.vectors[i]);
-    for (const Atom& atom : lattice.atoms) {
-      RationalAtom& obstacle = its.atoms.emplace_back();
-      obstacle.position = vector(atom.position);
-      obstacle.radius = atom.radius;
-      for (const Vec& axis : atom.semiaxes) obstacle.semiaxes.push_back(vector(axis));
-    }
-  }
-  return result;
+  return mapped<RationalScene>(scene, [](double number) { return Rational(number); });
 }
 
 }  // namespace lorentz
