@@ -124,18 +124,17 @@ class WrongSpecifications(unittest.TestCase):
     """What Coq does not end with, or refuses elsewhere than in a proof, is not refused."""
     def test_without_time(self):
         longest, wrong_specs.LONGEST = wrong_specs.LONGEST, 0.001
-        try: by, why = wrong_specs.attempt(wrong_specs.WRONG["closed balls"])
+        try: self.assert_not_tried(wrong_specs.WRONG["closed balls"], "did not end")
         finally: wrong_specs.LONGEST = longest
-        self.assertEqual(by, None)
-        self.assertRegex(why, "did not end")
 
     def test_what_is_no_specification(self):
         for new, said in ((") < valve r", "no specification at all"), (") <", "no specification at all")):
             old = "norm (along q (-1) centre) < value r"
-            by, why = wrong_specs.attempt((old, "norm (along q (-1) centre" + new))
-            self.assertEqual(by, None)
-            self.assertRegex(why, said)
-        self.assertRegex(wrong_specs.attempt(("nowhere", ""))[1], "0 places")
+            self.assert_not_tried((old, "norm (along q (-1) centre" + new), said)
+        self.assert_not_tried(("nowhere", ""), "0 places")
+
+    def assert_not_tried(self, change, why):
+        with self.assertRaisesRegex(wrong_specs.NotTried, why): wrong_specs.refused_by(change)
 
 class Forms(unittest.TestCase):
     def test_each(self):
