@@ -136,7 +136,7 @@ class Ground {
   Work plain_ball(double r) {
     return [this, r](std::size_t begin, std::size_t end) {
       const QueryColumns asked = table_.columns().part(begin, end - begin);
-      double* const time = flights_.columns().part(begin).time;
+      const std::span<double> time = flights_.columns().part(begin).time;
       for (std::size_t i = 0; i < asked.size(); ++i) {
         double a = 0, b = 0, c = -r * r;
         for (int k = 0; k < 3; ++k) {
