@@ -1,6 +1,8 @@
 // Questions, their exact answers, and what comes of an engine's: judged, counted, raced.
 #include "question/examine.hpp"
 
+#include <algorithm>
+
 #include <catch2/catch.hpp>
 
 #include "question/race.hpp"
@@ -122,6 +124,23 @@ class Lazy final : public question::Answerer {
   int asked_ = 0;
 };
 
+// A library that answers nothing, and says of each round how many seconds it took.
+class Clock final : public question::Answerer {
+ public:
+  explicit Clock(std::vector<double> rounds) : rounds_(std::move(rounds)) {}
+
+  void ask(const Id&, const Query&) override {}
+  void drain() override { seconds_ += rounds_.at(round_++); }
+  std::optional<question::OwnTime> own_time() const override { return {{seconds_, 0}}; }
+
+ private:
+  void enter(const Scene&) override {}
+
+  std::vector<double> rounds_;
+  std::size_t round_ = 0;
+  double seconds_ = 0;
+};
+
 }  // namespace
 
 TEST_CASE("Answers that come late are judged with their own questions, and what was not asked is not",
@@ -175,6 +194,23 @@ TEST_CASE("Of each engine as many questions are raced as it is to be asked, in e
   options.rounds = 0;
   for (const question::Speed& speed : question::race(questions, engines, options))
     CHECK((speed.ns_per_query == 0 && !speed.failed));
+}
+
+TEST_CASE("A speed is that of the median round, whatever the order of the rounds", "[compare][race]") {
+  const std::vector<Question> questions = diagonals();
+  const question::EngineInfo library{.name = "clock", .kind = question::EngineInfo::Kind::library};
+  question::RaceOptions options;
+  options.rounds = 3;
+  std::vector<double> rounds{1, 2, 4};
+  do {
+    Clock clock(rounds);
+    options.running = {&clock};
+    const std::vector<question::Speed> speeds = question::race(questions, {library}, options);
+    REQUIRE(speeds.size() == 1);
+    const double ns = 2e9 / static_cast<double>(questions.size());
+    CHECK(speeds[0].ns_per_query == ns);
+    CHECK((speeds[0].ns_low == ns && speeds[0].ns_median == ns && speeds[0].ns_high == ns));
+  } while (std::next_permutation(rounds.begin(), rounds.end()));
 }
 
 TEST_CASE("Threads come to what one comes to, in the order of the questions", "[compare][examine]") {
