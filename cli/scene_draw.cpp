@@ -114,8 +114,8 @@ std::optional<std::array<double, 4>> window_of(const SceneDrawOptions& options) 
       good = false;
     }
   if (!good || !(window[0] < window[2]) || !(window[1] < window[3]))
-    throw InputError(
-        fmt::format("--window: {} is no X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1", json_quoted(*options.window)));
+    throw InputError(fmt::format("--window: {} is not X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1",
+                                 json_quoted(*options.window)));
   if (!(window[2] - window[0] < 1e300) || !(window[3] - window[1] < 1e300))
     throw InputError("--window: is too large");
   return window;
@@ -179,7 +179,8 @@ int draw(const SceneDrawOptions& options) {
   const std::size_t most = options.channels.value_or(0);
   refuse_other_formats(options.output);
   if (options.output != "-" && is_other_than_svg(options.output))
-    throw InputError(options.output + ": is no SVG, and is left as it is; remove it, or name another file");
+    throw InputError(options.output +
+                     ": is not an SVG, and is left as it is; remove it, or name another file");
   std::optional<Scene> scene;
   if (options.scene) scene = load_scene(*options.scene, options.radius);
   std::vector<DrawnFlight> flights;
@@ -225,7 +226,7 @@ Command scene_draw_command() {
           {"--title", &options->title, "TEXT", "instead of the scene's name; \"\" for none"},
           {"--no-legend", &options->no_legend, "", "leave out the legend, and the notes under it"},
           {"-o,--output", &options->output, "FILE",
-           "file to write, whole or not at all; what is there and is no SVG is left as it is; - is "
+           "file to write, whole or not at all; a file that is not an SVG is left as it is; - is "
            "standard output",
            kOutput},
       },

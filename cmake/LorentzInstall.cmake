@@ -35,7 +35,7 @@ function(lorentz_install_component component)
   install(FILES ${LORENTZ_${upper}_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lorentz COMPONENT development)
 endfunction()
 
-# lorentz-COMPONENT.pc, for who does not use CMake. Archives in the order in which a linker wants them; the prefix is where
+# lorentz-COMPONENT.pc, for projects without CMake. Archives in the order in which a linker wants them; the prefix is where
 # the file itself is, so that the tree can be moved.
 file(RELATIVE_PATH LORENTZ_PC_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" LORENTZ_PC_PREFIX "${LORENTZ_PC_PREFIX}")

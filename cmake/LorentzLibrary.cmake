@@ -8,7 +8,8 @@
 #  - GCC's vectorizer fuses pairs of a difference and a sum whatever -ffp-contract says (x86 with FMA), so none of it. What
 #    vectors are worth it for is written in vectors (src/engines/batch); the searches of `reduction` were a fifth slower
 #    with it, for numbers that are stored and loaded at different widths wait for each other.
-# PRIVATE, all of it: who uses the library compiles as he likes, and the public headers' arithmetic is not the library's.
+# PRIVATE, all of it: users of the library choose their own compiler flags, and the public headers' arithmetic is not the
+# library's.
 function(lorentz_settings target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)

@@ -11,7 +11,7 @@ set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/compress_manuals.cmake)
-set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # the tests are no part of a package
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # the tests are not part of a package
 
 get_cmake_property(installed COMPONENTS)
 set(CPACK_COMPONENTS_ALL "")

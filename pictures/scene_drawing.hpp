@@ -38,7 +38,7 @@ struct DrawOptions {
 
 struct Drawing {
   std::string svg;
-  std::vector<std::string> remarks;  ///< says what is not in the picture, and why
+  std::vector<std::string> remarks;  ///< what the picture leaves out, and why
 };
 
 /// A few cells of a valid scene around the first cell or the first flight's start, or a window on it; a 3D

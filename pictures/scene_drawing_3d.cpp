@@ -175,7 +175,7 @@ void Picture3D::explain() {
   }
   legend_.notes = drawing_.remarks;
   if (!lines_.empty())
-    legend_.notes.push_back("Of the obstacles beyond the block of cells, only those that are hit are drawn.");
+    legend_.notes.push_back("Beyond the block of cells, only obstacles that are hit are drawn.");
 }
 
 // Extended beyond the block at both ends, to show that it goes through.

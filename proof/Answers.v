@@ -1,4 +1,5 @@
-(* Every valid question has exactly one correct answer, up to how its numbers are written. Of Spec.v alone. *)
+(* Every valid question has exactly one correct answer, up to how its numbers are written. This rests on
+   Spec.v alone. *)
 From Coq Require Import ZArith Reals Lra Lia List Classical.
 From Flocq Require Import Core.
 From Lorentz Require Import Spec.
@@ -350,7 +351,7 @@ Proof.
   specialize (F Le H). apply Forall_app in F. apply F.
 Qed.
 
-(* Of one atom: few cells are near. *)
+(* Only finitely many cells of one atom are near. *)
 Definition within_bounds (K : Z) (l : list Z) : Prop := Forall (fun i => (Z.abs i <= K)%Z) l.
 Lemma sized_length d a : sized d a -> length (point a) = d.
 Proof. intros [H _]. unfold point. rewrite map_length. exact H. Qed.

@@ -99,8 +99,8 @@ Section Claims.
       let until := if not_after_atom a b then Until (Time 0 0 1) else Nothing in
       check_windows (its_view b) ws until (gap_after b) (judge_inside X b)).
 
-  (* "Of rows none may be met, not even `from`. In windows without an end no obstacle but `from` may contain x or
-     be entered." *)
+  (* "In the windows no obstacle but `from` may contain x or be entered." No row may be met, not even that of
+     `from`. *)
   Definition judge_never (a : sight) (n : zv) (u : time) : check :=
     let o := obstacle_at a n in
     require (is_from from o || (ts u <=? 0) && (td u <=? ts u * ts u)) (Met o).

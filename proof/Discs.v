@@ -107,7 +107,7 @@ Section Line.
     assert ((i - i') * (i - i') = 0)%Z as Ei by lia. assert ((j - j') * (j - j') = 0)%Z as Ej by lia.
     apply Z.mul_eq_0 in Ei, Ej. lia.
   Qed.
-  (* Of two that the line meets, the nearer centre's is entered earlier. *)
+  (* If the line meets two, the one with the nearer centre is entered earlier. *)
   Lemma entered_in_order i j i' j' : meets i j -> meets i' j' -> along_line i j < along_line i' j' ->
     entry i j < entry i' j'.
   Proof.

@@ -8,7 +8,8 @@ Local Open Scope Z_scope.
 Definition smallest : R := bpow radix2 (-1074).
 Arguments smallest : simpl never.  (* 2^1074 is not to be written out *)
 
-(* Of the fraction a / b > 0. How the candidates are found need not be proved: `rounds64` decides. *)
+(* The number nearest to the fraction a / b > 0. How the candidates are found need not be proved:
+   `rounds64` decides. *)
 Definition nearest_of (a b : Z) : option Z :=
   let t := Time a 0 b in
   let k := Z.max (-1074) (Z.log2 a - Z.log2 b - 53) in
@@ -18,7 +19,8 @@ Definition nearest_of (a b : Z) : option Z :=
     if rounds64 t n k && (k <=? 971) then Some (Z.shiftl n (k + 1074)) else None in
   match candidate q with None => candidate (q + 1) | found => found end.
 
-(* Of m base^e, m > 0 and base >= 2^growth. What is below 2^-1076 is 0; what could take long is refused. *)
+(* The number nearest to m base^e, for m > 0 and base >= 2^growth. What is below 2^-1076 is 0; what could
+   take long is refused. *)
 Definition positive_number (base growth m e : Z) : option Z :=
   if 1100 <? e then None
   else if Z.log2 m + 1 + growth * e <=? -1076 then Some 0

@@ -64,7 +64,7 @@ Proof.
   intros H. rewrite <- (rounded_is 0) by apply generic_format_0.
   apply round_le; [apply FLT_exp_valid, digits_53|apply valid_rnd_N|exact H].
 Qed.
-(* Of what is not negative: from below and above. *)
+(* For x >= 0: bounds from below and above. *)
 Lemma round_size x : 0 <= x -> (1 - u) * x - eta <= nearest64 x <= (1 + u) * x + eta.
 Proof.
   intros H. pose proof (round_any x) as K. rewrite (Rabs_pos_eq x H) in K. apply Rabs_le_inv in K. lra.

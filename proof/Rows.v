@@ -80,7 +80,7 @@ Section Rows.
     apply Rmult_lt_reg_r with S_L; [exact L_forward|]. unfold Rdiv. rewrite Rmult_assoc, Rinv_l; lra.
   Qed.
 
-  (* Of two rows that meet the strip, the later one meets it earlier only if it is less than 2 rho higher; *)
+  (* If two rows meet the strip, the later one meets it earlier only if it is less than 2 rho higher; *)
   Theorem overtaken n m n' m' : in_strip n m -> in_strip n' m' -> (n < n')%Z ->
     position_at n' m' <= position_at n m -> IZR (n' - n) * D_R < 2 * rho.
   Proof using R_above L_below R_forward L_forward rho_positive.

@@ -1,6 +1,6 @@
 (* That Spec.v says what is meant: examples, and facts that small wrong specifications contradict.
-   `wrong_specs` plants such and sees this file, or the proof, fail. Of Spec.v alone, but for the values of
-   numbers. *)
+   `wrong_specs` plants such and sees this file, or the proof, fail. It rests on Spec.v alone, but for the values
+   of numbers. *)
 From Coq Require Import ZArith Reals Lra Lia List.
 From Flocq Require Import Core.
 From Lorentz Require Import Spec Rounding Number.
@@ -137,7 +137,7 @@ Proof. intros N. apply (proj2 (N a ltac:(discriminate)) 1), enters_chord; lra. Q
 Example inside_is_something : ~ nothing (chord_of a (-1) 1) None.
 Proof. intros N. apply (proj1 (N a ltac:(discriminate))). split; [reflexivity|lra]. Qed.
 
-(* Who contains x is no hit, nor is anything else then; but for `from`. *)
+(* If an obstacle other than `from` contains x, nothing is a hit. *)
 Example inside_first o t : ~ first_hit (fun o t => chord_of a (-1) 1 o t \/ chord_of b 2 3 o t) None o t.
 Proof. intros (_ & _ & N & _). apply (N a ltac:(discriminate)). left. split; [reflexivity|lra]. Qed.
 Example inside_is : first_inside (chord_of a (-1) 1) None a.

@@ -115,7 +115,7 @@ Section Search.
   (* The coordinates beyond the first `rank` are 0; a window may have no end. *)
   Variables (rank : nat) (v w : zv) (H : Z) (b1 b2 b3 : zv) (lo : Z) (upper : option Z).
 
-  (* Of v^2 a.(w' + k b), where (v^2 a.w - s a.v)^2 <= room and s is in the window. *)
+  (* The bound of v^2 a.(w' + k b), where (v^2 a.w - s a.v)^2 <= room and s is in the window. *)
   Definition functional (a w' b : zv) (room s_lo s_hi : Z) : bound :=
     let av := dot a v in let r := Z.sqrt room in
     Bound (Z.min (s_lo * av) (s_hi * av) - r) (Z.max (s_lo * av) (s_hi * av) + r)

@@ -21,7 +21,7 @@ Ltac lists := cbn; repeat (apply (f_equal2 (@cons R)); [ring|]); reflexivity.
 
 (* ---- Atoms. *)
 Inductive body := Ball (r : Z) | Ellipsoid (a1 a2 a3 : zv).
-(* Of its lattice the first `rank` vectors. *)
+(* The first `rank` of g1, g2, g3 are the vectors of its lattice. *)
 Record solid := Solid { middle : zv; rank : nat; g1 : zv; g2 : zv; g3 : zv; shaped : body }.
 Definition middle_of (S : solid) (n : zv) : rv := rplace (real (middle S)) (real n) (real (g1 S))
   (real (g2 S)) (real (g3 S)).

@@ -1,5 +1,5 @@
 (* What a golden record claims, over the real numbers: docs/formats.md, "Scenes", "Queries" and "Answers".
-   Who has read this file and the statement of `check_sound` (Main.v) knows what is proved. *)
+   This file and the statement of `check_sound` (Main.v) say what is proved. *)
 From Coq Require Import ZArith Reals List.
 From Flocq Require Import Core.
 Import ListNotations.
@@ -34,7 +34,7 @@ Record query := Query { start : list numeral; velocity : list numeral; from : op
 Definition item {A} (l : list A) (i : Z) : option A := if (i <? 0)%Z then None else nth_error l (Z.to_nat i).
 Definition atom_of (sc : scene) (o : obstacle) (L : lattice) (A : atom) : Prop :=
   item (lattices sc) (of_lattice o) = Some L /\ item (atoms L) (of_atom o) = Some A /\
-  length (cell o) = length (vectors L).  (* k: the lattice repeats in so many directions *)
+  length (cell o) = length (vectors L).  (* k: in how many directions the lattice repeats *)
 
 (* The point q lies in the obstacle o: obstacles are open. *)
 Definition occupied (sc : scene) (o : obstacle) (q : vec) : Prop :=

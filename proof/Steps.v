@@ -8,7 +8,7 @@ Inductive flaw :=
 | NoNumber                  (* beyond the range of binary64, or with too large an exponent *)
 | NoVector                  (* not as many numbers as there are dimensions *)
 | BadScene                  (* without lattices, atoms, volume, or of another dimension *)
-| BadQuery                  (* v is zero, or `from` is no obstacle of the scene *)
+| BadQuery                  (* v is zero, or `from` is not an obstacle of the scene *)
 | Determinant
 | NotAlong
 | GapBefore (piece : Z)
@@ -46,7 +46,7 @@ Proof. destruct b; auto. intros (n & n' & E). discriminate. Qed.
 Lemma passes_fail f : ~ passes (fail f).
 Proof. intros (n & n' & E). discriminate. Qed.
 
-(* c, of every k from `first` on, so many of them. *)
+(* c, of each of `count` numbers k from `first` on. *)
 Fixpoint each_of (count : positive) (first : Z) (c : Z -> check) (left : Z) : Z + flaw :=
   match count with
   | xH => c first left

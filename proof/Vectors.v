@@ -12,7 +12,7 @@ Definition place (w n a b c : zv) := add (add (add w (vz n) c) (vy n) b) (vx n) 
   n_3 c *)
 Definition origin := V 0 0 0.
 
-(* Of k vectors a, b, c the first k are independent. Of k coordinates, the others are 0. *)
+(* `spread`: the first k of a, b, c are independent. `fits`: the coordinates beyond the first k are 0. *)
 Definition spread (k : nat) (a b c : zv) : bool :=
   match k with
   | 0%nat => true

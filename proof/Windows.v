@@ -16,7 +16,7 @@ Definition twos (bits : Z) : Z := if bits =? 0 then 0 else Z.log2 (Z.land bits (
 Definition end_at_number (n : numeral) : option end_of_window :=
   option_map (fun i => let k := twos i in Dyadic (Z.shiftr i k) (k - 1074)) (number n).
 
-(* As it is checked: from `begin_at` / E to `end_at` / E. Of rows the ends mean nothing. *)
+(* As it is checked: from `begin_at` / E to `end_at` / E. For rows the ends mean nothing. *)
 Record piece := Piece { begin_at : Z; end_at : option Z; r1 : zv; r2 : zv; r3 : zv }.
 
 (* E = 2^f: the ends of all these are multiples of 1 / E. *)
@@ -97,7 +97,7 @@ Proof.
   destruct (to_end w) as [e|]; [destruct (read_end f e); [|discriminate]|]; cbn; intros I; injection I as <-;
     exact (read_basis_ok k _ _ _ _ E).
 Qed.
-(* Each costs so many steps before it is read. *)
+(* How many steps each piece costs before it is read. *)
 Definition piece_steps : Z := 10.
 
 Section Atom.

@@ -185,7 +185,7 @@ def byte(text, rng):
     i = rng.randrange(len(text))
     return text[:i] + chr(rng.randrange(128)) + text[i + rng.randrange(2):]
 
-# Of records alone.
+# For records alone.
 def exact(end): return check.bound(end)
 def hexadecimal(q, rng):
     """A number whose denominator is a power of two, in one of its exact texts."""

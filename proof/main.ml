@@ -18,9 +18,9 @@ let name o =
 
 let words outcome answer = function
   | NoNumber -> "no number: beyond the range of binary64"
-  | NoVector -> "no array of so many items"
+  | NoVector -> "not an array of the expected length"
   | BadScene -> "no volume or shape"
-  | BadQuery -> "v is zero, or `from` is no obstacle of the scene"
+  | BadQuery -> "v is zero, or `from` is not an obstacle of the scene"
   | Determinant -> "a determinant is not +-1: obstacles are missing"
   | NotAlong -> "b_1 is not along v"
   | GapBefore i -> Printf.sprintf "the windows leave a gap before window %s" (Z.to_string i)
@@ -52,7 +52,7 @@ let check_words box =
   let is_text key = match Json.find key (Json.get "expect" box) with None | Some (Json.String _) -> true | _ -> false in
   Record.require (List.for_all is_text [ "message"; "reason" ]) "what is said of an answer is a string"
 
-(* Of the outcome `error` no theorem is: only that the question is none. *)
+(* No theorem is about the outcome `error`. It is checked that the question is invalid. *)
 let is_question (scene : Record.scene) box =
   match Record.question scene.size box with q -> is_question scene.prepared q | exception (Record.Flaw _ | Json.Bad _) -> false
 
@@ -112,7 +112,7 @@ let question_text line =
   Record.require (first <= last) "the order of the keys";
   String.sub line first (last - first)
 
-(* id, tags, the keys of the question, expect, and what is no key of a question. *)
+(* id, tags, the keys of the question, expect, and then only keys that no question has. *)
 let check_order box question =
   let asked = Json.keys (Json.parse ("{" ^ question ^ "}")) in
   let rec follow keys wanted =

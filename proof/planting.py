@@ -13,7 +13,7 @@ def plant(path, old, new):
 
 def main(description, wrong, refused_by, unchanged):
     """`wrong`: name: mistake. `refused_by(mistake)`: who refuses it, None if it is accepted; throws NotTried.
-    `unchanged`: a mistake that is none, which must be accepted."""
+    `unchanged`: a change that is not a mistake, which must be accepted."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", metavar="NAME")
     parser.add_argument("--count", type=int, help=f"how many of the {len(wrong)}, by chance (default: all)")

@@ -150,7 +150,7 @@ let time = function
 
 (* [0-9]+([.][0-9]+)?(e[+-][0-9]{1,4})?; of 0 only "0". That there are 40 digits is for Checker. *)
 let time_decimal text =
-  let bad () = flaw "time_decimal is no number" in
+  let bad () = flaw "time_decimal is not a number" in
   let digits s = if s = "" || not (String.for_all (function '0' .. '9' -> true | _ -> false) s) then bad () in
   short "time_decimal" text;
   let mantissa, power = split_at "e" text in

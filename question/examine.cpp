@@ -41,7 +41,7 @@ Judgement judgement_of(const Question& question, const Answer& given, double ulp
     if (says_later || (says_something && is_later(question)))
       return {says_later && is_later(question) ? Verdict::agree : Verdict::wrong};
   }
-  // Equal answers need no judge, so many scenes never get one.
+  // Equal answers need no judge, and many scenes never get one.
   const Answer& exact = question.exact;
   if (given.outcome == Outcome::hit && exact.outcome == Outcome::hit && same_answer(given, exact))
     return std::isfinite(*exact.time) ? Judgement{Verdict::agree, 0.0} : Judgement{Verdict::agree};

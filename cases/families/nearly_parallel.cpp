@@ -66,7 +66,7 @@ Case make_nearly_parallel(Source& source) {
 Family nearly_parallel() {
   return {"nearly-parallel",
           "Parallel to a lattice vector but for less than double-double can tell, in a corridor.",
-          {{"nearly", "v x w is 2^-127 to 2^-106: the flight ends, some 2^100 cells on"},
+          {{"nearly", "v x w is 2^-127 to 2^-106: the flight ends, about 2^100 cells on"},
            {"parallel", "v is w: the flight never ends"}},
           make_nearly_parallel};
 }

@@ -23,7 +23,7 @@ std::optional<ReadSet> set_in(const BytesAsFile& file, std::string& reason) {
     append_header_line(set.text, reader.header());
     std::size_t scenes = 0;
     for (golden::ReadRecord read; reader.next(read);) {
-      require(read.query.has_value() == read.flaw.empty(), "a record is a query, or says why it is none",
+      require(read.query.has_value() == read.flaw.empty(), "a record is a query, or says why it is not one",
               read.text);
       require(read.line > 0 && !read.record.id.empty(), "a record has a place and an id", read.text);
       if (read.query) require(!flaw_of(*read.query, reader.scene()), "a query has no flaw", read.text);

@@ -22,7 +22,7 @@ struct Task;            // internal to the engine: the query as it is asked
 ///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
 ///             "Grazing hits: every stage decides, and none wrongly",
 ///             "Among ellipsoids the reduction engine agrees with the oracle on drawn and constructed cases",
-///             "Limits within ulps of the time: what is not undecided is right, alone and in a batch"
+///             "Limits within ulps of the time: every decided answer is right, alone and in a batch"
 ///  2. The time of a drawn flight has an error of at most 6 ulps among balls, and 8 among ellipses and
 ///     ellipsoids (seen: 5 and 6). The error is larger if the flight ends within about 1e-16 r of its start.
 ///     If requested by Time::rounded, the time is correctly rounded where `time_is_rounded` says so. "Drawn"

@@ -29,7 +29,7 @@ struct TwoParts {
   }
 };
 
-/// What is added to the high part of a sum. (Gappa does not put so many terms into another order.)
+/// What is added to the high part of a sum. (Gappa does not reorder this many terms.)
 inline Symbol without_high_part(const Symbol& sum) {
   const std::string& text = sum.before_rounding;
   return {text.substr(text.find(" + ") + 3), sum.error - 1, 0};

@@ -17,7 +17,7 @@ struct Constant {
   std::string derived;
 };
 
-/// Of an input: between two powers of 2.
+/// An input between two powers of 2.
 struct PositiveInput {
   std::string name;
   int low, high;

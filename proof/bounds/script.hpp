@@ -10,7 +10,7 @@
 
 namespace lorentz::bounds {
 
-/// So many roundoffs, in all digits.
+/// The size of this many roundoffs, in all digits.
 inline std::string in_all_digits(double roundoffs) {
   char text[100];
   std::snprintf(text, sizeof text, "%.60g", roundoffs * kUnit);

@@ -89,7 +89,7 @@ def test_an_exception_is_an_error_of_that_query(vectorized):
 
 
 def test_reasons_of_answers_reach_the_judge():
-    """What an engine does not do, and says so, is no error: neither in Answers nor in a dict of columns."""
+    """A query that an engine refuses as unsupported is not an error: neither in Answers nor in a dict of columns."""
     def arrays(scene, x, v, start_from, engine="batch"):
         return lorentz.first_hit(scene, x, v, start_from=start_from, engine=engine)
 

@@ -15,7 +15,7 @@ def test_problem_2_of_the_100_digit_challenge():
     assert path.distance == "0.99526291944335416089031180942672162102946692273415"
     assert path.end == "time" and len(path.collisions) == 14 and path.collisions[0].cell == (1, 0)
     assert len(path.collisions[0].x) == 2 and path.collisions[-1].bits > path.collisions[0].bits
-    # 1/3 and 1/10 are no floats: those next to them are another problem.
+    # 1/3 and 1/10 are not floats: the floats next to them are another problem.
     rounded = lorentz.itinerary(scene.nearest(), [0.5, 0.1], [1.0, 0.0], max_time=10, digits=20)
     assert rounded.distance.startswith("0.9952621335999704")
     # The time is the rational number that a float is.

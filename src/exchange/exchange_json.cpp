@@ -213,7 +213,7 @@ std::string_view number_text(ondemand::value& value) {
   const auto ascii =
       std::find_if(token.begin(), token.end(), [](char c) { return static_cast<unsigned char>(c) > 126; });
   throw NotJson(json_quoted(token.substr(0, std::min<std::size_t>(40, ascii - token.begin()))) +
-                " is no JSON value");
+                " is not a JSON value");
 }
 
 // Are a number's digits certainly an integer below 10^19? simdjson gathers the digits in 64 bits before it

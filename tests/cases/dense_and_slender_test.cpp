@@ -71,7 +71,7 @@ TEST_CASE("dense-layers: a radius spans many spacings, and the oracle is walk an
   for (const int atom : hits_of_atom) CHECK(atom > 60);  // 80 seen at least
 }
 
-TEST_CASE("slender: flights along the long axis of what is slender, and nobody is wrong",
+TEST_CASE("slender: flights along the long axis of slender obstacles, and no answer is wrong",
           "[cases][dense_and_slender]") {
   int lengthwise = 0, own = 0, edge = 0, undecided = 0;
   double slenderest = 1;

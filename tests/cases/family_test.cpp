@@ -315,8 +315,8 @@ std::string digest_of(const cases::Target& target) {
 
 }  // namespace
 
-// Stores name a case by target, seed and index, and campaigns go on with a later version. Who changes a
-// family knowingly puts the new digest here.
+// Stores name a case by target, seed and index, and campaigns go on with a later version. If you
+// change a family knowingly, put the new digest here.
 TEST_CASE("The cases of a seed are those that they were, in every target", "[cases][family]") {
   INFO("seed " << kSeed);
   static const std::map<std::string_view, std::string> kDigests = {

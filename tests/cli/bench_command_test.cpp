@@ -55,7 +55,7 @@ TEST_CASE("bench takes scenes with semiaxes at their own size", "[cli][bench_com
   CHECK(run.status == 0);
   CHECK(contains(folder.read("c"), "ellipse,own,drawn,reduction,"));
   CHECK(contains(run.out, "published: too slow for 0 cells of this table, 3 unsupported"));
-  CHECK(lines(folder.read("c")) == 4);  // how soon it refuses is no figure
+  CHECK(lines(folder.read("c")) == 4);  // the time that a refusal takes is not a figure
   CHECK(folder.lorentz("bench --scene ellipse --radius 0.1 --engine reduction --count 32").status == 2);
 }
 
@@ -127,7 +127,7 @@ TEST_CASE("bench goes on with what its store has, and refuses that of another ru
   CHECK(contains(shown.out, "published-float: wrong in 1 of 1 answers"));
 }
 
-TEST_CASE("bench: one process at a time writes a store, no page without a name, times only of who has some",
+TEST_CASE("bench: one process at a time writes a store, no page without a name, no times without answers",
           "[cli][bench_command]") {
   const Folder folder;
   const std::string bench =

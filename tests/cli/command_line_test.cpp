@@ -236,7 +236,7 @@ TEST_CASE("The command that prints a question prints it as often as it is to be 
   }
 }
 
-TEST_CASE("Of the causes of a campaign's findings what is wrong comes first", "[cli][command_line]") {
+TEST_CASE("Among the causes of a campaign's findings, wrong answers come first", "[cli][command_line]") {
   std::vector<fuzz::Stored> findings;
   for (const char* kind : {"slow", "undecided", "error", "wrong time", "wrong"}) {
     findings.push_back({1, {}});

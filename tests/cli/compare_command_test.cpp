@@ -59,7 +59,8 @@ TEST_CASE("compare: a wrong time has its own column, and counts with --times onl
       R"("wrong_time":1,"other_quantity":0,"wrong_time_ulps":{"median":180144,"p99":180144,"max":180144})"));
   CHECK(contains(logged(late, "").out, "mine: no wrong answer in 1 "));
   CHECK(contains(logged(late, "").out, "  1 wrong time of right obstacles: off by "));
-  // Another quantity, such as the time to the obstacle's far side, is no time of that collision: that is told first.
+  // Another quantity, such as the time to the obstacle's far side, is not a time of that collision: that is
+  // told first.
   const std::string through = R"("outcome":"hit","lattice":0,"atom":0,"cell":[1,0],"time":0.75)";
   CHECK((logged(through, "").status == 0 && logged(through, "--times").status == 1));
   CHECK(contains(logged(through, "").out, "mine: no wrong answer in 1 "));
@@ -113,7 +114,7 @@ TEST_CASE("compare shows the first wrong answers, and by how much", "[cli][compa
                  "x lies outside of lattice 0, atom 0, cell (0, 0) by 1 of its radii\n"));
 }
 
-TEST_CASE("compare shows so many wrong answers as are asked for", "[cli][compare_command]") {
+TEST_CASE("compare shows the requested number of wrong answers", "[cli][compare_command]") {
   const Folder folder;
   std::string queries = kScene, answers;
   for (int i = 0; i < 4; ++i) {
@@ -250,7 +251,7 @@ TEST_CASE("compare: single obstacles have cells without coordinates, which colum
   CHECK(answered.out == "outcome,lattice,atom,cell1,cell2,time\nhit,0,0,,,9\n");
 }
 
-TEST_CASE("compare accuses nobody where it cannot judge", "[cli][compare_command]") {
+TEST_CASE("compare accuses no engine where it cannot judge", "[cli][compare_command]") {
   const Folder folder;
   const auto answers = folder.write("a", kGoodAnswer);
   // A cell of another dimension is bad input, neither right nor wrong.
@@ -370,7 +371,7 @@ TEST_CASE("Files of disagreements are read by the command that help and the last
 TEST_CASE("What another program writes reaches no terminal as it is, and is never cut in a character",
           "[cli][compare_command]") {
   const Folder folder;
-  // Bytes that are no text; then what a terminal obeys and 200 letters of two bytes, the 60th astride the
+  // Bytes that are not text; then what a terminal obeys and 200 letters of two bytes, the 60th astride the
   // cut.
   folder.write("engine",
                "import sys\nfor line in sys.stdin:\n  sys.stdout.buffer.write(b'\\x9b\\xff\\n' + "

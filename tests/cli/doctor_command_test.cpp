@@ -20,7 +20,7 @@ using namespace lorentz::test;
 
 namespace {
 
-// The names of what is not as it should be.
+// The checks that fail, by name, and what they found.
 std::vector<std::string> broken() {
   std::vector<std::string> names;
   for (const ArithmeticCheck& check : arithmetic_checks())
@@ -104,7 +104,7 @@ const std::vector<Use> kSpoiled{Use::oracle, Use::itineraries};
 
 }  // namespace
 
-TEST_CASE("Who gives one wrong answer, or leaves one too many undecided, is not fit", "[doctor]") {
+TEST_CASE("An engine that gives one wrong answer, or leaves one too many undecided, is not fit", "[doctor]") {
   const auto nothing = [](Answer&) {};
   const Symptom good = examine("it", kSpoiled, 0, oracle_but(-1, nothing));
   CHECK(good.fit);

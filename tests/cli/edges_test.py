@@ -146,7 +146,7 @@ def candidates(*words):
 
 
 def usage(words):
-    """What help says may follow a subcommand; empty for what is none (the name of a scene, of a set)."""
+    """What help says may follow a subcommand; empty if the words are not one (a scene, a set)."""
     before = f"Usage: lorentz {' '.join(words)} "
     lines = lorentz([*words, "--help"], "/").out.splitlines()
     return next((line[len(before):] for line in lines if line.startswith(before)), "")

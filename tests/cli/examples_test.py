@@ -74,7 +74,7 @@ class Examples(unittest.TestCase):
         cls.folder.cleanup()
 
     def run_for_a_moment(self, command):
-        """Status and output, or nothing if it was still at it. In a folder of its own: who is told to end may take a while."""
+        """Status and output, or None if it was still running. In a folder of its own: a process told to end may take a while."""
         self.number += 1
         path = self.path / str(self.number)
         shutil.copytree(self.path / "begun", path, symlinks=True)

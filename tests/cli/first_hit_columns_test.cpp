@@ -313,7 +313,7 @@ TEST_CASE("Columns: cells beyond 64 bits stand in CSV, and are errors in arrays"
   }
 }
 
-TEST_CASE("Columns: what the options ask for, and files that are none", "[cli][columns]") {
+TEST_CASE("Columns: what the options ask for, and invalid files", "[cli][columns]") {
   const Folder folder;
   const auto csv = folder.write("q.csv", "x1,x2,v1,v2\n0.5,0,1,0\n");
   const auto npy = folder.write("q.npy", npy_rows({{0.5, 0, 1, 0}}));

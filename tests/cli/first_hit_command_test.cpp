@@ -88,7 +88,7 @@ TEST_CASE("After a bad scene every query is an error, until the next good one", 
   CHECK(run.out.ends_with(kGoodAnswer));
 }
 
-TEST_CASE("A line that begins as a scene and is no JSON is a bad scene: the one before it is over",
+TEST_CASE("A line that begins as a scene and is not JSON is a bad scene: the one before it is over",
           "[cli][first_hit_command]") {
   const Folder folder;
   for (
@@ -106,7 +106,7 @@ TEST_CASE("A line that begins as a scene and is no JSON is a bad scene: the one 
     CHECK(contains(run.out, R"({"id":"good","outcome":"error","message":"the scene in line 3 was bad)"));
     CHECK(run.out.ends_with(kGoodAnswer));
   }
-  // A bad query is none.
+  // A bad query is not a bad scene.
   const Run query = folder.lorentz(
       "first-hit " + folder.write("q2", kScene + R"({"id":1,"x":[NaN,0],"v":[1,0]})" + "\n" + kGood));
   CHECK(query.out.ends_with(kGoodAnswer));

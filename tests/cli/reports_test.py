@@ -22,7 +22,7 @@ def lorentz(*arguments, status=0, text=None):
 
 
 def number(cell):
-    """Of a table: "-" is 0, and "> 2^20", beyond which ulps are not told, is infinite."""
+    """The number in a cell of a table: "-" is 0, and "> 2^20", beyond which ulps are not told, is infinite."""
     return 0 if cell == "-" else float("inf") if cell.startswith(">") else float(cell)
 
 

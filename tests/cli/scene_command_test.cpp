@@ -100,7 +100,7 @@ TEST_CASE("scene show: contacts, filling and mean free path, or why there are no
   CHECK(contains(json.out, R"("scene":{"dimension":2,"lattices":[{"vectors":[[1,0],[0,1]])"));
   CHECK(contains(folder.lorentz("scene show overlapping --json").out, R"("filling":null)"));
 
-  // Of discs on lines that are far apart: 2 pairs overlap and 3 touch, ellipses among them.
+  // Discs and ellipses on lines that are far apart: 2 pairs overlap and 3 touch.
   const std::string file = folder.write("pairs.toml", R"(dimension = 2
 [[lattices]]
 vectors = [[64, 0], [0, 64]]
@@ -307,7 +307,7 @@ TEST_CASE("horizon: the tail, or that there is none", "[cli][scene_command]") {
   const Run wide = folder.lorentz("horizon square --min-width 0.9");
   CHECK(contains(wide.out, "not with a least width"));
   CHECK_FALSE(contains(wide.out, "tail: none"));
-  // A hole of 6e-17 is no hole of 0.
+  // A hole of 6e-17 is not a hole of 0.
   CHECK(contains(folder.lorentz("horizon cubic --radius 0.7071067811865475").out, "6.26858e-17"));
 }
 
@@ -353,7 +353,7 @@ TEST_CASE("scene draw -o: whole or not at all, and over nothing but a picture", 
   const auto list = folder.write("queries.ndjson", kScene + kGood);
   const Run refused = folder.lorentz("scene draw square -o " + list);
   CHECK(refused.status == 2);
-  CHECK(contains(refused.err, "queries.ndjson: is no SVG, and is left as it is"));
+  CHECK(contains(refused.err, "queries.ndjson: is not an SVG, and is left as it is"));
   CHECK(folder.read("queries.ndjson") == kScene + kGood);
   // An empty file, an older picture, a link to it: its mode stays, and nothing else is left in the folder.
   const auto picture = folder.write("p.svg", "");

@@ -117,7 +117,7 @@ TEST_CASE("A piece that was changed, left out or moved is seen, and which", "[cl
   }
 }
 
-TEST_CASE("What is not a piece of the run is refused, also with the right checksum", "[cli][store]") {
+TEST_CASE("Text that is not a piece of the run is refused, even with the right checksum", "[cli][store]") {
   for (const std::string& run : kRuns) {
     const Folder folder;
     const std::string command = run + " --store " + folder.file("store");
@@ -260,7 +260,7 @@ TEST_CASE("A lock that is refused or given back leaves nothing open", "[cli][sto
   folder.write("notes.lock", "my notes\n");
   const std::ptrdiff_t before = open_files();
   for (int i = 0; i < 3; ++i) {
-    CHECK_NOTHROW(runs::LockFile(store, false, "busy"));  // nobody writes: it makes no file
+    CHECK_NOTHROW(runs::LockFile(store, false, "busy"));  // no writer: it makes no file
     CHECK_FALSE(fs::exists(store + ".lock"));
     CHECK_THROWS_WITH(runs::LockFile(notes, true, "busy"),
                       Catch::Contains("notes.lock: is there and is not a lock"));

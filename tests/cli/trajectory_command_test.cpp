@@ -124,7 +124,7 @@ TEST_CASE("trajectory: bad input is told with its place", "[cli][trajectory]") {
   CHECK(contains(no_scene.err, "starts:2: the scene in line 1 was bad"));
 }
 
-TEST_CASE("trajectory: options that are none, and files that cannot be written", "[cli][trajectory]") {
+TEST_CASE("trajectory: invalid options, and files that cannot be written", "[cli][trajectory]") {
   const Folder folder;
   const std::string starts = folder.write("starts", kChallenge);
   const auto status = [&](const std::string& arguments, const std::string& message) {

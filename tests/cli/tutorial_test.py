@@ -18,7 +18,7 @@ from pathlib import Path
 PROGRAM, SOURCE = (Path(argument).resolve() for argument in sys.argv[1:3])
 DOCUMENT = SOURCE / "docs" / sys.argv[3]
 GALLERY = SOURCE / "docs" / "gallery"
-DONE_ALREADY = ["./run build"]  # by whoever runs this test
+DONE_ALREADY = ["./run build"]  # before this test runs
 MARK = "\x01"
 
 

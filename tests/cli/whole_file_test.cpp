@@ -75,7 +75,7 @@ TEST_CASE("compare that is killed leaves the file of disagreements as it was", "
   CHECK(folder.read("d") == "old\n");
 }
 
-TEST_CASE("Nobody foresees the name of a file that is not whole, and no link leads out of it",
+TEST_CASE("The name of a file that is not whole cannot be foreseen, and no link leads out of it",
           "[cli][whole_file]") {
   const Folder folder;
   const std::string path = folder.file("f");
@@ -149,7 +149,7 @@ TEST_CASE("What killed processes left is taken away by the next, and nothing els
   std::filesystem::create_symlink(path, folder.file("f.00000000000000aa.new"));
   {
     const Beside alive(folder.file("h"), Beside::Kind::file);
-    // Of a place that this process has not written to yet. (A process looks once.)
+    // At a place that this process has not written to yet. (A process looks once.)
     const std::string other = folder.write("h.00000000000000bb.new", "left by another\n");
     const Run run =
         folder.lorentz("sample --count 1 > " + folder.file("q") + "; " LORENTZ_PROGRAM " compare --queries " +

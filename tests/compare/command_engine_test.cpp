@@ -178,14 +178,14 @@ TEST_CASE("What a program wrote in place of an answer is told of the first that 
   const std::string no_answer = "cmd gave no answer to this query before that to a later one";
   CHECK(contains(run.out, answer_to(4) + "\n" + error_to(5, no_answer + "; before that it wrote a line")));
   CHECK(contains(run.out, error_to(6, no_answer + "\"}\n") + answer_to(7)));
-  // What it wrote before a right answer is none of this.
+  // A line that it wrote before a right answer is not part of this message.
   const Run later =
       folder.lorentz("first-hit --engine " + odd("skips-later") + " " + folder.write("q", stream()));
   CHECK(contains(later.err, "not an answer, rubbish (not JSON"));
   check_all_but_fifth(later.out, no_answer + "\"}");
 }
 
-TEST_CASE("Of many complaints twenty are said, and how many more there are", "[compare][command_engine]") {
+TEST_CASE("Twenty of many complaints are shown, and the number of the others", "[compare][command_engine]") {
   const Folder folder;
   for (const int count : {20, 21, 25}) {
     const Run run =
@@ -320,7 +320,7 @@ TEST_CASE("How a program ended, in words", "[compare][command_engine]") {
   CHECK_FALSE(Ending{Ending::How::signalled, 0}.is_good());
 }
 
-TEST_CASE("An obstacle that the scene does not have is an answer, and a wrong one, whoever is asked",
+TEST_CASE("An obstacle that the scene does not have is an answer, and a wrong one, of a program and of a log",
           "[compare][command_engine]") {
   const Folder folder;
   const auto queries = folder.write("q", stream(6));

@@ -41,7 +41,7 @@ TEST_CASE("Answerers are told apart by their traits, of another program nothing 
   CHECK_FALSE((other.is_exact || other.knows_digits || other.leaves_undecided || other.uses_reduction));
 }
 
-TEST_CASE("Whoever is in the table answers in a scene", "[compare][engines]") {
+TEST_CASE("Every engine in the table answers in a scene", "[compare][engines]") {
   const Scene scene = unit_scene(2, 0.25);
   for (const EngineInfo& engine : own_engines()) {
     INFO(engine.name);
@@ -105,7 +105,7 @@ TEST_CASE("Instructions are counted, or it is said that they cannot be", "[compa
   CHECK(counter.count() == first);  // it pauses
 }
 
-TEST_CASE("Who answers many at a time does so scene by scene, and soon", "[compare][engines]") {
+TEST_CASE("An engine that answers many at a time does so scene by scene, and soon", "[compare][engines]") {
   const std::vector<Scene> scenes{unit_scene(2, 0.25), unit_scene(3, 0.3), unit_scene(2, 0.1)};
   for (const bool detail : {false, true})
     for (const auto& [name, alone] : {std::pair{"batch", "reduction"}, {"certified-batch", "certified"}}) {

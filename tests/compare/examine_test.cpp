@@ -171,8 +171,7 @@ TEST_CASE("The right answer to an invalid question is an error", "[compare][exam
     CHECK(verdict(valid) == Verdict::wrong);
 }
 
-TEST_CASE("Of each engine as many questions are raced as it is to be asked, in each round",
-          "[compare][race]") {
+TEST_CASE("A race asks each engine the requested number of questions, in each round", "[compare][race]") {
   const std::vector<Question> questions = diagonals();
   const auto engines = question::engines_named({"oracle", "reduction", "batch", "walk"});
   question::RaceOptions options;

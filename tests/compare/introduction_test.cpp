@@ -100,7 +100,7 @@ TEST_CASE("An engine is judged by what it says of itself, unless an option says 
       R"("precision":"binary32","time_tolerance":0.001)"));
 }
 
-TEST_CASE("Of several engines the coarsest claim holds", "[compare][introduction]") {
+TEST_CASE("The coarsest claim of several engines holds", "[compare][introduction]") {
   const Folder folder;
   const std::string one = engine_of(folder, said(R"("precision":"binary32","time_tolerance":0.125)"));
   fs::create_directory(folder.file("other"));
@@ -111,7 +111,8 @@ TEST_CASE("Of several engines the coarsest claim holds", "[compare][introduction
                    R"("precision":"binary32","time_tolerance":0.25,)"));
 }
 
-TEST_CASE("An introduction that cannot be is bad input, none is no fault", "[compare][introduction]") {
+TEST_CASE("An impossible introduction is bad input, and a missing one is not a fault",
+          "[compare][introduction]") {
   const Folder folder;
   const Run bad = folder.lorentz("compare --count 8" + engine_of(folder, said(R"("precision":"binary16")")));
   CHECK(bad.status == 2);

@@ -120,7 +120,7 @@ Query query_of(Random& random, Kind kind, const Scene& scene, const Reduction& e
   return query;
 }
 
-// Room for so many flights, with nonsense in it: what a batch forgets to write is no zero by chance.
+// Room for `count` flights, with nonsense in it: what a batch forgets to write is not zero by chance.
 FlightTable spoiled(std::size_t count) {
   FlightTable flights;
   flights.resize(count);
@@ -366,7 +366,7 @@ TEST_CASE("Ten million flights in batches are those of single flights", "[engine
   }
 }
 
-TEST_CASE("Of drawn flights lanes leave next to nothing to single flights", "[engines][batch]") {
+TEST_CASE("Lanes leave at most 6 of 20 000 drawn flights to single flights", "[engines][batch]") {
   if (Batch::instruction_sets().size() == 1) return;  // there are no lanes
   for (const double r : {0.1, 1e-3, 1e-6})
     for (const auto& [name, scene] : scenes_of(r)) {
@@ -407,7 +407,7 @@ TEST_CASE("The length of a batch, its columns and its threads do not matter", "[
         REQUIRE(same_bits(
             flights[i], i < begin || i >= begin + length ? untouched : batch.one_at_a_time().fly(table[i])));
     }
-  // Columns that nobody wants.
+  // Columns that are not wanted.
   std::vector<Outcome> outcomes(table.size());
   FlightColumns only_outcomes;
   only_outcomes.outcome = outcomes;

@@ -83,8 +83,8 @@ struct Counts {
 
 TEST_CASE("Classical equals the oracle in any cell, with any motif, in superpositions, through overlaps",
           "[engines][cell_walk]") {
-  // Generic numbers, flights of up to some 1e4 cells: an entry that rounding errors of 1e-13 decide is met
-  // once in some 1e12 queries. So none may differ.
+  // Generic numbers, flights of up to about 1e4 cells: an entry that rounding errors of 1e-13 decide is met
+  // once in about 1e12 queries. So none may differ.
   for (const int dimension : {2, 3}) {
     Draw draw(1400 + static_cast<std::uint64_t>(dimension));
     INFO("seed 140" << dimension);

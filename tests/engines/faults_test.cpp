@@ -44,7 +44,7 @@ TEST_CASE("Fault: in a skewed cell `from` was forgotten, 64 bits being too few f
   const Scene skewed = one_atom(2, {Vec{490001, -700}, Vec{-700, 1}}, 0.25);
   check_all(skewed, {{1099511627776.125, 1099511627776}, {1, 0}, at(770757651070976, 539531455261310976)},
             Answer::hit(at(770757651070977, 539531455261311676), 0.625));
-  // Of coordinates beyond 64 bits.
+  // Coordinates beyond 64 bits.
   const Scene more = one_atom(2, {Vec{0x1p19, 1}, Vec{0x1p38 - 1, 0x1p19}}, 0.25);
   const Query start{{0x1p43 + 0.125, 0x1p43}, {1, 0}, {}};
   const Answer first = oracle::Oracle(more).first_hit(start);

@@ -32,7 +32,7 @@ Lattice cell(Draw& draw, int dimension) {
   do
     for (int i = 0; i < dimension; ++i) lattice.vectors[i] = draw.vec(dimension, -1, 1);
   while (std::fabs(test::determinant(lattice, dimension)) < 0.1);
-  if (draw.one_in(3)) {  // square or cubic, of a spacing that is no binary fraction
+  if (draw.one_in(3)) {  // square or cubic, of a spacing that is not a binary fraction
     const double spacing = draw.between(0.5, 2);
     lattice.vectors = {};
     for (int i = 0; i < dimension; ++i) lattice.vectors[i][i] = spacing;
@@ -54,7 +54,7 @@ Vec shortest_of(const Lattice& lattice, int dimension) {
   return shortest;
 }
 
-// The same lattice in another basis: `steps` times a vector plus so many times another.
+// The same lattice in another basis: `steps` times, a multiple of another vector is added to a vector.
 void skew(Draw& draw, Lattice& lattice, int dimension, int steps, int bits) {
   for (int step = 0; step < steps; ++step) {
     const auto i = draw.below(dimension), j = (i + 1 + draw.below(dimension - 1)) % dimension;

@@ -249,8 +249,8 @@ Held hold_targets(std::uint64_t seed, std::uint64_t rows) {
 }  // namespace
 
 TEST_CASE(
-    "Limits in units of the scaled velocity: zero and what is no limit stay, others stay above zero and "
-    "finite",
+    "Limits in units of the scaled velocity: zero and the absence of a limit stay, others stay above zero "
+    "and finite",
     "[engines][time_limit]") {
   using Range = std::numeric_limits<double>;
   for (const int exponent : {-1070, -500, -3, 0, 3, 500, 1020}) {
@@ -337,7 +337,7 @@ TEST_CASE("A prepared direction keeps the limit, at any speed", "[engines][time_
   CHECK(outcomes[Outcome::never] > 90);    // 116 seen
 }
 
-TEST_CASE("Limits within ulps of the time: what is not undecided is right, alone and in a batch",
+TEST_CASE("Limits within ulps of the time: every decided answer is right, alone and in a batch",
           "[engines][time_limit]") {
   const Held held = hold_targets(kSeed, 2);
   CHECK(held.wrong == 0);

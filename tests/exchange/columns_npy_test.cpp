@@ -182,7 +182,7 @@ TEST_CASE("Names of fields are in Latin-1 at first, then in UTF-8", "[exchange][
   CHECK(unknown("\xc3\xbc", 3) == "\xc3\xbc");
 }
 
-TEST_CASE("Arrays that are no queries are refused, with what they are", "[exchange][npy]") {
+TEST_CASE("Arrays that are not queries are refused, with what they are", "[exchange][npy]") {
   const auto says = [](const std::string& content, const std::string& what) {
     const Reading reading = read(content, 2);
     INFO(reading.failure);

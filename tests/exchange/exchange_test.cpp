@@ -209,7 +209,7 @@ TEST_CASE("Every sort of bad line is told by name, and keeps its id where it can
   CHECK(read(std::string("\0\0{\"id\":1}", 10), &kSquare).message.find("2 NUL bytes") != std::string::npos);
 }
 
-TEST_CASE("What is nearly JSON is none, also where it would be ignored", "[exchange]") {
+TEST_CASE("Text that is nearly JSON is refused, even where it would be ignored", "[exchange]") {
   for (const char* value : {"01", "1.", ".5", "-", "1e", "0x10", "+1", "tru", "nul", "1.2.3", "'a'"}) {
     const StreamItem item =
         read(std::string("{\"id\":1,\"x\":[0,0.5],\"v\":[1,0],\"other\":") + value + "}", &kSquare);
@@ -369,7 +369,7 @@ TEST_CASE("Blank lines and golden headers are passed over, unknown keys ignored"
             .kind == StreamItem::Kind::query);
 }
 
-TEST_CASE("Unknown keys: their place is told, and whoever objects makes the line bad", "[exchange]") {
+TEST_CASE("Unknown keys: their place is told, and an objection makes the line bad", "[exchange]") {
   ExchangeReader reader;
   std::vector<std::string> told;
   reader.on_unknown_key([&](const std::string& key) {

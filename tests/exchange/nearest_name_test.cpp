@@ -16,7 +16,7 @@ TEST_CASE("The nearest name: one character too many, missing, wrong, or two exch
   CHECK(nearest_name("convergent", names) == "convergents");
 }
 
-TEST_CASE("What is far from every name is none of them", "[compare][nearest_name]") {
+TEST_CASE("A word that is far from every name has no nearest name", "[compare][nearest_name]") {
   const std::vector<std::string> names{"from", "compare", "golden", "v"};
   for (const char* typed : {"", "w", "position", "help", "xyzzy"}) CHECK(nearest_name(typed, names).empty());
   CHECK(nearest_name(std::string(1000, 'c'), names).empty());

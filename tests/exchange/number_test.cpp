@@ -179,7 +179,7 @@ double drawn_double(Draw& draw) {
     case 0:
       return static_cast<double>(draw.below(1ull << 53)) * 0x1p-53;
     case 1:
-      return std::bit_cast<double>(draw.below(1ull << 53));  // mostly subnormal or next to it
+      return std::bit_cast<double>(draw.below(1ull << 53));  // half of them subnormal, the others next to it
     case 2:
       return std::ldexp(static_cast<double>(draw.below(1ull << 53)), static_cast<int>(draw.below(120)) - 90);
     default:
@@ -339,7 +339,7 @@ TEST_CASE("Numbers: hexadecimal, of up to 400 digits", "[exchange][number]") {
   CHECK(infinite > 8400);     // 10 546 seen
 }
 
-TEST_CASE("Numbers: what is none", "[exchange][number]") {
+TEST_CASE("Numbers: texts that are not numbers", "[exchange][number]") {
   for (const char* text : {"", "-", "+", ".", "e1", "1e", "1e+", "inf", "nan", "-inf", "0x1", "1x", "--1",
                            "+-1", "1..2", "1.2.3", " 1", "1 ", "1_0"}) {
     INFO(text);

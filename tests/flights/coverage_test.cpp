@@ -96,7 +96,7 @@ std::vector<NamedLaw> all_laws() {
   return laws;
 }
 
-// Of so many samples, how many intervals hold the law's local exponent from where they begin?
+// In how many of these samples does the interval hold the law's local exponent from where it begins?
 int held(const NamedLaw& of, double total, int samples) {
   const Sampler sampler(of.law, total);
   std::map<double, double> exponents;  // by where they begin
@@ -151,7 +151,8 @@ TEST_CASE("Tail exponent: intervals hold the law's local exponent 95 times in 10
   CHECK(is_95_in_100(all, samples));
 }
 
-TEST_CASE("Tail exponent: intervals hold the local exponent of what is no power law", "[flights][coverage]") {
+TEST_CASE("Tail exponent: intervals hold the local exponent of laws that are not power laws",
+          "[flights][coverage]") {
   // A mixture of a steep and a flat one, and a law that falls ever faster.
   struct Bent {
     double (*survival)(double);

@@ -16,7 +16,7 @@ using namespace lorentz::test;
 
 namespace {
 
-// Of the first such key from a place on.
+// The number of the first such key from a place on.
 double number_of(const std::string& json, const std::string& key, std::size_t from = 0) {
   const std::size_t at = json.find("\"" + key + "\":", from);
   REQUIRE(at != std::string::npos);

@@ -20,7 +20,7 @@ struct Mean {
   long inside = 0, others = 0;  // others: neither a hit nor inside
 };
 
-// Of starts inside an obstacle the next attempt counts.
+// If a start is inside an obstacle, the next attempt counts.
 Mean mean_free_path(const Scene& scene, std::uint64_t seed, std::size_t count) {
   constexpr std::size_t kTogether = 4096;
   const Candidates starts(scene, Ensemble::surface, seed);

@@ -1,4 +1,4 @@
-// Runs: the same counts whoever flies them, and however often they were killed.
+// Runs: the same counts with any number of threads and shards, and however often they were killed.
 #include <catch2/catch.hpp>
 
 #include <signal.h>

@@ -1,5 +1,5 @@
-// Starts are the same whoever draws them, and have the distribution that they are said to have. All seeds are
-// fixed; bounds are 4 standard deviations.
+// Starts are the same however they are drawn, and have the distribution that they are said to have. All seeds
+// are fixed; bounds are 4 standard deviations.
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <numbers>

@@ -67,7 +67,7 @@ TEST_CASE("Chi-squared: by hand", "[flights][fit]") {
   CHECK(fit.statistic == Approx(4));
   CHECK(fit.degrees == 3);
   CHECK(fit.p_value.value() == Approx(0.2614641299491106));
-  // Of 60 paths 15: the bins are merged in pairs.
+  // With 60 paths 15 are expected in each: the bins are merged in pairs.
   const auto merged = chi_squared(edges, Counts{20, 10, 10, 20}, 60, kExponential);
   CHECK(merged.degrees == 1);
   CHECK(merged.statistic == Approx(0).margin(1e-9));
@@ -147,7 +147,7 @@ TEST_CASE("Chi-squared: a law 2 % off is rejected at 10^6 paths", "[flights][fit
 
 namespace {
 
-// Of 1000 samples of a density ~ t^-exponent from 1 on, how many have the exponent in their interval?
+// How many of 1000 samples of a density ~ t^-exponent from 1 on have the exponent in their interval?
 template <class Fit>
 int covered(double exponent, int paths, const Fit& fit) {
   const auto edges = octaves(0, 20);
@@ -181,7 +181,7 @@ TEST_CASE("Tail exponent: intervals cover it 95 times in 100", "[flights][fit]")
 }
 
 TEST_CASE("Tail exponent: by hand", "[flights][fit]") {
-  // Of 2^12 paths half end within each doubling: P(path > t) = 1/t, the density's exponent 2.
+  // 2^12 paths; half of those left end within each doubling: P(path > t) = 1/t, the density's exponent is 2.
   const std::vector<double> edges{1, 2, 4, 8, 16, 32};
   const Counts counts{0, 2048, 1024, 512, 256, 128, 128};
   const auto tail = tail_exponent_from(0, edges, counts);
@@ -190,7 +190,7 @@ TEST_CASE("Tail exponent: by hand", "[flights][fit]") {
   CHECK(tail->count == 4096);
   CHECK(tail->from == 1);
   CHECK(tail->to == 32);
-  // Of two outcomes in each bin, goes on or not, the information adds up: sigma = 1 / (ln 2 sqrt(2 * 3968)).
+  // Each bin has two outcomes, goes on or not. Their information adds up: sigma = 1 / (ln 2 sqrt(2 * 3968)).
   const double sigma = 1 / (std::log(2) * std::sqrt(2 * 3968.0));
   CHECK(tail->high - tail->exponent == Approx(1.96 * sigma).epsilon(0.03));
   CHECK(tail->exponent - tail->low == Approx(1.96 * sigma).epsilon(0.03));
@@ -262,7 +262,7 @@ TEST_CASE("Tail constant: extrapolated, and its error is one", "[flights][fit]")
 
 TEST_CASE("Tail constant: exactly of exact counts, nothing where there is too little", "[flights][fit]") {
   const std::vector<double> edges{1, 2, 4, 8, 16};
-  // Of 2^12 paths P(path > t) = 1/t: no second term.
+  // 2^12 paths with P(path > t) = 1/t: no second term.
   const Counts counts{0, 2048, 1024, 512, 256, 256};
   const auto found = tail_constant(edges, counts, 4096, {1, 1}, 1);
   REQUIRE(found);

@@ -77,7 +77,7 @@ question::MakeAnswerer working_answerers() {
       [](const Query& query) { return query.v[0] == query.v[1] ? 1e5 : 10; });
 }
 
-// What an answer is taken for with a tolerance of so many ulps.
+// What an answer is taken for with a tolerance in ulps.
 Kind kind_of(const Scene& scene, const Query& query, const Answer& answer, double ulps) {
   ToldAnswerer answerer([&](const question::Place&, const Query&) { return answer; });
   return fuzz::Examiner(answerer, std::make_shared<question::Place>(scene), ulps).examine(query).kind;
@@ -210,7 +210,7 @@ TEST_CASE("What the time cut short is shrunk to the end when there is time", "[f
   CHECK(text_of(store) == one_run(plan, 150, 1));
 }
 
-TEST_CASE("Nobody is asked about scenes beyond the scope: cases, other words, shrinking",
+TEST_CASE("No engine is asked about scenes beyond the scope: cases, other words, shrinking",
           "[fuzz][campaign]") {
   INFO("seed " << kSeed);
   static fuzz::Scope scope;
@@ -312,7 +312,7 @@ TEST_CASE("Three shards merged are one run", "[fuzz][campaign]") {
   }
 }
 
-TEST_CASE("Of each sort a target keeps the first few findings, and counts all", "[fuzz][campaign]") {
+TEST_CASE("A target keeps the first few findings of each sort, and counts all", "[fuzz][campaign]") {
   INFO("seed " << kSeed);
   Plan plan = plan_of({"leaving"});
   plan.keep = 2;
@@ -333,7 +333,7 @@ TEST_CASE("Of each sort a target keeps the first few findings, and counts all", 
                    tally.kinds[static_cast<std::size_t>(Kind::error)]);  // of the readers
   CHECK(all > 40);                                                       // 52 seen
 
-  plan.mutate = 1;  // a case and its variants, which mostly fail alike, are one finding
+  plan.mutate = 1;  // a case and its variants, which usually fail alike, are one finding
   fuzz::Store mutated(":memory:", fuzz::Store::Access::write);
   run_in(mutated, plan, 40, 2);
   std::set<std::pair<std::string, std::uint64_t>> seen;

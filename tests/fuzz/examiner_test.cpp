@@ -51,7 +51,7 @@ Answer disc(long i, long j, double time) {
 
 }  // namespace
 
-TEST_CASE("An answer that was carried over and is not the question's own is an error, and nobody's answer",
+TEST_CASE("An answer that was carried over and is not the question's own is an error, not a wrong answer",
           "[fuzz][examiner]") {
   const Scene scene = unit_scene(2, 0.25);
   const Query query{{0.5, 0}, {1, 0}, {}};
@@ -67,7 +67,7 @@ TEST_CASE("An answer that was carried over and is not the question's own is an e
       CHECK(one.kind == Kind::error);
       CHECK(same(one.given, carried));
       CHECK(same(one.exact, truth));
-      // Whoever does not know says nothing against it.
+      // An engine that is undecided says nothing against it.
       CHECK(examined(scene, query, carried, Answer::undecided()).kind == Kind::undecided);
       const fuzz::Examined broken = examined(scene, query, carried, Answer::error("no"));
       CHECK((broken.kind == Kind::error && broken.given.outcome == Outcome::error));
@@ -200,7 +200,7 @@ TEST_CASE("A reader that loses or changes anything is seen by reading back", "[f
 
 namespace {
 
-// Of a right answer with so much work: `its` for the first question, then what is drawn, as long as there is some.
+// The kind of a right answer with work `its`. The questions after the first take the work `drawn`, in turn.
 Kind kind_of_work(double its, std::vector<std::optional<double>> drawn) {
   std::size_t asked = 0;
   ToldAnswerer answerer([](const question::Place& place, const Query& query) { return place.exact(query); },

@@ -53,7 +53,7 @@ Run signalled_after(const Folder& folder, std::chrono::milliseconds time, int si
       folder, [&] { return std::this_thread::sleep_for(time), true; }, signal, arguments, times);
 }
 
-// Not if it has ended, though nobody may have asked yet how.
+// False if it has ended, even if its status has not been collected yet.
 bool is_running(int pid) {
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   std::string number, name, state;
@@ -70,8 +70,8 @@ int number_of(const std::string& part, const std::string& text) {
 
 }  // namespace
 
-// Of the mistakes that were planted to try campaigns (docs/planted_bugs.md), 45 are met by these few cases;
-// their patches are gone.
+// These few cases meet 45 of the mistakes that were planted to try campaigns (docs/planted_bugs.md); their
+// patches are gone.
 TEST_CASE("Short campaigns of all targets find nothing in engines that claim to be exact", "[fuzz][cli]") {
   const Folder folder;
   for (const char* engine :
@@ -333,7 +333,8 @@ TEST_CASE("Interrupted, a campaign reports what it has, and says how to go on", 
   CHECK_FALSE(is_running(std::stoi(folder.read("pid"))));
 }
 
-TEST_CASE("Where stderr is no terminal a line there says now and then how it goes", "[fuzz][fuzz_command]") {
+TEST_CASE("Where stderr is not a terminal, a line there says now and then how it goes",
+          "[fuzz][fuzz_command]") {
   const Folder folder;
   const std::string what = "fuzz -e certified -t grazing,tie --time 1";
   const Run run = folder.lorentz(what + " --progress 0.3");
@@ -505,7 +506,7 @@ TEST_CASE("No query is an error that a program was not asked", "[fuzz][fuzz_comm
   CHECK_FALSE(contains(run.out, "not asked"));
 }
 
-TEST_CASE("A program that breaks is reported, and is no reason to stop", "[fuzz][fuzz_command]") {
+TEST_CASE("A program that breaks is reported, and the campaign goes on", "[fuzz][fuzz_command]") {
   const Folder folder;
   const Run run =
       folder.lorentz("fuzz -t generic --count 8 --mutate 0 --reword 0 --json --engine 'cmd:exit 7'");

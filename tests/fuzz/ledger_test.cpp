@@ -44,7 +44,7 @@ fuzz::Done done_with(const fuzz::Stint& stint, double seconds,
   return done;
 }
 
-// Somebody who answers, on a clock of its own: seconds for each target when the time is up.
+// An answerer with a clock of its own: seconds for each target when the time is up.
 std::vector<double> times_of(const std::vector<double>& seconds_a_case, double seconds,
                              std::initializer_list<const char*> kinds = {}) {
   const fuzz::Plan plan = plan_of({"generic", "grazing", "leaving", "tie"});

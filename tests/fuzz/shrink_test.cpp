@@ -141,7 +141,7 @@ TEST_CASE("Numbers that spread over thousands of bits cost many tries each", "[f
   CHECK(shrunk.tries < 40);  // 17 seen: some of them plain
 }
 
-TEST_CASE("Shrinking ends where somebody says that it is enough", "[fuzz][shrink]") {
+TEST_CASE("Shrinking ends when its caller says that it is enough", "[fuzz][shrink]") {
   const Query query{{0.3, 0.1}, {0.123, 0.7}, {}};
   int asked = 0;
   const auto never = [&](const Scene&, const Query&) { return ++asked < 0; };
@@ -206,7 +206,7 @@ TEST_CASE("Shrinking leaves out one lattice of two, before or after the one that
   CHECK(shrunk.scene.lattices.size() == 1);
 }
 
-TEST_CASE("Of two numbers the one that is simpler to read", "[fuzz][shrink]") {
+TEST_CASE("A number that is simpler to read has a lower complexity", "[fuzz][shrink]") {
   const Scene scene = unit_scene(2, 0.25);
   const auto score = [&](double x) { return fuzz::complexity(scene, {{x, 0}, {1, 0}, {}}); };
   const double in_order[] = {0, 1, -1, 2, -2, 0x1p-2, -0x1p-2, 3, 0.1};

@@ -127,7 +127,7 @@ TEST_CASE("Two writers are refused, with what to do, also another process", "[fu
   CHECK(names_in(folder) == std::set<std::string>{"err", "out", "store"});
 }
 
-TEST_CASE("A store that nobody writes is one file, and stays as it is when it is read", "[fuzz][store]") {
+TEST_CASE("A store without a writer is one file, and stays as it is when it is read", "[fuzz][store]") {
   const Folder folder;
   const std::string path = folder.file("store");
   {
@@ -206,7 +206,7 @@ TEST_CASE("A store is read where nothing may be written", "[fuzz][store]") {
   CHECK(is_read() == "nothing was thrown");
 }
 
-TEST_CASE("What is no store leaves nothing beside it", "[fuzz][store]") {
+TEST_CASE("A file that is not a store leaves nothing beside it", "[fuzz][store]") {
   const Folder folder;
   const std::string text = folder.write("text", "this is no database " + std::string(2000, 'x'));
   CHECK(folder.lorentz("fuzz --count 1 -t grazing --store " + text).status == 3);
@@ -217,7 +217,7 @@ TEST_CASE("What is no store leaves nothing beside it", "[fuzz][store]") {
   CHECK(names_in(folder) == std::set<std::string>{"err", "out", "text"});
 }
 
-TEST_CASE("Files that are no stores are left alone", "[fuzz][store]") {
+TEST_CASE("Files that are not stores are left alone", "[fuzz][store]") {
   const Folder folder;
   const std::string text =
       folder.write("text", "this is no database, however long it may be: " + std::string(2000, 'x'));

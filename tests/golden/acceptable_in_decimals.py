@@ -1,6 +1,6 @@
 """What golden records list as acceptable, recomputed in decimals of 80 digits: every obstacle near the flight is tried.
 
-acceptable_in_decimals.py LORENTZ COUNT [SEED]: of so many drawn flights in each precision. Shares nothing with lorentz.
+acceptable_in_decimals.py LORENTZ COUNT [SEED]: for COUNT drawn flights in each precision. Shares nothing with lorentz.
 """
 import json
 import pathlib

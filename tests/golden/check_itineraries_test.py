@@ -359,7 +359,7 @@ class Refuses(unittest.TestCase):
             self.assertIn(what, told)
 
     def test_quick(self):
-        """Of each scene the first record, unless it is long."""
+        """The first record of each scene, unless it is long."""
         true, false = CASES["disc"], tampered("disc", also(at(("x", 0), "2/4"), at(("end", "v", 1), digit)))
         both = lines_of(true, false)
         one_scene = [*both[:3], both[4]]

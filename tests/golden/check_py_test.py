@@ -85,7 +85,7 @@ class Accepts(unittest.TestCase):
         self.assertEqual(status(), 2)
 
     def test_the_worst_file_decides(self):
-        """Wherever it stands among others, each of which is looked at; a folder, and what is not there, are bad."""
+        """Wherever it stands among others, each of which is looked at; a folder and a missing file are bad."""
         good, refuted = golden(CASES["exact"]), golden(CASES["exact"], count=2)
         worst = {"good": 0, "refuted": 1, "bad": 2, "none": 2, ".": 2}
         several = [("good",), ("none",), (".",), *itertools.permutations(("good", "refuted", "bad"), 2), ("good", "good"),
@@ -101,7 +101,7 @@ class Accepts(unittest.TestCase):
                     self.assertEqual(f"{name}:" in done.stdout, name in files, done)
 
     def test_proofs_may_say_more(self):
-        """What is not needed does no harm: other forms of a number, more windows, larger ones."""
+        """More than is needed does no harm: other forms of a number, more windows, larger ones."""
         for name, change in {
             "plane": lambda c: c["certificate"]["windows"].insert(1, {**c["certificate"]["windows"][0], "to": 5}),
             "space": lambda c: [w.update({"from": v["to"]}) for v, w in zip(c["certificate"]["windows"], c["certificate"]["windows"][1:])],
@@ -304,7 +304,7 @@ class Refuses(unittest.TestCase):
         self.refused("row", "rows prove", lambda case: case["certificate"].update(rows=[{"lattice": 0, "atom": 0, "basis": [[1]]}]))
 
     def test_never_of_several_atoms(self):
-        """Nobody's rows may be missing, of two lattices with three atoms each, wherever the atom is."""
+        """No atom's rows may be missing, with two lattices of three atoms each, wherever the atom is."""
         def several(case):
             lattice, rows = case["scene"]["lattices"][0], case["certificate"]["rows"][0]
             lattice["atoms"] = [{"position": [x, 0], "radius": 0.125} for x in (0, 0.25, 0.5)]
@@ -425,7 +425,7 @@ class Parts(unittest.TestCase):
         self.assertRaisesRegex(ValueError, "too many", check.verify, {**case, **case["query"], "certificate": many}, check.read_scene(case["scene"]))
 
     def test_signs(self):
-        """Of a + sqrt b - sqrt c."""
+        """The sign of a + sqrt b - sqrt c."""
         for a, b, c in itertools.product(range(-5, 6), range(30), range(30)):
             about = a * 10**30 + math.isqrt(b * 10**60) - math.isqrt(c * 10**60)
             self.assertEqual(check.sign(a, b, c), 0 if abs(about) < 9 else 1 if about > 0 else -1, (a, b, c))

@@ -126,7 +126,7 @@ TEST_CASE("golden check: another program that lies, is silent about some, or bre
   const Run error = checked("a = {'id': a['id'], 'outcome': 'error', 'message': 'no'}");
   CHECK(error.status == 1);
   CHECK(contains(error.out, "\"error\":125"));
-  // Of an invalid query an answer is wrong, and an error right.
+  // For an invalid query an answer is wrong, and an error is right.
   CHECK(checked("pass", "bad-queries").status == 0);
   const Run sure = checked("a = {'id': a['id'], 'outcome': 'never'}", "bad-queries");
   CHECK(sure.status == 1);

@@ -112,7 +112,7 @@ except sqlite3.Error:
 )");
   int killed = 0;
   for (const char* batches : {"2", "5"}) {
-    // Killed once so many batches are kept.
+    // Killed once this number of batches is kept.
     const std::string command = LORENTZ_PROGRAM " " + order +
                                 " 2>/dev/null & p=$!; for i in $(seq 200); do test \"$(" LORENTZ_PYTHON " " +
                                 count + " " + set + ".part)\" -ge " + batches +
@@ -349,7 +349,7 @@ int main(void) {
                                   " && " + folder.file("cases"));
   INFO(compiled.err);
   CHECK((compiled.status == 0 && compiled.out == "3 0.5 h 3 -1 1\n"));
-  // Texts of a set are anybody's.
+  // The texts of a set may be anything.
   std::string odd = folder.read("set");
   for (std::size_t at = 0; (at = odd.find("\"given\"", at)) != std::string::npos; at += 5)
     odd.replace(at, 7, R"("a,\"b\\*/")");

@@ -345,7 +345,7 @@ class Forms(unittest.TestCase):
         self.hold(ACCEPTED, (0, 0))
 
     def test_refused(self):
-        """Of a record that has an id and another form than it should, check.py says that it is refuted."""
+        """If a record has an id and another form than it should, check.py says that it is refuted."""
         self.hold(REFUSED, (1, 1), (1, 2), (2, 2))
 
 if __name__ == "__main__":

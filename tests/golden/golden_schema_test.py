@@ -1,5 +1,5 @@
-"""Are the committed golden sets what data/golden/schema.json says, complete, small, and those of SHA256SUMS? Of each set
-the first line of each shape is held against the schema, and every eighth line; with --all every line.
+"""Are the committed golden sets what data/golden/schema.json says, complete, small, and those of SHA256SUMS? In each
+set the first line of each shape is held against the schema, and every eighth line; with --all every line.
 
 With names of files: are these what the schema says?
 """

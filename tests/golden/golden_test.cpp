@@ -193,7 +193,7 @@ TEST_CASE("Golden: the header is read back", "[golden]") {
   CHECK(contains(text, "precision") == (header.precision == NumberFormat::binary32));
 }
 
-TEST_CASE("Golden: what is no set is refused with the line's number", "[golden]") {
+TEST_CASE("Golden: a file that is not a set is refused with the line's number", "[golden]") {
   const Folder folder;
   const std::string good = set_of({hit_case(), inside_case()});
   const auto complaint = [&](const std::string& text) -> std::string {

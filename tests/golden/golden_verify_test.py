@@ -1,4 +1,4 @@
-"""`lorentz golden verify --walk` passes the committed sets. Of two whose margins take long it is given every eighth record;
+"""`lorentz golden verify --walk` passes the committed sets. Two whose margins take long are cut to every eighth record;
 with --all none is left out.
 
 python3 tests/golden/golden_verify_test.py PROGRAM [--all]"""

@@ -84,7 +84,7 @@ def runners(work):
 
 
 def rust_runner(work):
-    """Of Debian's crates; nothing if they are not here."""
+    """Built with Debian's crates; None if they are not here."""
     crates = pathlib.Path("/usr/share/cargo/registry")
     if not shutil.which("cargo") or not list(crates.glob("serde_json-*")):
         return None

@@ -91,7 +91,7 @@ const std::vector<Room> kHouse{
      {"src/problem", "src/engines/base"},
      {"src/engines/base", "src/engines/published"},
      {"boost/multiprecision/ big_number.hpp"}},
-    // What a library of somebody else's is loaded in: the standard library, and the interface in C.
+    // The process that a foreign library is loaded in: the standard library, and the interface in C.
     {"question/library_host",
      {},
      {},
@@ -397,7 +397,7 @@ TEST_CASE("Public headers name no library, not even in comments, and no void*", 
   }
 }
 
-// Of `lorentz_library(NAME .. PUBLIC a b PRIVATE c)` the targets named lorentz_*, but its own.
+// The targets named lorentz_* in `lorentz_library(NAME .. PUBLIC a b PRIVATE c)`, but its own.
 std::set<std::string> linked_by(const fs::path& cmake_lists) {
   std::ifstream in(cmake_lists);
   std::stringstream text;

@@ -12,7 +12,7 @@ ROOT = Path(sys.argv[1]).resolve()
 
 
 def documents():
-    """All Markdown that git knows, or that is there if this is no clone."""
+    """All Markdown that git knows, or that is there if this is not a clone."""
     listed = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, stdout=subprocess.PIPE, text=True)
     names = listed.stdout.split()
     return [ROOT / name for name in names] or [f for f in ROOT.rglob("*.md") if "node_modules" not in f.parts]

@@ -101,7 +101,7 @@ TEST_CASE("What is only just met or missed is told apart, with the power of ten 
         "passes over obstacles that the line enters by less than 1e-09 of their radii");
 }
 
-TEST_CASE("A time is off by so many radii along the ray, of an ellipsoid by its smallest semiaxes",
+TEST_CASE("An error of a time is told in radii along the ray, for an ellipsoid in its smallest semiaxes",
           "[judge][diagnosis]") {
   const auto off = [](const Scene& scene, const Vec& v, double later) {
     const auto place = std::make_shared<Place>(scene);
@@ -120,7 +120,7 @@ TEST_CASE("A time is off by so many radii along the ray, of an ellipsoid by its 
       "gives times of the right obstacle that are off by more than rounding of the inputs explains, by up to "
       "0.003 radii along the ray");
   Scene slender = unit_scene(2, 0.25);
-  // Sheared: the smallest semiaxis is no column's length.
+  // Sheared: the smallest semiaxis is not a column's length.
   slender.lattices[0].atoms[0] = Atom{{}, 0, {{0.25, 0, 0}, {0.25, 0.0625, 0}}};
   const double expected = 0.0625 / question::smallest_semiaxis(slender.lattices[0].atoms[0], 2);
   CHECK(question::smallest_semiaxis(slender.lattices[0].atoms[0], 2) == Approx(0.0438).epsilon(0.01));
@@ -184,8 +184,8 @@ TEST_CASE("A circumstance is true of all that fail, and of few that do not", "[j
   for (Features& f : failing) f.depth = 0.04;
   REQUIRE(circumstance_of(failing, right));
   CHECK(circumstance_of(failing, right)->is_of_depth);
-  // Of 3 failures, in something that no right answer has, as many right ones are needed as leave 1 in 1000 to
-  // chance: (3 / n)^3 <= 1 / 1000.
+  // If 3 failures share something that no right answer has, as many right ones are needed as leave 1 in 1000
+  // to chance: (3 / n)^3 <= 1 / 1000.
   failing.assign(3, Features{}), failing[0].in_space = failing[1].in_space = failing[2].in_space = true;
   CHECK_FALSE(circumstance_of(failing, std::vector<Features>(29)));
   REQUIRE(circumstance_of(failing, std::vector<Features>(31)));
@@ -248,7 +248,7 @@ TEST_CASE("False hits from afar are told by the distance in radii", "[judge][cir
         "from starts 2^26 radii or more from the obstacle in question");
   right.assign(100, from(0x1p29));
   CHECK_FALSE(circumstance_of(failing, right));
-  // Of the obstacle that is named, wherever others stand.
+  // The distance is that of the obstacle that is named, wherever others stand.
   const Question square = asked(0.25, {0.5, 0, 0}, {1, 0, 0});
   CHECK(features_of(square, disc(-7, 0)).distance == Approx(30));
   CHECK(features_of(square, disc(1, 0)).distance == Approx(2));

@@ -89,7 +89,7 @@ TEST_CASE("A program is given up for a scene, not for the run, and the row says 
   CHECK(findings[0].count == 15);
 }
 
-TEST_CASE("What is not an answer is told apart from none, with what the program said on its standard error",
+TEST_CASE("An invalid answer is told apart from a missing one, with what the program said on stderr",
           "[judge][examination]") {
   const std::atomic<bool> stop = false;
   const auto finding_of = [&](const std::string& command) {
@@ -160,7 +160,7 @@ TEST_CASE("Counted questions: each row asks its number, in slow scenes, too", "[
   CHECK(counted.rows()[1].tally.queries == 8);
 }
 
-TEST_CASE("Of each row the first 500 questions are compared, and a row without any has no speed",
+TEST_CASE("The first 500 questions of each row are compared, and a row without any has no speed",
           "[judge][examination]") {
   const std::atomic<bool> stop = false;
   Examination whole(question::engine_named("oracle"), {}, 4, stop),

@@ -17,7 +17,7 @@ judge::ExaminedRow row(bool hard, std::size_t queries) {
   return row;
 }
 
-// So many of what agreed are something else.
+// Gives `number` answers that agreed another verdict.
 void turn(judge::ExaminedRow& row, std::size_t question::Tally::*verdict, std::size_t number) {
   row.tally.agree -= number;
   row.tally.*verdict += number;

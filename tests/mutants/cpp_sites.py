@@ -50,7 +50,7 @@ class File:
 
     @staticmethod
     def is_condition(loop, part):
-        """Of `for (a; b; c)` it is b, of others all but the body."""
+        """In `for (a; b; c)` it is b, in other loops all but the body."""
         return loop.kind != Kind.FOR_STMT or part.kind in (Kind.BINARY_OPERATOR, Kind.CALL_EXPR, Kind.UNEXPOSED_EXPR)
 
     def is_macro(self, cursor):

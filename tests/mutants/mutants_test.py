@@ -67,7 +67,7 @@ class Sites(unittest.TestCase):
                          ("sign", "total -= a[i];"), ("dropped statement", ";"), ("first for all", "break; }"),
                          ("constant", "int total = 1;"), ("condition turned", "if (!(a[i] < 0)) continue;")]:
             self.assertIn(expected, found)
-        self.assertFalse([after for _, after in found if "printf" in after])  # main is no function to be mutated
+        self.assertFalse([after for _, after in found if "printf" in after])  # main is not mutated
 
 
 class Schemata(unittest.TestCase):

@@ -1,4 +1,4 @@
-"""The mutants of an OCaml file, by its words: no syntax tree is at hand, and the compiler refuses what is not OCaml."""
+"""The mutants of an OCaml file, by its words: no syntax tree is at hand, and the compiler refuses mutants that are not OCaml."""
 
 import re
 
@@ -23,7 +23,7 @@ WORDS = [
 
 
 def without_texts(source):
-    """Of the same length, with strings and comments blank."""
+    """A text of the same length, with strings and comments blank."""
     blank = lambda m: re.sub(r"[^\n]", "~", m[0])
     return re.sub(r'"(\\.|[^"\\])*"|\(\*.*?\*\)', blank, source, flags=re.DOTALL)
 

@@ -62,7 +62,7 @@ def owners(text):
 
 
 def python(root, path, mutants):
-    """Of a copy of the tree at `root`, the file and a folder of its variants beside it."""
+    """Writes, in a copy of the tree at `root`, the file and a folder of its variants beside it."""
     file = root / path
     source = file.read_bytes()
     folder = file.parent / (file.name + ".mutants")

@@ -54,7 +54,7 @@ TEST_CASE("Any basis and any cutting of the windows proves the same", "[oracle][
     if (*c.answer.time > 1000) continue;  // a bad basis has too many rows
     for (Window& window : c.proof.windows)
       window.basis = skewed(draw, window.basis, c.scene.dimension, static_cast<int>(draw.below(6)));
-    // Of a solid basis two vectors may end up at right angles to the flight: then it is refused.
+    // Two vectors of a solid basis may end up at right angles to the flight: then it is refused.
     INFO(text(c));
     const std::string said = refutation(c);
     REQUIRE((said.empty() || said.find("right angles") != std::string::npos));

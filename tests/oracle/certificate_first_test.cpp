@@ -103,7 +103,8 @@ TEST_CASE("A tie claimed for another than the smallest lattice, atom, cell is re
                     "is entered at the same time and comes first");
 }
 
-TEST_CASE("Tangents are no hits, nor is what lies behind or is left", "[oracle][certificate_check]") {
+TEST_CASE("Tangents are not hits, nor is an obstacle that lies behind or is left",
+          "[oracle][certificate_check]") {
   const Scene scene = unit_scene(2, 0.25);
   const ObstacleId ball{0, 0, {Integer(1), Integer(0)}};
   require_refused(proved(scene, {{0.5, 0.25}, {1, 0}, {}}, Answer::hit(ball, 0.5)), "is not met by the line");

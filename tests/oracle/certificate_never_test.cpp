@@ -31,7 +31,7 @@ TEST_CASE("never: rows that are met, missing, or not along the flight are refuse
     tampered = c;
     for (Integer& n : tampered.proof.rows[0].basis[0]) n = Integer(-n.int64());  // either sense will do
     require_accepted(tampered);
-    // A hit that claims to be none: the rows are right, and one is met; also if it is only that of `from`.
+    // A hit that claims to be `never`: the rows are right, and one is met; also if it is only that of `from`.
     for (const double y : {0.25 - 0x1p-53, -0.25 + 0x1p-54, 0.75 + 0x1p-53, 5.0, 0.0}) {
       tampered = c;
       tampered.query.x[1] = y;
@@ -84,7 +84,7 @@ TEST_CASE("never: any basis with b_1 along the flight proves the same, and a hit
   CHECK(hits > 1800);  // 2 354 seen
 }
 
-TEST_CASE("never: of several atoms and lattices nobody's rows may be missing",
+TEST_CASE("never: no atom's rows may be missing, with several atoms and lattices",
           "[oracle][certificate_check]") {
   for (const int dimension : {2, 3}) {
     Scene scene = unit_scene(dimension, 0.125);

@@ -1,4 +1,4 @@
-// Proofs that are none: garbage, scenes with a flaw, more work than anyone should do.
+// Invalid proofs: garbage, scenes with a flaw, more work than a checker should do.
 #include "tests/oracle/certificate_support.hpp"
 
 using namespace lorentz;
@@ -133,7 +133,7 @@ TEST_CASE("Proofs that are too much work are refused", "[oracle][certificate_che
   c.proof.rows[0].basis = {Cell{1, 0, 0}, {0, 10'000'000, 1}, {0, 1, 0}};
   c.proof.rows[0].basis[2] = {0, 9'999'999, 1};
   require_refused(c, "more than 1000000 steps");
-  // Of a few thousand each counts
+  // Each of a few thousand rows counts
   c.proof.rows[0].basis = {Cell{1, 0, 0}, {0, 10'000, 1}, {0, 9'999, 1}};
   require_accepted(c);
   CHECK_THAT(CertificateCheck(c.scene, 1000).refutation(c.query, c.answer, c.proof).value_or(""),

@@ -89,7 +89,7 @@ TEST_CASE("The ends of windows are held against -r/|v| and t + r/|v| exactly",
   require_refused(c, "end too early");
   c.proof.windows[0].from = std::nextafter(-0.5, 0);
   require_refused(c, "begins too late");
-  // and where they are no binary64: sqrt(2) / 2
+  // and where they are not binary64 numbers: sqrt(2) / 2
   c = proved(c.scene, {{0.5, 0, 0}, {1, 1, 0}, {}});
   c.proof.windows[0].from = -0.70710678118654757, c.proof.windows[0].to = 0.70710678118654757;
   require_accepted(c);
@@ -126,7 +126,7 @@ TEST_CASE("An obstacle in the last row that a window can meet is looked at", "[o
   require_refused(c, "obstacle (lattice 0, atom 0, cell [0, 0, 0]) is entered earlier");
 }
 
-TEST_CASE("Vectors that are no basis are refused", "[oracle][certificate_check]") {
+TEST_CASE("Vectors that are not a basis are refused", "[oracle][certificate_check]") {
   Draw draw(2107);
   INFO("seed 2107");
   for (int i = 0; i < 300; ++i) {

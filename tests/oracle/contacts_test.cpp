@@ -324,7 +324,7 @@ TEST_CASE("Lattices of other periods meet somewhere, slender ellipses reach beyo
   narrow.lattices[1].vectors = {Vec{0.2, 0, 0}, {0, 8, 0}};
   narrow.lattices[1].atoms[0].position = {0, 4, 0};
   CHECK(counts_in(narrow) == std::pair(0, 1));
-  // Of three lattices with two atoms each the last atoms of the last two lattices, or of the outer two.
+  // Three lattices with two atoms each: the last atoms of the outer two lattices meet, or of the last two.
   for (const std::size_t one : {0, 1}) {
     Scene scene = unit_scene(2, 0.125);
     scene.lattices[0].vectors = {Vec{8, 0, 0}, {0, 8, 0}};

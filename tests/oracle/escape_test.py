@@ -12,7 +12,7 @@ import sys
 
 decimal.getcontext().prec = 120
 D = decimal.Decimal
-# Of as many vectors: the cells that are tried, either way, and how steep a flight must be so that nothing farther
+# By the number of vectors: the cells that are tried, either way, and how steep a flight must be so that nothing farther
 # away is met.
 TRIED = {0: (0, 0), 1: (60, 0.05), 2: (20, 0.2)}
 

@@ -36,7 +36,7 @@ TEST_CASE("Head on, from outside", "[oracle][first_hit]") {
   CHECK(first_hit(kQuarter, {{0.5, 0}, {4, 0}, {}}).time == 0.0625);
 }
 
-TEST_CASE("A tangent is no hit", "[oracle][first_hit]") {
+TEST_CASE("A tangent is not a hit", "[oracle][first_hit]") {
   CHECK(first_hit(kQuarter, {{0.5, 0.25}, {1, 0}, {}}).outcome == Outcome::never);
   const Answer answer = first_hit(kQuarter, {{0.5, std::nextafter(0.25, 0)}, {1, 0}, {}});
   CHECK(answer.obstacle == at(1, 0));

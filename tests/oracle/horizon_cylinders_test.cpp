@@ -89,7 +89,7 @@ TEST_CASE("Horizon: shadows whose discs just touch, or just close", "[oracle][ho
   // Between discs that touch there is a hole, all of whose corners are cusps.
   CHECK(hole(unit, {{{}, 0.5, {}}}));
   CHECK(hole(unit, {{{}, 0.25, {}}}));  // no two circles meet
-  // Circumradius 5: at r = 5 four circles meet in one free point, which is no hole.
+  // Circumradius 5: at r = 5 four circles meet in one free point, which is not a hole.
   const std::array<Vec, 3> seven{Vec{7, 1, 0}, Vec{-1, 7, 0}, Vec{0, 0, 1}};
   CHECK_FALSE(hole(seven, {{{}, 5, {}}}));
   CHECK(hole(seven, {{{}, std::nextafter(5.0, 0), {}}}));

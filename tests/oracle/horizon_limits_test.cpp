@@ -20,7 +20,7 @@ using namespace lorentz;
 using namespace lorentz::test;
 using namespace lorentz::oracle;
 
-TEST_CASE("Horizon: what is not done is said, and nothing hangs", "[oracle][horizon]") {
+TEST_CASE("Horizon: what it leaves out is said, and nothing hangs", "[oracle][horizon]") {
   CHECK_THROWS_AS(horizon_of(unit_scene(2, 1e-9)), oracle::TooManyChannels);
   CHECK_THROWS_AS(horizon_of(unit_scene(3, 1e-9)), oracle::TooManyChannels);
   CHECK(horizon_of(unit_scene(2, 1e-9), 0.2).normals == 20);
@@ -77,7 +77,7 @@ TEST_CASE("Horizon: too many directions are counted, not begun, in slender cells
   CHECK(last + 64 > total);
 }
 
-TEST_CASE("Horizon: a width that is none is refused, not searched for", "[oracle][horizon]") {
+TEST_CASE("Horizon: an invalid width is refused, not searched for", "[oracle][horizon]") {
   for (const double width : {std::nan(""), -1.0, HUGE_VAL})
     CHECK_THROWS_AS(horizon_of(unit_scene(2, 0.1), width), InputError);
 }
@@ -183,7 +183,7 @@ TEST_CASE("Horizon: the one corridor of two lattices, between rows far out", "[o
 
 TEST_CASE("Horizon: two centred rectangular lattices, and the same as rectangles with two discs",
           "[oracle][horizon]") {
-  // Of the products of their normals the short ones, (1, 0, 0, 1) and (0, 1, 1, 0), are of rank two.
+  // The short products of their normals, (1, 0, 0, 1) and (0, 1, 1, 0), are of rank two.
   Scene centred, rectangles;
   centred.dimension = rectangles.dimension = 2;
   for (const Vec& side : {Vec{1, 1}, Vec{std::sqrt(2), std::sqrt(3)}}) {

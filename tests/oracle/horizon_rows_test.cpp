@@ -70,7 +70,7 @@ struct Seen {
   bool touching = false;
 };
 
-// Of one row, or several with the same vector.
+// The widest gap along one row, or several with the same vector.
 Seen look_along(const Scene& scene, double t) {
   const Vec& u = scene.lattices[0].vectors[0];
   const Real128 period = static_cast<Real128>(u[0]) * u[0] + static_cast<Real128>(u[1]) * u[1];

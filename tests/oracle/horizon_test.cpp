@@ -389,7 +389,7 @@ TEST_CASE("Horizon: what two lattices shut is shut, whatever the third leaves op
     for (const double height : heights) lattice.atoms.push_back({{0, height}, 0.3, {}});
     return lattice;
   };
-  // Of one period, and of periods that have a short one in common.
+  // Rows of one period, and of periods that have a short one in common.
   for (const Lattice& other : {rows(1, {0.5}), rows(2, {0.5, 1.5})})
     for (const double third : {1.0, 3.0, 1 + 0x1p-40}) {
       std::vector<Lattice> lattices{rows(1, {0}), other, rows(third, {0})};
@@ -542,7 +542,7 @@ TEST_CASE("Horizon: the tail constant counts each atom, and touching ones do not
     CHECK(*horizon_of(doubled, 0, false).tail_constant ==
           Approx(*horizon_of(one, 0, false).tail_constant).epsilon(1e-12));
   }
-  // Of corridors of one width those along short vectors come first.
+  // Among corridors of one width, those along short vectors come first.
   Scene two = unit_scene(2, 0.2);
   two.lattices[0].vectors[0][0] = 2;
   two.lattices[0].atoms.push_back({{1, 0, 0}, 0.2, {}});
@@ -572,7 +572,7 @@ TEST_CASE("Horizon: the tail constant of ellipses is of their widths and their a
 TEST_CASE("Horizon: no planar channel, no tail like 1/t", "[oracle][horizon]") {
   CHECK(horizon_of(unit_scene(2, 0.5)).tail_constant == 0.0);
   CHECK(horizon_of(unit_scene(3, 0.5)).tail_constant == 0.0);   // touching planes
-  CHECK(horizon_of(unit_scene(3, 0.55)).tail_constant == 0.0);  // cylinders; overlaps are no matter
+  CHECK(horizon_of(unit_scene(3, 0.55)).tail_constant == 0.0);  // cylinders; overlaps do not matter
   CHECK_FALSE(horizon_of(unit_scene(2, 0.5), 0.1).tail_constant.has_value());
   CHECK_FALSE(horizon_of(unit_scene(2, 0.25), 0.9).tail_constant.has_value());
 }

@@ -289,7 +289,7 @@ TEST_CASE("Itinerary: a number midway between two decimals has a digit more") {
   };
   CHECK(x_at("0.123456789012345675", 17) == "0.623456789012345675");
   CHECK(x_at("0.35", 1) == "0.85");
-  // 3.0000000000000000 and the like are no such numbers.
+  // 3.0000000000000000 and the like are not midway, and have no digit more.
   CHECK(x_at("2.5", 3) == "3.00");
 }
 

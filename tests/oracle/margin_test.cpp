@@ -76,8 +76,9 @@ double least_testable(const Problem& problem) {
   return 20;
 }
 
-// In space the distance of a line from a point is no linear function of the line; a margin is one to first
-// order. It promises nothing where inputs moved by so much move the line by a good part of the radius.
+// In space the distance of a line from a point is not a linear function of the line; a margin is one to
+// first order. It promises nothing where inputs moved by that margin move the line by a good part of the
+// radius.
 bool is_curved(const Problem& problem, const Answer& exact, double margin) {
   const Vec& v = problem.query.v;
   const double moved = margin * 0x1p-51 * (1 + exact.time.value_or(0) * std::hypot(v[0], v[1], v[2]));

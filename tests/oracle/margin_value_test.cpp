@@ -26,7 +26,7 @@ double condition(const Scene& scene, const Query& query) {
   return Margins(scene).condition(query, truth(scene, query));
 }
 
-// Of the decision to meet the obstacle that is hit; not limited.
+// The margin of the decision to meet the obstacle that is hit; not limited.
 double meeting(const Scene& scene, const Query& query) {
   const Answer exact = truth(scene, query);
   const auto passed = Margins(scene).passed(query, exact, 1);
@@ -117,7 +117,7 @@ TEST_CASE(
   const double e = 0x1p-36, root = std::sqrt(15.0) / 16;
   Scene scene = unit_scene(2, 0.25);
   const Query query{{0.5, 0.0625}, {1, 0}, {}};
-  // Of one atom the radii move together, and change both times alike: cells (1, 0) and (1, 1) of a lattice
+  // The radii of one atom move together, and change both times alike: cells (1, 0) and (1, 1) of a lattice
   // with u_2 = (e, 1/8).
   scene.lattices[0].vectors = {Vec{1, 0, 0}, Vec{e, 0.125, 0}};
   const Query leaving{query.x, query.v, ObstacleId{}};
@@ -125,7 +125,7 @@ TEST_CASE(
   CHECK(same.kind == DecisionKind::order);
   // dt/dx_2 = -+ tan, tan = (1/16) / (sqrt(15)/16); x_1 moves both alike.
   CHECK(same.margin == about(e / (2 * (0.0625 / root) * kUlp)));
-  // Of two atoms they may not: dt/dr = -1 / cos each, cos = sqrt(15) / 4.
+  // The radii of two atoms may not: dt/dr = -1 / cos each, cos = sqrt(15) / 4.
   scene = unit_scene(2, 0.25);
   scene.lattices[0].atoms.push_back({{e, 0.125, 0}, 0.25, {}});
   const double change = 2 * (0.0625 / root) * kUlp + 2 * (0.25 / root) * kUlp / 4;

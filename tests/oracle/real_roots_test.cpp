@@ -29,7 +29,7 @@ TEST_CASE("Real roots: as many as there are, in ascending order, correctly round
   CHECK(rounded_roots({0, -2, 3}) == Roots{0, 2.0 / 3});
   CHECK(rounded_roots({-6, 11, -6, 1}) == Roots{1, 2, 3});
   CHECK(rounded_roots({6, -5, -5, 5, -1}).size() == 4);  // -1 and these
-  // A tie goes to the even number; a root just beside it is no tie.
+  // A tie goes to the even number; a root just beside it is not a tie.
   const Z tie = power(2, 53) + 1;
   CHECK(rounded_roots({-tie, 1}) == Roots{0x1p53});
   CHECK(rounded_roots({-tie - 2, 1}) == Roots{0x1p53 + 4});

@@ -19,7 +19,8 @@ bool in_contact(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("Dependent vectors are found exactly, nearly dependent ones are none", "[oracle][scene_check]") {
+TEST_CASE("Dependent vectors are found exactly, nearly dependent ones count as independent",
+          "[oracle][scene_check]") {
   CHECK(oracle::dependence_in(with_vectors(2, {Vec{1, 2}, Vec{2, 4}})).has_value());
   CHECK(oracle::dependence_in(with_vectors(2, {Vec{0.1, 0.2}, Vec{0.2, 0.4}})).has_value());
   CHECK(oracle::dependence_in(with_vectors(2, {Vec{1, 0}, Vec{0, 0}})).has_value());

@@ -125,7 +125,7 @@ TEST_CASE("What an ill-posed answer departs by is the tolerance from which on it
   CHECK_FALSE(judged(kScene, level(0), Answer::hit({1, 0, {}}, 1)).obstacle);  // there is none
 }
 
-TEST_CASE("Where the query is none nobody is wrong", "[oracle][verdict]") {
+TEST_CASE("An answer to an invalid query is judged an error, not wrong", "[oracle][verdict]") {
   CHECK(oracle::Judge(kScene).judge(level(0), Answer::error("v is zero"), Answer::hit(at(0, 0), 1)).verdict ==
         Verdict::error);
 }
@@ -427,7 +427,7 @@ TEST_CASE("A start hardly inside an obstacle is outside within ulps, and enters 
   CHECK(judged(square, outwards, Answer::hit(at(2, 0), 1.5)).verdict == Verdict::wrong);
 }
 
-TEST_CASE("Of two obstacles entered together within ulps either is acceptable", "[oracle][verdict]") {
+TEST_CASE("Either of two obstacles entered together within ulps is acceptable", "[oracle][verdict]") {
   Scene scene = unit_scene(2, 0.25);
   scene.lattices[0].atoms.push_back({{0, 0.125}, 0.25, {}});
   const Query middle{{0.5, 0.0625}, {1, 0}, {}};  // an exact tie

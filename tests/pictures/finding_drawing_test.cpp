@@ -62,7 +62,7 @@ std::string xml_flaw(const std::string& xml) {
   return !open.empty() ? "not closed: " + open.back() : roots == 1 ? "" : "not one root";
 }
 
-// A coordinate that is no number, or one beyond any paper.
+// A coordinate that is not a number, or one beyond any paper.
 std::string coordinate_flaw(const std::string& svg) {
   static const std::regex kPlace(
       R"re( (?:x|y|cx|cy|r|rx|ry|width|height|points|transform|viewBox)="([^"]*)")re");
@@ -106,7 +106,7 @@ TEST_CASE("Surroundings: places that no binary64 holds", "[pictures][finding_dra
   CHECK(surroundings.way(query, PlaceOnLine::start(), far) == 0x1p60);
   const PlaceOnLine further{std::nullopt, 0x1p59, 0.25};
   CHECK(surroundings.centre(query, further, cell((1ll << 60) + 1, 1)) == Vec{0.25, 0.5, 0});
-  const ObstacleId beside = cell((1ll << 60) + 1, 2);  // nearest after 2^60 + 1/2, which is no binary64
+  const ObstacleId beside = cell((1ll << 60) + 1, 2);  // nearest after 2^60 + 1/2, which is not a binary64
   CHECK(surroundings.centre(query, PlaceOnLine::at(beside), beside) == Vec{0, 1.5, 0});
   // Two entries 2^-70 apart, 2^40 cells away; and one from where the line is nearest to a disc that it
   // misses.
@@ -187,7 +187,7 @@ TEST_CASE("What is in question: start, order, time, the hardest decision", "[pic
   // Behind the start.
   const Answer behind = Answer::hit(cell(-1, 0), 3);
   CHECK(about(query, &behind, first) == Found{Issue::start, 1});
-  // Nobody's answer, and one that names no obstacle: the hardest decision.
+  // No answer, an undecided one, and one whose obstacle does not exist: the hardest decision.
   const Query low{{-0.5, 0x1.fffffffffffffp-3}, {1, 0}, {}};
   const Answer none = Answer::undecided(), strange = Answer::hit({5, 7, {}}, 1);
   const Answer low_hit = Answer::hit(cell(0, 0), 0.5);

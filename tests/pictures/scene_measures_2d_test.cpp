@@ -220,7 +220,7 @@ TEST_CASE("2D: corridors are drawn along their vector, as wide as they are, with
     if (middle + width / 2 > -3 * std::sqrt(0.5) && middle - width / 2 < 3.5 * std::sqrt(0.5)) all.insert(n);
   }
   CHECK(strips[picture.mark_of("corridor [1 1]")["fill"]] == all);
-  // Of two lattices nobody knows the translates: one strip; and what is beside the window is not there.
+  // With two lattices the translates are unknown: one strip; and what lies beside the window is not drawn.
   Scene two = unit_scene(2, 0.1);
   two.lattices.push_back(two.lattices[0]);
   options.ways[0].point = {1, 1.5};

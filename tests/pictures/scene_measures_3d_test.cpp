@@ -64,7 +64,7 @@ Scene crowd_in_space() {
   return scene;
 }
 
-// True if some obstacle is between the place and the eye, or around it; `slack` from the edge nobody says.
+// True if an obstacle is between the place and the eye, or around it; no value within `slack` of the edge.
 std::optional<bool> hidden(const Scene& scene, const std::vector<Wanted>& obstacles,
                            const std::vector<std::string>& names, const Vec& place, double slack) {
   std::vector<const Atom*> atoms;

@@ -23,7 +23,7 @@ TEST_CASE("One number has one form", "[problem][integer]") {
   CHECK(Integer::from_decimal("-0009223372036854775809") == Integer::from_decimal("-9223372036854775809"));
 }
 
-TEST_CASE("What is not an integer is none", "[problem][integer]") {
+TEST_CASE("Text that is not an integer is refused", "[problem][integer]") {
   for (const char* text : {"", "-", "+1", "1.0", "1e3", " 1", "1 ", "0x10", "--1"}) {
     INFO(text);
     CHECK_FALSE(Integer::from_decimal(text).has_value());

@@ -33,7 +33,7 @@ TEST_CASE("Rational numbers from texts") {
   CHECK(told("123456789012345678901234567890/3") == "123456789012345678901234567890/3");
   CHECK(told("0x1.8p-1") == "double 0.750000");
   CHECK(told("-0x1p+3") == "double -8.000000");
-  for (const char* mark : {"p", "P"}) {  // what follows it is no digit of the fraction
+  for (const char* mark : {"p", "P"}) {  // what follows it is not a digit of the fraction
     CHECK(told(std::string("0x1.8000000000000") + mark + "-1") == "double 0.750000");
     CHECK(told(std::string("0x1.80000000000000") + mark + "-1") == "none");
   }

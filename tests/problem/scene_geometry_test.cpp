@@ -19,7 +19,7 @@ Atom with_axes(std::vector<Vec> axes) {
   return {{}, 0, std::move(axes)};
 }
 
-// An ellipsoid of these semiaxes, turned anyhow, and described by three vectors that are no principal axes.
+// An ellipsoid of these semiaxes, turned anyhow, and described by three vectors that are not principal axes.
 Atom disguised(Draw& draw, const Vec& axes) {
   cases::Random random(1, "frames", draw.below(1'000'000'000));
   std::array<Vec, 3> turn, mix;

@@ -30,7 +30,7 @@ std::string read_back(std::string text) {
 
 TEST_CASE("A report in a page stays text and comes back unchanged", "[report][page]") {
   // With what ends a script, opens a comment in one, breaks lines in one, is a place in the template, or
-  // begins as a line separator does and is none (the Euro sign).
+  // begins as a line separator does without being one (the Euro sign).
   const std::string json =
       "{\"kind\":\"judge\",\"findings\":[{\"cause\":\"</script><script>alert(1)</script><!--\",\"where\":"
       "\"\u2028\u2029 5 \u20ac %REPORT% %SCRIPT% $& \\\" \\\\\"}],\"line\":\"\xe2\x80\"}";

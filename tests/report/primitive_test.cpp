@@ -41,7 +41,7 @@ TEST_CASE("The one question has the ball's exact centre, the sign of the discrim
                  R"("discriminant":0,"entry_time":null})"));
 }
 
-TEST_CASE("A centre that is no binary64 is told exactly, and the snippet says that its own is rounded",
+TEST_CASE("A centre that is not a binary64 is told exactly, and the snippet says that its own is rounded",
           "[report][primitive]") {
   Scene scene = unit_scene(2, 0.25);
   scene.lattices[0].atoms[0].position = {0x1p-60, 0, 0};

@@ -56,7 +56,7 @@ class Folder {
 inline bool goes_on_running(const std::string& pid_file) {
   int pid = 0;
   std::ifstream(pid_file) >> pid;
-  if (pid <= 0) return true;  // nobody wrote it
+  if (pid <= 0) return true;  // it was not written
   for (int i = 0; i < 100; ++i) {
     std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
     std::string number, name, state;

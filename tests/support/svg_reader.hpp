@@ -69,7 +69,7 @@ struct SvgPicture {
   Inks inks;                                               ///< in the order in which they are drawn
   std::map<std::string, std::vector<std::string>> shades;  ///< gradients: the colours of their stops
 
-  /// Fails on what is no XML, or has what this does not know.
+  /// Fails on text that is not XML, or has parts that this does not know.
   explicit SvgPicture(const std::string& svg);
 
   Inks all(const std::string& kind, const std::function<bool(const Ink&)>& which = {}) const;

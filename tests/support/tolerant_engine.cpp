@@ -42,7 +42,7 @@ struct Fault {
   long at = 0;
 };
 
-// What is not an answer.
+// Faults instead of an answer: the program dies or hangs.
 void misbehave(const Fault& fault, long question, const std::optional<Scene>& scene) {
   if (fault.what == "dies-in" && scene && scene->dimension == fault.at) std::_Exit(3);
   if (question != fault.at) return;

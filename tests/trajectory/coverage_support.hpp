@@ -15,8 +15,8 @@ namespace lorentz::test {
 
 inline constexpr std::uint64_t kCoverageSeeds = 400;  ///< 1, 2, ..
 
-/// Of 64 groups 94.6 % lie within 1.96 errors of the truth: of 400 seeds 378 +- 4.5, here within 4
-/// deviations.
+/// With 64 groups, 94.6 % of estimates lie within 1.96 errors of the truth: 378 +- 4.5 of 400 seeds, here
+/// within 4 deviations.
 inline void check_coverage(const std::string& name, const std::vector<chaos::Estimate>& estimates) {
   const auto n = static_cast<double>(estimates.size());
   double mean = 0;

@@ -80,7 +80,7 @@ TEST_CASE("In open corridors displacements grow faster than the time", "[chaos]"
 }
 
 TEST_CASE("The slope in ln t is that of the straight line nearest to MSD / t", "[chaos]") {
-  // Of groups alike in size, the slope of the mean is the mean of the slopes.
+  // If groups are alike in size, the slope of the mean is the mean of the slopes.
   const Diffusion result = measured(unit_scene(2, 0.4), 640, 10);
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const Displacement& at : result.displacements) {
@@ -170,7 +170,7 @@ TEST_CASE("Errors of D, of its slope and of displacements at all times hold the 
   }
 }
 
-TEST_CASE("Of one particle no error is told", "[chaos]") {
+TEST_CASE("The errors of one particle are infinite", "[chaos]") {
   const Diffusion one = measured(triangular(0.3), 1, 4);
   CHECK(one.particles == 1);
   CHECK(std::isinf(one.coefficient.error));

@@ -107,8 +107,8 @@ TEST_CASE("A particle between two discs, head-on, leaves its line at the known r
 
 TEST_CASE("Inside the plane of two foci an ellipse's reflections keep the product of angular momenta",
           "[trajectory]") {
-  // Of one ellipse with the foci +-f: the reflection at it keeps the product of the angular momenta about the
-  // foci, whichever side it is on. Semiaxes 0.3 and 0.2.
+  // A reflection at one ellipse with the foci +-f keeps the product of the angular momenta about the foci,
+  // whichever side it is on. Semiaxes 0.3 and 0.2.
   Scene scene = unit_scene(2, 1);
   scene.lattices[0].atoms = {{{}, 0, {{0.3, 0, 0}, {0, 0.2, 0}}}};
   const double f = std::sqrt(0.09 - 0.04);
@@ -447,7 +447,7 @@ TEST_CASE("Cells beyond 64 bits are an overflow, and the state stays", "[traject
 
 TEST_CASE("A line that grazes goes on unchanged", "[trajectory]") {
   // The engine says that a line enters a disc which it touches, or passes by a rounding: so it would be for a
-  // state that is a rounding away. What passes by more is no rounding.
+  // state that is a rounding away. A line that passes by more does not meet the disc.
   const Scene scene = unit_scene(2, 0.125);
   const auto engine = [](const Query&, double, Answer& given) { given = Answer::hit({0, 0, {1, 0}}, 0.75); };
   for (const Precision precision : {Precision::binary64, Precision::double_double})
@@ -498,7 +498,7 @@ TEST_CASE("Starts and scenes that no trajectory has are refused", "[trajectory]"
 
 namespace {
 
-// Follows a particle for at most so many collisions, or until it escapes. Returns how many each lattice had.
+// Follows a particle for at most `collisions`, or until it escapes. Returns how many each lattice had.
 std::vector<int> check_flights(const Scene& scene, const Query& start, int collisions) {
   const oracle::Oracle oracle(scene);
   const Reduction engine(scene);

@@ -130,7 +130,7 @@ export function failuresSection(report, looks, findings) {
     "failures",
     "Who fails what",
     cells.length
-      ? "✗: share of wrong answers; ✓ ?: nothing wrong, but so many undecided; –: not asked."
+      ? "✗: share of wrong answers; ✓ ?: nothing wrong, share of undecided answers; –: not asked."
       : "The cases above, by cause and by where they are from.",
     both,
   );

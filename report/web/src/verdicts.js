@@ -17,7 +17,7 @@ export const MEANINGS = {
   "ill-posed": "another answer than the exact one, but a change of the input by its last bits gives it",
   "wrong-time": "the right obstacle, at a time that is off by more than the input's condition explains",
   undecided: "the engine says that it cannot know",
-  missing: "asked, and no answer came: the program died, fell silent, or wrote something that is no answer",
+  missing: "asked, and no answer came: the program died, fell silent, or wrote something that is not an answer",
   nonsense: "an invalid question was answered, where error is right; counted apart from the queries",
 };
 

@@ -2,7 +2,7 @@
 // engine_base.hpp, kMaxStart in engine.hpp). First what formulas err by: docs/bounds.md derives
 // each of these, and tests/engines/bounds_test.cpp computes it again, by running the engine's own formulas
 // (formulas.hpp) on numbers that carry their error. Then by how much ranges are widened, which follows from
-// them. Last what is no error bound: caps, ranges, and from where on another formula is used.
+// them. The last ones are not error bounds: caps, ranges, and from where on another formula is used.
 #pragma once
 
 namespace lorentz {
@@ -236,7 +236,7 @@ inline constexpr double kRunningCoefficient = 0x1p20, kRunningQuotient = 0x1p20,
                         kGoodRunning = 0x1p40;
 
 /// 3D: a basis is nearly orthogonal if all |b_i| |dual_i| are at most this; then |b_0| |b_1| |b_2| / volume
-/// is at most its square, on which kPlane relies. Of reduced bases both are at most sqrt(2).
+/// is at most its square, on which kPlane relies. Both are at most sqrt(2) for reduced bases.
 inline constexpr double kMaxDefect = 2.8;
 
 /// Rounds of loops that end by themselves much earlier, or have found something hard.

@@ -147,8 +147,7 @@ LORENTZ_INLINE typename Arch::Number place_of(const Bravais& lattice, const Offs
   return error + kPlace * size;
 }
 
-/// Is the lattice vector n (in the short basis) exactly parallel to v? The answer is no also where binary64
-/// cannot tell.
+/// Is the lattice vector n (in the short basis) exactly parallel to v? False also where binary64 cannot tell.
 template <class Arch, int D, class Vector>
 LORENTZ_NOINLINE typename Arch::Mask is_parallel(const Bravais& lattice, const Vector& v,
                                                  const typename Arch::Number (&n)[D]) {

@@ -63,7 +63,7 @@ export function difficultiesChart(report) {
         ],
       })),
       legend: seen.map((v) => ({ name: v.word, look: { colour: v.colour, symbol: v.symbol, dash: "" } })),
-      summary: `Of ${names.length} kinds of query that it was asked ${rows.filter((r) => FAULTS.every(([key]) => !r[key])).length} were answered without a fault. The most that is wrong: ${worst(rows)}.`,
+      summary: `Answered without a fault: ${rows.filter((r) => FAULTS.every(([key]) => !r[key])).length} of ${names.length} kinds of query that it was asked. The most that is wrong: ${worst(rows)}.`,
       numbers: {
         columns: ["difficulty", "verdict", "count", "queries", "share"],
         rows: points.map((p) => [p.row.name, p.verdict.word, p.count, p.row.queries, p.share]),
