@@ -87,10 +87,12 @@ def install(folder, with_program):
     """Installs the package together with its scenes and golden sets."""
     jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
     targets = ["lorentz_python"] + ["lorentz"] * with_program
+    is_archive = not (ROOT / "cli").exists()  # of the package's sources: built in less than five minutes of processor time
     print("lorentz: building the extension module: some minutes of processor time", file=sys.stderr, flush=True)
     for command in (["cmake", "--log-level=WARNING", "--preset", "python", "-DBUILD_TESTING=OFF", "-DLORENTZ_PYTHON_DIR=.",
                      f"-DLORENTZ_CLI={'ON' if with_program else 'OFF'}", f"-DPython3_EXECUTABLE={sys.executable}",
-                     f"-DLORENTZ_AVX512={'ON' if (ROOT / 'cli').exists() else 'OFF'}"],
+                     f"-DLORENTZ_AVX512={'OFF' if is_archive else 'ON'}",
+                     f"-DLORENTZ_FAST_BUILD={'ON' if is_archive else 'OFF'}"],
                     ["cmake", "--build", BUILD, "--target", *targets, "-j", jobs],
                     ["cmake", "--install", BUILD, "--component", "python", "--prefix", folder, "--strip"]):
         subprocess.run(command, cwd=ROOT, check=True)
