@@ -1,5 +1,5 @@
-// The exact oracle: exact first hits for every scene of balls and ellipsoids on any lattices, motifs and
-// superpositions in 2D and 3D.
+// The exact oracle: exact first hits for every scene of balls and ellipsoids in 2D and 3D. A scene has any
+// number of lattices, and a lattice any number of atoms (obstacles per cell).
 #pragma once
 
 #include <optional>
@@ -21,16 +21,19 @@ struct Request {
 /// First hits by exact integer arithmetic: every decision is the sign of an integer, and only the result is
 /// rounded.
 ///
-///  1. The answer is right: the outcome; the obstacle (if several are entered at one time, the one with the
-///     smallest lattice, atom, cell); and the time, correctly rounded to nearest, ties to even. The second
-///     oracle (walk.hpp), which shares nothing with this one, gives the same answers.
+///  1. The answer is right: the outcome, the obstacle, and the time, correctly rounded to nearest, ties to
+///     even. If several obstacles are entered at the same time, or several contain x, the answer names the
+///     first in the order (lattice, atom, cell). The second oracle (walk.hpp) has code and arithmetic of its
+///     own; where it answers, the answers are the same.
 ///     held by "Oracle equals walk on generic scenes",
 ///             "Oracle equals walk on a coarse grid: ties, tangents, rational slopes",
 ///             "Oracle equals walk on ellipsoids, alone and mixed with balls"
-///  2. The same query in another basis, frame, unit or order gets the same answer.
+///  2. A scene and a query may be written in another form: another basis of the lattice, other axes, another
+///     origin, other units, another order of lattices and atoms. Then the answer is the same in that form:
+///     the cell in that basis, the time in that unit. Only if obstacles tie can it name another of them.
 ///     held by "Rewording: the oracle says the same in other words",
 ///             "The square and the cube look the same from all their sides"
-///  3. Decimal digits and details are correctly rounded, too.
+///  3. The decimal digits and the details of Request are correctly rounded, too.
 ///     held by "Details are correctly rounded"
 ///  4. The answer is never `undecided`.
 ///  5. Any number of threads may use one oracle.
@@ -41,8 +44,8 @@ struct Request {
 ///
 /// Cost: 4 to 7 us (2D) and 15 to 30 us (3D) for each atom of the scene at ordinary radii. It grows with the
 /// logarithms of 1/r, of the distance and of the range of the numbers (docs/speed.md). There is one
-/// exception: it can take long to find the smallest of very many obstacles around x (10^10 of them, in a
-/// lattice both dense and skewed). Allocates.
+/// exception: if very many obstacles contain x (10^10 of them, in a lattice both dense and skewed), it can
+/// take long to find the first of them in the order (lattice, atom, cell). Allocates.
 ///
 /// Source: this project. oracle/README.md says why it can be trusted.
 class Oracle {
@@ -54,8 +57,9 @@ class Oracle {
   Oracle& operator=(Oracle&&) noexcept;
   ~Oracle();
 
-  /// The exact answer: `hit` (with the time correctly rounded to binary64), `inside`, `never`, or, if there
-  /// is a time limit, `later`. An invalid query (flaw_of) yields `error`.
+  /// The exact answer: `hit` (with the time correctly rounded to binary64), `inside` or `never`. With a time
+  /// limit it is `later` if nothing is entered before the limit. For an invalid query (flaw_of) it is
+  /// `error`.
   Answer first_hit(const Query& query, const Request& request = {}) const;
 
   /// True if x lies in no open obstacle. Throws InputError if x is not finite.

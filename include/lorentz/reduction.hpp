@@ -1,5 +1,5 @@
-// The reduction engine: first hits in O(log 1/r), by lattice reduction in binary64. It answers `undecided` if
-// it does not know the answer.
+// The reduction engine: first hits in O(log 1/r), by lattice reduction in binary64. Where its error bounds do
+// not decide, it answers `undecided`.
 #pragma once
 
 #include <limits>
@@ -11,92 +11,107 @@
 
 namespace lorentz {
 
-struct AtomDirections;  // internal to the engine: a velocity as seen from each atom
-struct Task;            // internal to the engine: the query as it is asked
+struct AtomDirections;  // internal: what the engine prepares of a velocity, for each atom
+struct Task;            // internal: a query with its limit, in the engine's units
 
 /// First hits in one scene, in binary64.
 ///
+/// Below, a random query has a random start near the origin, a random direction, and no time limit.
+///
 /// Promises, and the tests that hold the engine to them:
-///  1. An outcome other than `undecided` is right, and so is the obstacle: they are those of the exact
-///     oracle.
+///  1. An outcome other than `undecided` is right, and so is the obstacle of a `hit` or `inside`. Right means
+///     that the exact oracle says the same.
 ///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
 ///             "Grazing hits: every stage decides, and none wrongly",
 ///             "Among ellipsoids the reduction engine agrees with the oracle on drawn and constructed cases",
 ///             "Limits within ulps of the time: every decided answer is right, alone and in a batch"
-///  2. The time of a drawn flight has an error of at most 6 ulps among balls, and 8 among ellipses and
-///     ellipsoids (seen: 5 and 6). The error is larger if the flight ends within about 1e-16 r of its start.
-///     If requested by Time::rounded, the time is correctly rounded where `time_is_rounded` says so. "Drawn"
-///     means isotropic from a uniform start. For other flights no bound is promised: where the time matters,
-///     request Time::rounded.
+///  2. With Time::rounded, the time is correctly rounded if Flight::time_is_rounded is true. No other time
+///     has a promised error bound. In random queries, errors were at most 5 ulps among balls, and 6 ulps
+///     among ellipses and ellipsoids; the test allows 6 and 8. The error can be larger if the obstacle is hit
+///     within about 1e-16 r of the start.
 ///     held by "Times of drawn flights err by few ulps, those said to be rounded not at all"
 ///  3. The bits are the same on every processor that computes in IEEE 754 binary64, with a fused multiply-add
 ///     or without, if the engine is compiled without contraction and fast-math, as this project's build files
 ///     do.
 ///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
 ///             "lorentz doctor finds this machine fit, and says what it looked at"
-///  4. A prepared direction gives the same bits.
+///  4. A flight along a Direction (below) has the same bits as a flight with that velocity in the query.
 ///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
 ///             "A prepared direction keeps the limit, at any speed"
 ///  5. `fly` allocates nothing, throws nothing and ends: every loop has a bound.
 ///     held by "A flight allocates nothing, in any model"
 ///  6. Any number of threads may use one engine, and share a direction.
 ///     held by "Many threads may ask one engine, oracle, walk and judge"
-///  7. No query in a drawn direction is undecided (balls of radius at least 1e-12 of the spacing in 2D, 1e-7
-///     in 3D).
+///  7. Random queries are decided, except some whose exact answer is `never`. The test asks 3000 on the unit
+///     square lattice at each of 8 radii, the smallest 1e-12, and 3000 on the unit cubic lattice at each of 6
+///     radii, the smallest 1e-7.
 ///     held by "Nothing is undecided on drawn queries, down to the smallest radii"
 ///
 /// Units: lengths are in the scene's unit; times are such that x + t v is the particle's position. |v| may
 /// have any value.
 ///
-/// Ranges: `beyond` says which scenes are not supported (obstacles that overlap their own translates, or are
-/// too small or too slender; very flat cells). Starts beyond 2^51 cells from the origin on the unit lattices
-/// (is_unit_scene), or 2^44 on others, are `undecided`. So are obstacles beyond 2^53 cells from the place
-/// where they are met. `Certified` (certified.hpp) asks the oracle about undecided queries.
+/// Ranges: `beyond` says which scenes are not supported: obstacles that overlap their own translates, or are
+/// too small or too slender; very flat cells. Besides queries that the error bounds do not decide, these are
+/// `undecided`:
+///  - queries that start more than 2^51 cells from the origin on a unit lattice (is_unit_scene), or more than
+///    2^44 cells on another lattice;
+///  - queries for which the search needs integers of 2^53 or more. These integers are coefficients of bases,
+///    and cells counted from the start or from a lattice point near the obstacle. Very long flights in a
+///    direction near a rational one need them (seen: flights of 10^12 cells and more).
+/// `Certified` (certified.hpp) asks the oracle about undecided queries.
 ///
-/// Cost: about 85 ns per flight in 2D and 420 ns in 3D at r = 0.1, and about 13 ns and 115 ns more for each
-/// factor of ten in 1/r (docs/speed.md). The constructor reduces the lattices and examines every atom.
+/// Cost: about 85 ns per flight in 2D and 420 ns in 3D at r = 0.1, and about 13 ns (2D) or 115 ns (3D) more
+/// for each factor of ten in 1/r (docs/speed.md). The constructor reduces the lattices and examines every
+/// atom.
 ///
 /// Source: this project. docs/reduction.md explains the method, docs/bounds.md why its decisions can be
 /// trusted.
 class Reduction : public Engine {
  public:
-  /// Use the fused multiply-add if the processor has it, or do without. The answers are the same, to the bit.
+  /// this_one: use the fused multiply-add if this processor has it. without_fma: never use it. The answers
+  /// are the same, to the bit.
   enum class Processor { this_one, without_fma };
 
-  /// Throws InputError if the scene is invalid (flaw_of), UnsupportedError if it is beyond the engine. Only
-  /// exact arithmetic can decide whether the vectors are independent (oracle::dependence_in).
+  /// Throws InputError if the scene is invalid (flaw_of), UnsupportedError if the engine does not support it.
+  /// Does not decide whether the lattice vectors are independent, which takes exact arithmetic:
+  /// oracle::dependence_in does.
   explicit Reduction(const Scene& scene, Processor processor = Processor::this_one);
   ~Reduction() override;
   Reduction(Reduction&&) noexcept;
   Reduction& operator=(Reduction&&) noexcept;
 
-  /// Why the engine does not support a valid scene ("does ... only"), or nothing.
+  /// Nothing if the engine supports a valid scene. Otherwise the reason, such as "does radii below half the
+  /// shortest lattice vector only".
   static std::optional<std::string> beyond(const Scene& scene);
 
-  /// The model that serves the scene: "unit", "one atom", "several atoms", "rows and layers" or "mixed"; with
-  /// ellipsoids also ", ellipsoid" (the first two) or ", ellipsoids" (docs/reduction.md).
+  /// The name of the model (docs/reduction.md) that the engine uses for the scene: "unit", "one atom",
+  /// "several atoms", "rows and layers" or "mixed". With ellipsoids the first two end with ", ellipsoid", the
+  /// others with ", ellipsoids".
   const char* model() const;
 
-  /// The accuracy of a time: within a few ulps, or correctly rounded (where `time_is_rounded` says so), which
-  /// costs about 100 ns more.
+  /// The accuracy of a time. close: promise 2, with no proved bound. rounded: correctly rounded where
+  /// Flight::time_is_rounded says so; costs about 100 ns more.
   enum class Time { close, rounded };
 
   /// The first hit, as a Flight: an answer without strings. Requires a valid query (flaw_of); this is
   /// asserted, and not checked if NDEBUG is defined. The outcomes are `hit`, `never`, `inside` and
-  /// `undecided`. With a finite `max_time`, `later` replaces `never`: nothing is entered before the limit.
-  /// The exact time decides this, even if the reported time is rounded to the limit or beyond it. If the time
-  /// is too near the limit, the outcome is `undecided`.
+  /// `undecided`.
+  ///
+  /// With a finite limit `max_time`, the outcome `later` replaces `never`. It means that nothing is entered
+  /// before the limit. The exact time of the hit is compared with the limit, not the reported time, which may
+  /// be rounded to the limit or beyond it. If double-double cannot tell whether the exact time is before the
+  /// limit, the outcome is `undecided`.
   Flight fly(const Query& query, double max_time = std::numeric_limits<double>::infinity(),
              Time time = Time::close) const;
 
-  /// One prepared velocity: for many particles that share it, the lattices are reduced once.
+  /// A velocity for which the engine has reduced the lattices, once for many particles that share it.
   class Direction;
 
-  /// Reduces the lattices along v, which must be finite and not zero (this is asserted). The direction is for
-  /// this engine only; keep the engine as long as the direction. A flight then costs about 57 ns (2D) or 200
-  /// ns (3D), whatever the radius. Allocates.
+  /// Reduces the lattices along v, which must be finite and not zero (this is asserted). The direction works
+  /// with this engine only, and the engine must live as long as the direction. A flight along it costs about
+  /// 57 ns (2D) or 200 ns (3D), whatever the radius. Allocates.
   Direction direction(const Vec& v) const;
-  /// The same as the other `fly`, to the bit, for a prepared velocity. `from` is as in Query, or null.
+  /// The same as the other `fly`, to the bit, along a direction. `from` is as in Query, or null.
   Flight fly(const Direction& direction, const Vec& x, const ObstacleId* from = nullptr,
              double max_time = std::numeric_limits<double>::infinity(), Time time = Time::close) const;
 
@@ -111,8 +126,8 @@ class Reduction : public Engine {
   Pimpl<const Model> model_;
 };
 
-/// A velocity with everything that one engine prepares for it; empty until the engine's `direction` makes it.
-/// It is cheap to copy: the copies share the prepared data.
+/// A velocity with the lattices that one engine has reduced for it. The engine's `direction` makes it; a
+/// default-constructed one is empty. It is cheap to copy: the copies share the data.
 class Reduction::Direction {
  private:
   friend class Reduction;
@@ -121,8 +136,8 @@ class Reduction::Direction {
   std::shared_ptr<const AtomDirections> atoms_;
 };
 
-/// Turn a flight into the answer that all engines give. set_answer writes into an existing answer, which must
-/// be as newly made (Answer::clear); this saves its allocations.
+/// Turn a flight into an Answer, the form that all engines share. set_answer writes into an existing answer,
+/// which must be new or cleared (Answer::clear); so the memory of the answer can be used again.
 Answer answer_of(const Flight& flight);
 void set_answer(const Flight& flight, Answer& answer);
 
