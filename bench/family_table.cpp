@@ -1,4 +1,5 @@
-// The properties of the families of cases: outcomes, cost of making a case, longest flight, duplicates.
+// The properties of the families of cases: outcomes, cost of making a case, longest flight, duplicates; and how many
+// of them `reduction` leaves undecided or does not support.
 //
 // family_table [COUNT [FAMILY]]
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <tuple>
 
 #include <lorentz/oracle.hpp>
+#include <lorentz/reduction.hpp>
 #include "cases/families/target.hpp"
 
 using namespace lorentz;
@@ -17,7 +19,7 @@ using namespace lorentz;
 namespace {
 
 struct Counts {
-  std::size_t hit = 0, never = 0, inside = 0, error = 0, duplicates = 0;
+  std::size_t hit = 0, never = 0, inside = 0, error = 0, duplicates = 0, undecided = 0, unsupported = 0;
   double longest = 0;
 };
 
@@ -30,6 +32,13 @@ void count(const cases::Case& one, const Answer& answer, Counts& counts) {
   const Vec& v = one.query.v;
   if (answer.outcome == Outcome::hit && std::isfinite(*answer.time))
     counts.longest = std::max(counts.longest, *answer.time * std::hypot(v[0], v[1], v[2]));
+}
+
+void ask_reduction(const cases::Case& one, Counts& counts) {
+  if (Reduction::beyond(one.scene))
+    ++counts.unsupported;
+  else
+    counts.undecided += Reduction(one.scene).fly(one.query).outcome == Outcome::undecided;
 }
 
 void row(const cases::Family& family, std::uint64_t number) {
@@ -45,16 +54,18 @@ void row(const cases::Family& family, std::uint64_t number) {
     making += std::chrono::duration<double, std::micro>(made - start).count();
     asking += std::chrono::duration<double, std::micro>(asked - made).count();
     count(one, answer, counts);
+    ask_reduction(one, counts);
     const Atom& atom = one.scene.lattices[0].atoms[0];
     counts.duplicates += !seen.insert({atom.is_ball() ? atom.radius : atom.semiaxes[0][0], one.query.x,
                                        one.query.v, one.query.from.has_value()})
                               .second;
   }
   const double n = static_cast<double>(number);
-  fmt::print("{:<18} {:5.1f} {:6.1f} {:7.1f} {:6} {:10} {:12.1f} {:10.1f} {:14.2g}\n", family.name(),
-             100 * static_cast<double>(counts.hit) / n, 100 * static_cast<double>(counts.never) / n,
-             100 * static_cast<double>(counts.inside) / n, counts.error, counts.duplicates, making / n,
-             asking / n, counts.longest);
+  fmt::print("{:<18} {:5.1f} {:6.1f} {:7.1f} {:6} {:10} {:9} {:11} {:12.1f} {:10.1f} {:14.2g}\n",
+             family.name(), 100 * static_cast<double>(counts.hit) / n,
+             100 * static_cast<double>(counts.never) / n, 100 * static_cast<double>(counts.inside) / n,
+             counts.error, counts.duplicates, counts.undecided, counts.unsupported, making / n, asking / n,
+             counts.longest);
 }
 
 }  // namespace
@@ -62,7 +73,9 @@ void row(const cases::Family& family, std::uint64_t number) {
 int main(int count, char** arguments) {
   const std::uint64_t number = count > 1 ? std::strtoull(arguments[1], nullptr, 10) : 4000;
   fmt::print(
-      "family             hit % never % inside % errors duplicates us to make us to answer longest flight\n");
+      "family             hit % never % inside % errors duplicates undecided unsupported us to make us to "
+      "answer "
+      "longest flight\n");
   for (const cases::Target& target : cases::targets())
     for (const cases::Family& family : target.families())
       if (count < 3 || family.name() == arguments[2]) row(family, number);

@@ -72,11 +72,11 @@ inline constexpr double kWindowStart = 0x1p-48;
 inline constexpr double kNextWindow = 2;
 
 /// v x d, v . d and d . d in double-double, relative to |v| |d|, |v| |d|, |d|^2 (absolutely).
-inline constexpr double kStable = 0x1p-100;
+inline constexpr double kStable = 0x1p-102;
 
 /// In double-double, of such numbers: a form in a shape's metric, and a quotient; |d|^2 - r^2, relative to
 /// r^2 (absolutely). In units of u: the root of a slack's high part alone.
-inline constexpr double kStableForm = 2 * kStable, kStableTime = 2 * kStable, kStableGap = 8 * kStable;
+inline constexpr double kStableForm = 3 * kStable, kStableTime = 2 * kStable, kStableGap = 8 * kStable;
 inline constexpr double kRoot = 2;
 
 /// Many flights at once, a time that is soon rounded: what s, v^2 and the quotient err by, and what
@@ -112,7 +112,7 @@ inline constexpr double kBasisInHeight = 0x1p108, kBasisInSize = 0x1p104;
 
 /// The shape of an ellipsoid in double-double, in units of u^2: the adjugate of its semiaxes (relative to the
 /// square of the longest), their determinant (to its cube), N, its square G, and the cofactors C.
-inline constexpr double kAdjugate = 16, kDeterminant = 64, kToBall = 32, kMetric = 64, kCofactor = 64;
+inline constexpr double kAdjugate = 9, kDeterminant = 24, kToBall = 21, kMetric = 16, kCofactor = 24;
 
 /// 2D, an ellipse of condition c: rho errs by kRho + kRhoOfShape c, and s by kAlongOfShape c, relative to |N|
 /// |w| |d|.
