@@ -28,9 +28,11 @@ struct Request {
 ///     held by "Oracle equals walk on generic scenes",
 ///             "Oracle equals walk on a coarse grid: ties, tangents, rational slopes",
 ///             "Oracle equals walk on ellipsoids, alone and mixed with balls"
-///  2. A scene and a query may be written in another form: another basis of the lattice, other axes, another
-///     origin, other units, another order of lattices and atoms. Then the answer is the same in that form:
-///     the cell in that basis, the time in that unit. Only if obstacles tie can it name another of them.
+///  2. A scene and a query may be written in another form: another basis of the lattice, axes exchanged or
+///     reflected, another origin, other units, another order of lattices and atoms. If binary64 holds the
+///     numbers of that form exactly, the answer is the same: the cell in the new basis, the time in the new
+///     unit. But the order (lattice, atom, cell) can be another. So if obstacles are entered at the same
+///     time, or several contain x, the answer can name another of them.
 ///     held by "Rewording: the oracle says the same in other words",
 ///             "The square and the cube look the same from all their sides"
 ///  3. The decimal digits and the details of Request are correctly rounded, too.
@@ -43,15 +45,16 @@ struct Request {
 /// position.
 ///
 /// Cost: 4 to 7 us (2D) and 15 to 30 us (3D) for each atom of the scene at ordinary radii. It grows with the
-/// logarithms of 1/r, of the distance and of the range of the numbers (docs/speed.md). There is one
-/// exception: if very many obstacles contain x (10^10 of them, in a lattice both dense and skewed), it can
-/// take long to find the first of them in the order (lattice, atom, cell). Allocates.
+/// logarithms of 1/r, of the length of the flight, and of the ratio of the largest to the smallest number of
+/// the scene and the query (docs/speed.md). There is one exception: if very many obstacles contain x (10^10
+/// of them, in a lattice both dense and skewed), it can take long to find the first of them in the order
+/// (lattice, atom, cell). Allocates.
 ///
 /// Source: this project. oracle/README.md says why it can be trusted.
 class Oracle {
  public:
-  /// Throws InputError if the scene is invalid (flaw_of) or has dependent vectors (dependence_in). Reduces
-  /// the lattices, once.
+  /// Throws InputError if the scene is invalid (flaw_of) or has dependent vectors (dependence_in). Finds
+  /// short bases of the lattices, once.
   explicit Oracle(const Scene& scene);
   Oracle(Oracle&&) noexcept;
   Oracle& operator=(Oracle&&) noexcept;
@@ -62,7 +65,8 @@ class Oracle {
   /// `error`.
   Answer first_hit(const Query& query, const Request& request = {}) const;
 
-  /// True if x lies in no open obstacle. Throws InputError if x is not finite.
+  /// True if x lies inside no obstacle; a point on the surface is not inside. Throws InputError if x is not
+  /// finite.
   bool is_free(const Vec& x) const;
 
  private:

@@ -11,7 +11,7 @@
 
 namespace lorentz {
 
-struct AtomDirections;  // internal: what the engine prepares of a velocity, for each atom
+struct AtomDirections;  // internal: numbers computed in advance from a velocity, atom by atom
 struct Task;            // internal: a query with its limit, in the engine's units
 
 /// First hits in one scene, in binary64.
@@ -25,14 +25,12 @@ struct Task;            // internal: a query with its limit, in the engine's uni
 ///             "Grazing hits: every stage decides, and none wrongly",
 ///             "Among ellipsoids the reduction engine agrees with the oracle on drawn and constructed cases",
 ///             "Limits within ulps of the time: every decided answer is right, alone and in a batch"
-///  2. With Time::rounded, the time is correctly rounded if Flight::time_is_rounded is true. No other time
-///     has a promised error bound. In random queries, errors were at most 5 ulps among balls, and 6 ulps
-///     among ellipses and ellipsoids; the test allows 6 and 8. The error can be larger if the obstacle is hit
-///     within about 1e-16 r of the start.
+///  2. With Time::rounded, the time is correctly rounded if Flight::time_is_rounded is true. For all other
+///     times no error bound is promised (see "Errors of times" below).
 ///     held by "Times of drawn flights err by few ulps, those said to be rounded not at all"
 ///  3. The bits are the same on every processor that computes in IEEE 754 binary64, with a fused multiply-add
-///     or without, if the engine is compiled without contraction and fast-math, as this project's build files
-///     do.
+///     or without. This requires that the compiler does not fuse a product and a sum by itself, and does not
+///     use fast-math. This project's build files see to both.
 ///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
 ///             "lorentz doctor finds this machine fit, and says what it looked at"
 ///  4. A flight along a Direction (below) has the same bits as a flight with that velocity in the query.
@@ -50,26 +48,32 @@ struct Task;            // internal: a query with its limit, in the engine's uni
 /// Units: lengths are in the scene's unit; times are such that x + t v is the particle's position. |v| may
 /// have any value.
 ///
-/// Ranges: `beyond` says which scenes are not supported: obstacles that overlap their own translates, or are
-/// too small or too slender; very flat cells. Besides queries that the error bounds do not decide, these are
-/// `undecided`:
+/// Errors of times: a time that is not known to be correctly rounded errs by few ulps in random queries. At
+/// most 5 ulps were seen among balls, and 6 among ellipses and ellipsoids; the test of promise 2 allows 6 and
+/// 8. The error can be larger if the obstacle is hit within about 1e-16 r of the start.
+///
+/// Ranges: not supported are scenes with obstacles that overlap their own copies in other cells, or are too
+/// small or too slender; and scenes with very flat cells. `beyond` tells whether a scene is supported.
+///
+/// These queries are `undecided`:
+///  - queries that the error bounds do not decide;
 ///  - queries that start more than 2^51 cells from the origin on a unit lattice (is_unit_scene), or more than
 ///    2^44 cells on another lattice;
-///  - queries for which the search needs integers of 2^53 or more. These integers are coefficients of bases,
-///    and cells counted from the start or from a lattice point near the obstacle. Very long flights in a
-///    direction near a rational one need them (seen: flights of 10^12 cells and more).
+///  - queries for which the search needs integers of 2^53 or more: as coefficients of a lattice basis, or as
+///    coordinates of a cell. Very long flights in a direction near a rational one need them (seen: flights of
+///    10^12 cells and more).
 /// `Certified` (certified.hpp) asks the oracle about undecided queries.
 ///
 /// Cost: about 85 ns per flight in 2D and 420 ns in 3D at r = 0.1, and about 13 ns (2D) or 115 ns (3D) more
-/// for each factor of ten in 1/r (docs/speed.md). The constructor reduces the lattices and examines every
-/// atom.
+/// for each factor of ten in 1/r (docs/speed.md). The constructor finds short bases of the lattices (lattice
+/// reduction), and examines every atom.
 ///
 /// Source: this project. docs/reduction.md explains the method, docs/bounds.md why its decisions can be
 /// trusted.
 class Reduction : public Engine {
  public:
-  /// this_one: use the fused multiply-add if this processor has it. without_fma: never use it. The answers
-  /// are the same, to the bit.
+  /// this_one: use the fused multiply-add (FMA) if this processor has it. without_fma: never use it. The
+  /// answers are the same, to the bit.
   enum class Processor { this_one, without_fma };
 
   /// Throws InputError if the scene is invalid (flaw_of), UnsupportedError if the engine does not support it.
@@ -80,8 +84,7 @@ class Reduction : public Engine {
   Reduction(Reduction&&) noexcept;
   Reduction& operator=(Reduction&&) noexcept;
 
-  /// Nothing if the engine supports a valid scene. Otherwise the reason, such as "does radii below half the
-  /// shortest lattice vector only".
+  /// Empty if the engine supports the scene. Otherwise says in words why it does not. Requires a valid scene.
   static std::optional<std::string> beyond(const Scene& scene);
 
   /// The name of the model (docs/reduction.md) that the engine uses for the scene: "unit", "one atom",
@@ -89,27 +92,27 @@ class Reduction : public Engine {
   /// others with ", ellipsoids".
   const char* model() const;
 
-  /// The accuracy of a time. close: promise 2, with no proved bound. rounded: correctly rounded where
-  /// Flight::time_is_rounded says so; costs about 100 ns more.
+  /// The accuracy of a time. close: without a promised bound (see "Errors of times"). rounded: correctly
+  /// rounded where Flight::time_is_rounded says so; costs about 100 ns more.
   enum class Time { close, rounded };
 
   /// The first hit, as a Flight: an answer without strings. Requires a valid query (flaw_of); this is
   /// asserted, and not checked if NDEBUG is defined. The outcomes are `hit`, `never`, `inside` and
   /// `undecided`.
   ///
-  /// With a finite limit `max_time`, the outcome `later` replaces `never`. It means that nothing is entered
-  /// before the limit. The exact time of the hit is compared with the limit, not the reported time, which may
-  /// be rounded to the limit or beyond it. If double-double cannot tell whether the exact time is before the
-  /// limit, the outcome is `undecided`.
+  /// With a finite limit `max_time`, the outcome is `later` if nothing is entered before the limit, whether
+  /// or not something is entered afterwards; `never` does not occur. The exact time of the hit is compared
+  /// with the limit, not the reported time: rounding may move that one to the limit or beyond. If
+  /// double-double cannot tell whether the exact time is before the limit, the outcome is `undecided`.
   Flight fly(const Query& query, double max_time = std::numeric_limits<double>::infinity(),
              Time time = Time::close) const;
 
-  /// A velocity for which the engine has reduced the lattices, once for many particles that share it.
+  /// A velocity that many particles share. What depends on the velocity alone is computed once.
   class Direction;
 
-  /// Reduces the lattices along v, which must be finite and not zero (this is asserted). The direction works
-  /// with this engine only, and the engine must live as long as the direction. A flight along it costs about
-  /// 57 ns (2D) or 200 ns (3D), whatever the radius. Allocates.
+  /// Finds lattice bases that suit flights along v. v must be finite and not zero (this is asserted). The
+  /// direction works with this engine only, and the engine must live as long as the direction. A flight along
+  /// it costs about 57 ns (2D) or 200 ns (3D), whatever the radius. Allocates.
   Direction direction(const Vec& v) const;
   /// The same as the other `fly`, to the bit, along a direction. `from` is as in Query, or null.
   Flight fly(const Direction& direction, const Vec& x, const ObstacleId* from = nullptr,
@@ -126,7 +129,7 @@ class Reduction : public Engine {
   Pimpl<const Model> model_;
 };
 
-/// A velocity with the lattices that one engine has reduced for it. The engine's `direction` makes it; a
+/// A velocity with the bases that one engine has found for it. The engine's `direction` makes it; a
 /// default-constructed one is empty. It is cheap to copy: the copies share the data.
 class Reduction::Direction {
  private:
