@@ -134,9 +134,11 @@ struct Surroundings::Impl {
   }
 };
 
-Surroundings::Surroundings(const Scene& scene)
-    : impl_(scene.dimension == 2 ? std::make_unique<const Impl>(Impl{scene, ExactScene<2>(scene)})
-                                 : std::make_unique<const Impl>(Impl{scene, ExactScene<3>(scene)})) {}
+Surroundings::Surroundings(const Scene& scene) {
+  using Exact = std::variant<ExactScene<2>, ExactScene<3>>;
+  impl_ = std::make_unique<const Impl>(
+      Impl{scene, scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))});
+}
 Surroundings::Surroundings(Surroundings&&) noexcept = default;
 Surroundings& Surroundings::operator=(Surroundings&&) noexcept = default;
 Surroundings::~Surroundings() = default;
