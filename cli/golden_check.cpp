@@ -441,7 +441,7 @@ Command golden_check_command() {
               {"--markdown", &options->markdown, "", "a page of documentation: which engine fails which set"},
           },
 
-          "Exit status 1: an answer is wrong or an error; 3: a cmd: or lib: engine broke.\n"
+          "Exit status 1: an answer is wrong, an error or missing; 3: a cmd: or lib: engine broke.\n"
           "Examples:\n  lorentz golden check --engine 'cmd:python3 examples/naive_engine.py' --first 64 "
           "generic-3d\n  lorentz golden check -e published --write-baseline known.txt published-faults\n"
           "From then on the same line with --baseline known.txt fails only for what is new.",

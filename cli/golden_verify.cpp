@@ -90,9 +90,9 @@ Command golden_verify_command() {
           {"--walk", walk.get(), "", "ask walk, too, where it can go"},
       },
 
-      "The certificates are checked by code that shares nothing with what wrote them; data/check.py, which "
-      "shares nothing with "
-      "this program at all, does the same.\nExit status 1: a record is refuted.\n"
+      "The code that checks the certificates shares integers with the code that wrote them, but no search; "
+      "data/check.py, which shares nothing with this program, does the same.\n"
+      "Exit status 1: a record is refuted.\n"
       "Example:\n  lorentz golden verify ties grazing",
       [names, walk] { return act(*names, *walk); }};
 }

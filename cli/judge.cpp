@@ -223,7 +223,7 @@ Command judge_command() {
           {"--quick", &options->quick, "", "20 seconds instead of two minutes, and fewer drawn flights",
            kPlain, "--questions"},
           {"--time", Positive{&options->seconds}, "SECONDS",
-           "how long in all, about, and each part in proportion (default: 124; with --quick 19.5)"},
+           "about how long the run takes; each part takes its share (default: 124; with --quick 19.5)"},
           {"--questions", Whole{&options->questions, 1, 1'000'000'000}, "N",
            "asks N questions of each row, whatever the time: every machine asks the same", kToldDefault,
            "--time"},
@@ -235,8 +235,8 @@ Command judge_command() {
           options->claim.precision_row(),
           options->claim.time_tolerance_row(),
           {"--timeout", Positive{&options->timeout}, "SECONDS",
-           "how long a cmd: or lib: engine may be silent while it owes answers (default: a tenth of the time "
-           "in all, from 2 to 60; for its first answer 60)"},
+           "how long a cmd: or lib: engine may be silent while it owes answers (default: a tenth of the "
+           "whole time, but at least 2 and at most 60; with --questions 60; for its first answer 60)"},
           {"--html", &options->html, "FILE", "write the report there as a page, whole or not at all",
            kOutput},
           {"--golden", &options->golden, "FILE",
@@ -244,9 +244,9 @@ Command judge_command() {
            "gets it with its schema, an index and checksums",
            kOutput},
           {"--json", &options->json, "", "one JSON object instead of tables"},
-          options->files.baseline_row("exit status 1 only for what is worse than in what --json printed "
-                                      "earlier, or, with --questions, "
-                                      "fails and is not in a file of --write-baseline"),
+          options->files.baseline_row(
+              "exit status 1 only for what is worse than in FILE: a report that --json printed, or, with "
+              "--questions, failures that --write-baseline wrote"),
           options->files.write_baseline_row(),
           options->files.junit_row(),
           {"--times", &options->times, "", "wrong times count: in the verdict, and exit status 1"},
@@ -256,8 +256,7 @@ Command judge_command() {
       },
 
       "docs/judge.md says what is asked, and what the verdict means. Exit status 1: an answer is wrong, or "
-      "an "
-      "error;\n3: a cmd: or lib: engine broke, or was given up somewhere.\n"
+      "a valid question was called an error;\n3: a cmd: or lib: engine broke, or was given up in a scene.\n"
       "Example:\n  lorentz judge --quick --engine 'cmd:python3 examples/naive_engine.py'",
       [options] { return act(*options); }};
 }

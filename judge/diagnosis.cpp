@@ -194,9 +194,11 @@ std::string sentence_of(Cause cause, std::optional<double> by_radii) {
     case Cause::inside_not_so:
       return up_to("says inside of an obstacle that the start lies outside of", "outside");
     case Cause::inside_another:
-      return "names, of several obstacles that contain the start, another than the first by name";
+      return "names one of several obstacles that contain the start, but not the first in the order "
+             "(lattice, atom, cell)";
     case Cause::tie:
-      return "names, of obstacles that are entered at the same time, another than the first by name";
+      return "names one of several obstacles that are entered at the same time, but not the first in the "
+             "order (lattice, atom, cell)";
     case Cause::no_obstacle:
       return "names an obstacle that the scene does not have";
     case Cause::not_the_time:

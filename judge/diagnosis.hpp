@@ -27,14 +27,14 @@ enum class Cause {
   leaving,            ///< the named obstacle is the one that the particle leaves
   inside_unseen,      ///< the answer does not say that the start lies in an obstacle
   inside_not_so,      ///< the start does not lie in the obstacle named
-  inside_another,     ///< it does, but also in one that comes first by name
-  tie,                ///< two are entered at the same time, and the later one by name is named
+  inside_another,     ///< it does, but also in one that comes before it in the order (lattice, atom, cell)
+  tie,                ///< two are entered at the same time, and the later one in this order is named
   no_obstacle,        ///< the scene has no such lattice or atom
   not_the_time,       ///< the right obstacle, with something else than the time of its entry
   wrong_time,         ///< the right obstacle, with a time that is off by more than rounding explains
   refused,            ///< a valid question was answered with an error
-  no_answer,          ///< another program died, fell silent, or left the question out
-  bad_line,           ///< another program wrote an invalid line in place of the answer
+  no_answer,          ///< an external engine died, fell silent, or left the question out
+  bad_line,           ///< an external engine wrote an invalid line in place of the answer
   answers_nonsense    ///< an invalid question was answered
 };
 inline constexpr int kCauses = 19;

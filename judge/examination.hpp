@@ -31,13 +31,13 @@ using OnJudged = std::function<void(const std::string& row, const Question&, con
 struct ExaminedRow {
   std::string name, explanation;
   bool is_hard = true;         ///< chosen to be difficult, in contrast to drawn flights
-  question::Tally tally = {};  ///< with the mean ns_per_query; wall-clock time for another program
+  question::Tally tally = {};  ///< with the mean ns_per_query; wall-clock time for an external program
   /// Invalid questions that were answered as if they were valid; these are not in the tally.
   std::size_t nonsense = 0;
   std::optional<double> max_radii = {};       ///< the largest radii_off of a right obstacle
   std::optional<std::uint64_t> records = {};  ///< the size of a golden set
   bool is_exhausted = false;                  ///< its source had no more questions that the engine supports
-  std::size_t scenes_given_up = 0;  ///< scenes in which another program failed until it was given up
+  std::size_t scenes_given_up = 0;  ///< scenes in which an external engine failed until it was given up
   std::string last_failure = {};    ///< in the last of these
 
   std::size_t asked() const { return tally.queries + nonsense; }
@@ -63,17 +63,17 @@ class Examination {
   /// `tell` is called for each answer that a row's tally counts.
   void on_judged(OnJudged tell) { on_judged_ = std::move(tell); }
 
-  /// Seconds that another program took until its first answer, and how much longer that was than for the next
-  /// answer; 0 for an engine of this program.
+  /// Seconds that an external engine took until its first answer, and how much longer that was than for the
+  /// next answer; 0 for an engine of this program.
   struct Start {
     double first_answer = 0, start_up = 0;
   };
-  /// Lets another program start: asks it a plain question, at most three times, until an answer comes fast.
-  /// These answers are not counted unless one is missing.
+  /// Lets an external engine start: asks it a plain question, at most three times, until an answer comes
+  /// fast. These answers are not counted unless one is missing.
   Start warm_up();
 
   /// Asks questions for at most `seconds` (later answers only to questions asked before), or until there are
-  /// no more. A scene in which another program is given up is left.
+  /// no more. A scene in which an external engine is given up is left.
   void run(ExaminedRow row, const Source& source, double seconds, const Look& look = {});
 
   /// Adds the results of the last row of another examination of the same engine to the last row here.
@@ -98,7 +98,7 @@ class Examination {
   /// The curves of the first questions of each row, limited in number so that rows weigh alike.
   const Curves& curves() const { return curves_; }
 
-  /// True if another program failed or misbehaved at least once.
+  /// True if an external engine failed or misbehaved at least once.
   bool failed() const { return failed_ || answerer_->failed(); }
   bool is_over() const { return is_enough(); }
   void finish() { answerer_->finish(); }

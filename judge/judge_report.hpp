@@ -29,13 +29,13 @@ struct JudgeReport {
   std::optional<question::Introduction> introduction = {};
   std::optional<double> own_ns = {};  ///< per query, in the engine's own calls, if it reports that
   std::vector<FlownScene> flown;
-  double timeout = 0;       ///< seconds of silence after which another program has failed
-  double start_up = 0;      ///< seconds that another program took to start
+  double timeout = 0;       ///< seconds of silence after which an external engine has failed
+  double start_up = 0;      ///< seconds that an external engine took to start
   double first_answer = 0;  ///< seconds until its first answer
   std::optional<double> ns_per_query, ns_of_reduction;            ///< on the same drawn flights
   std::optional<double> processor_ns, processor_ns_of_reduction;  ///< the same in processor time
   std::string speed_of;                                           ///< which flights these were
-  bool misbehaved = false;             ///< another program failed or misbehaved at least once
+  bool misbehaved = false;             ///< an external engine failed or misbehaved at least once
   bool was_stopped = false;            ///< before all questions were asked
   bool times = false;                  ///< wrong times count
   Claim claim = {};                    ///< by which it was judged
@@ -45,7 +45,7 @@ struct JudgeReport {
   question::Tally total() const;
   /// Answers to invalid questions, which are not in the total.
   std::size_t nonsense() const;
-  /// Rows in which another program was given up.
+  /// Rows in which an external engine was given up.
   std::size_t rows_given_up() const;
   /// The largest radii_off of all right obstacles.
   std::optional<double> max_radii() const;

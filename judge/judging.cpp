@@ -198,7 +198,7 @@ void find_simplest(std::vector<Finding>& findings, Examination& examination, dou
   }
 }
 
-// Checks whether another program goes wrong on a simplest case by itself. Besides its share of the time, a
+// Checks whether an external engine goes wrong on a simplest case by itself. Besides its share of the time, a
 // new start gets kForOne times the first start's time until its answer; all starts together get kMost times
 // that.
 void recheck_all(std::vector<Finding>& findings, const Terms& terms, double seconds, double first_answer) {

@@ -26,7 +26,7 @@ struct JudgeOrder {
   unsigned jobs = 1;  ///< threads of the campaign; one if questions are counted
   double ulps = oracle::kDefaultUlps;
   Claim claim = {};
-  std::optional<double> timeout;  ///< for another program; nothing: a tenth of the time
+  std::optional<double> timeout;  ///< for an external engine; nothing: a tenth of the time
   bool times = false;             ///< wrong times count
   bool strict = false;            ///< answers to invalid questions count
   question::Listener listener = {};

@@ -70,8 +70,8 @@ Section Claims.
   Definition time_of (y : seen) (n : zv) : time := let W := at_cell y n in Time (sS y W) (sD y W) (sQ y).
   Definition gap_after (a : sight) : flaw := GapAfter (its_lattice a) (its_atom a).
 
-  (* "every other obstacle but `from` that the ray enters is entered later, or at the same t with a larger
-     name; and no obstacle but `from` contains x." *)
+  (* "no obstacle except `from` contains x", and "each obstacle that the ray enters, except X and `from`, is
+     entered later than X, or at the same t and comes after X in the order". *)
   Definition judge_hit (X : obstacle) (t : time) (a : sight) (n : zv) (u : time) : check :=
     let o := obstacle_at a n in
     if is_from from o then done
@@ -84,8 +84,8 @@ Section Claims.
     each_in (look sights pieces) (fun b => let (b, ws) := b in
       check_windows (its_view b) ws (Until t) (gap_after b) (judge_hit X t b)).
 
-  (* "X contains x, X is not `from`, and no smaller obstacle does, but `from`. It suffices to look at the
-     atoms up to X's." *)
+  (* "X contains x, and X is not `from`", and "no obstacle that comes before X in the order contains x, except
+     `from`". It suffices to look at X's atom and the atoms before it. *)
   Definition not_after_atom (a b : sight) : bool :=
     match compare_numbers [its_lattice b; its_atom b] [its_lattice a; its_atom a] with
     | Gt => false | _ => true end.
@@ -99,8 +99,8 @@ Section Claims.
       let until := if not_after_atom a b then Until (Time 0 0 1) else Nothing in
       check_windows (its_view b) ws until (gap_after b) (judge_inside X b)).
 
-  (* "In the windows no obstacle but `from` may contain x or be entered." No row may be met, not even that of
-     `from`. *)
+  (* "No obstacle of a window may contain x or be entered, except the query's `from`." No row may be met, not
+     even that of `from`. *)
   Definition judge_never (a : sight) (n : zv) (u : time) : check :=
     let o := obstacle_at a n in
     require (is_from from o || (ts u <=? 0) && (td u <=? ts u * ts u)) (Met o).

@@ -1,5 +1,6 @@
-(* docs/reduction.md, "Which is first": "Balls of one radius that do not overlap are entered in the order of their
-   centres, so s orders them. A ball in the strip is entered at t >= 0 iff s > 0, given that x is not inside it."
+(* docs/reduction.md, "Which is first": "Balls of one radius that do not overlap (2 r at most the shortest lattice
+   vector) are entered in the order of their centres, so s orders them. A ball in the strip is entered at t >= 0
+   iff s > 0, if x is not inside it".
    Here: discs around the integer points of the plane. *)
 From Coq Require Import ZArith Reals Lra Lia Psatz List.
 From Flocq Require Import Core.

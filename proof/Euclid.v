@@ -1,5 +1,6 @@
-(* docs/reduction.md, "2D": "Euclid's algorithm on the two (it is the continued fraction of the slope) stops when
-   D_L < 2 rho. On the unit square all heights are exact: a remainder of two binary64 is one." *)
+(* docs/reduction.md, "2D": "Euclid's algorithm on the two (the continued fraction of the slope) stops when D_L is
+   certainly less than 2 rho". "On the unit square all heights are exact, because a remainder of two binary64
+   numbers is a binary64 number." *)
 From Coq Require Import ZArith Reals Lra Lia Psatz Bool.
 From Flocq Require Import Core.
 From Lorentz Require Import Spec Doubles.

@@ -1,5 +1,5 @@
-(* docs/formats.md, "Numbers": "it means the binary64 nearest to it". Every binary64 is an integer of units of
-   2^-1074. *)
+(* docs/formats.md, "Numbers": "It denotes the nearest binary64 (ties to even)". Every binary64 is an integer
+   of units of 2^-1074. *)
 From Coq Require Import ZArith Reals Lra Lia Bool.
 From Flocq Require Import Core.
 From Lorentz Require Import Spec Time Rounding.

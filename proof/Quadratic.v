@@ -1,6 +1,6 @@
-(* docs/certificates.md, "What is claimed", of one obstacle: "met iff |h|^2 < r^2 v^2; the ray enters it iff s
-   > 0 and |w| >= r; contains x iff |w| < r", for the line is in it when (Q t - s)^2 < D = r^2 v^2 - |h|^2,
-   and s^2 + h^2 = Q w^2. *)
+(* docs/certificates.md, "What is claimed", for one obstacle. It is met iff |h|^2 < r^2 v^2. If it is met, the
+   ray enters it iff s > 0 and |w| >= r. It contains x iff |w| < r. All three hold because the line is in it when
+   (Q t - s)^2 < D = r^2 v^2 - |h|^2, and s^2 + h^2 = Q w^2. *)
 From Coq Require Import ZArith Reals Lra Lia Psatz.
 From Lorentz Require Import Spec Time.
 Local Open Scope R_scope.

@@ -1,5 +1,5 @@
-(* docs/reduction.md, "2D": "Then each row { n R + m L } enters the strip at one m, and only the rows near the
-   start come into question." Over the real numbers. *)
+(* docs/reduction.md, "2D": "Then each row { n R + m L } enters the strip at one m, found by a division, and
+   only the rows near the start matter". Over the real numbers. *)
 From Coq Require Import ZArith Reals Lra Lia Psatz.
 From Flocq Require Import Core.
 Local Open Scope R_scope.

@@ -68,7 +68,7 @@ Proof. unfold h2. vectors. ring. Qed.
 Lemma h2_nonneg v w : 0 <= h2 v w.
 Proof. rewrite lagrange. apply square. Qed.
 
-(* "v^2 N.w = s (N.v) + (a vector across v, shorter than r |v| times |v|) . N", of any vector a. *)
+(* "|v^2 N.w - s (N.v)| < r |v| |N x v|": here for any vector a instead of N, and with |h| instead of r |v|. *)
 Lemma across a v w :
   (dot v v * dot a w - dot v w * dot a v) * (dot v v * dot a w - dot v w * dot a v)
     <= dot (cross v a) (cross v a) * h2 v w.
@@ -95,7 +95,7 @@ Lemma dot_right b1 y w k2 b2 k1 :
 Proof. vectors. ring. Qed.
 Lemma e_across v N : dot (cross v N) v = 0.
 Proof. vectors. ring. Qed.
-(* a = b_1 x (v x e) = (e.b_1) v - s_1 e, "by Cramer's rule". *)
+(* Cramer's rule: a = b_1 x (v x e) = (e.b_1) v - s_1 e. *)
 Lemma cramer v b1 e w : dot e v = 0 ->
   dot v v * dot (cross b1 (cross v e)) w - dot v w * dot (cross b1 (cross v e)) v =
     - dot v v * dot v b1 * dot e w.

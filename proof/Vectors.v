@@ -41,8 +41,8 @@ Qed.
 Lemma dot_add a w k b : dot a (add w k b) = dot a w + k * dot a b.
 Proof. vectors. ring. Qed.
 
-(* docs/certificates.md, 2.: "the determinant of each basis is +1 or -1, so every obstacle is w = w_0 + k_1
-   b_1 + .." *)
+(* docs/certificates.md, "Windows", 2.: "The determinant of each basis is +1 or -1 (without vectors it is 1). So
+   every obstacle is w = w_0 + k_1 b_1 + k_2 b_2 + .." *)
 Lemma unimodular n a b c : Z.abs (det a b c) = 1 -> exists k, n = place origin k a b c.
 Proof.
   intros D.

@@ -1,6 +1,6 @@
-(* docs/certificates.md, "What is claimed": "For an ellipsoid { p + A y : |y| < 1 }: first apply A^-1 to
-   everything, so it is a ball; lines stay lines and t stays t." Here by adj A = det A A^-1, which is of
-   integers: a ball of radius det A. *)
+(* docs/certificates.md, "What is claimed": "For an ellipsoid { p + A y : |y| < 1 }, first apply A^-1 to
+   everything (c, x, v, the lattice). So it becomes a ball of radius 1; lines stay lines and t stays t." Here
+   adj A = det A A^-1 is applied, which consists of integers. So the radius is det A. *)
 From Coq Require Import ZArith Reals Lra Lia Psatz.
 From Lorentz Require Import Vectors Search Space.
 Local Open Scope R_scope.

@@ -1,5 +1,4 @@
-(* docs/certificates.md, "hit and inside: windows", 1. to 3., of one atom; and the window of "never: rows
-   along v". *)
+(* docs/certificates.md, "Windows", 1. to 3., for one atom; and the window of "never: rows along v". *)
 From Coq Require Import ZArith Reals Lra Lia Psatz List Bool.
 From Lorentz Require Import Spec Time Vectors Number Steps Search Space View Quadratic Reading.
 Import ListNotations.
@@ -134,9 +133,9 @@ Section Atom.
     specialize (K HH). destruct (Z.leb_spec (sD y W) 0); [lia|]. rewrite <- Ek in K. exact K.
   Qed.
 
-  (* ---- 1. "its windows, in the order in which they are listed, leave no gap": T = s / Q, so e / E < T iff e
-     Q < s E. Up to e all has been looked at; without an end, for ever. And `last`, of how far it is at the
-     end. *)
+  (* ---- 1. "The atom's windows, in the order in which they are listed, leave no gap": T = s / Q, so e / E < T
+     iff e Q < s E. Everything up to e has been looked at; without an end, everything. `last` checks how far this
+     is at the end. *)
   Definition nearer (e : option Z) (e' : option Z) : option Z :=
     match e, e' with Some a, Some b => Some (Z.min a b) | Some a, None | None, Some a => Some a
     | None, None => None end.
@@ -175,7 +174,7 @@ Section Atom.
       + apply K; auto. destruct (end_at p) as [e1|]; cbn [up_to farther] in *; [nia|tauto].
   Qed.
 
-  (* "the first begins at or below -r/|v|": just below it. *)
+  (* "Its `from` is at most -r/|v|": `beginning` is just below that. *)
   Definition beginning : Z := - (1 + Z.sqrt ((sr y * (E * E) - 1) / (Q * Q))).
   Lemma beginning_ok s : s * s < sr y -> beginning * Q < s * E.
   Proof.
@@ -194,7 +193,7 @@ Section Atom.
     assert (Z.succ m * Q * (Z.succ m * Q) <= - (s * E) * - (s * E)) by (apply Z.mul_le_mono_nonneg; lia). lia.
   Qed.
 
-  (* "the last ends at or above t_X + r/|v|": its end, r/|v| earlier, against `until`. *)
+  (* "One of the `to` is at least t_X + r/|v|": this end, less r/|v|, is compared with `until`. *)
   Definition reaches (e : Z) (until : time) : bool :=
     match order (Time (e * Q) (sr y * (E * E)) (Q * E)) until with Lt => false | _ => true end.
   Lemma reaches_ok e until s D : regular until -> reaches e until = true -> 0 <= D <= sr y ->
@@ -258,8 +257,8 @@ Section Atom.
         apply Z.div_le_lower_bound; auto. lia.
   Qed.
 
-  (* ---- never: "b_1 is parallel to v, so all obstacles of a row have the same h". One of each row has 0 <= s
-     <= |s_1|. *)
+  (* ---- never: b_1 is parallel to v. "So all obstacles of a row have the same h". One obstacle of each row has
+     0 <= s <= |s_1|. *)
   Definition check_piece_of_row (w : piece) (met : zv -> flaw) : check :=
     let b1 := place origin (r1 w) (s1 y) (s2 y) (s3 y) in let s1 := sS y b1 in let c := cross (sv y) b1 in
     require ((vx c =? 0) && (vy c =? 0) && (vz c =? 0) && negb (s1 =? 0)) NotAlong ;;

@@ -1,4 +1,4 @@
-// Answers many queries at a time: by an engine of this program, or by another program at the end of two
+// Answers many queries at a time: by an engine of this program, or by an external program at the end of two
 // pipes.
 #pragma once
 
@@ -27,24 +27,24 @@ struct AnswererOptions {
   static constexpr int kMostFailuresInRow = 5;
 
   oracle::Request request;
-  double timeout = kDefaultTimeout;  ///< seconds that another program may be silent while it owes answers
-  Listener listener = {};            ///< gets messages about another program
+  double timeout = kDefaultTimeout;  ///< seconds that an external engine may be silent while it owes answers
+  Listener listener = {};            ///< gets messages about an external engine
   bool strict = false;               ///< an unknown key makes an answer invalid
   int jobs = 1;                      ///< threads, for the batch engines and libraries
   /// Seconds for the very first answer, if that is more than `timeout`. After a later start of the program
   /// its first answer may take `timeout` plus twice the time of the slowest start so far, but no more than
   /// this.
   double start_timeout = 0;
-  /// Called often during a wait for another program. Once it returns true, the wait stops: open queries get
-  /// no answer, and the program is ended.
+  /// Called often during a wait for an external engine. Once it returns true, the wait stops: open queries
+  /// get no answer, and the program is ended.
   std::function<bool()> enough = {};
 };
 
 inline constexpr const char* kTimeoutHelp =
     "how long a cmd: or lib: engine may be silent while it owes answers (default: 60)";
 
-/// Where an answer comes from. If another program fails on a query, or is not asked it, this program answers
-/// `error` and says what happened instead.
+/// Where an answer comes from. If an external engine fails on a query, or is not asked it, this program
+/// answers `error` and says what happened instead.
 enum class Origin {
   engine,
   bad_line,  ///< a fault: it wrote an invalid line in place of the answer
@@ -94,39 +94,39 @@ class Answerer {
   /// The smallest number of queries that should be asked before a wait for replies.
   virtual std::uint64_t batch_size() const { return 1; }
 
-  /// Asks an invalid query, given as a line without its braces and id. Another program gets it unchanged; for
-  /// an engine of this program the answer is `error`.
+  /// Asks an invalid query, given as a line without its braces and id. An external program gets it unchanged;
+  /// for other engines the answer is `error`.
   virtual void ask_text(const Id&, const std::string&) { deliver({Answer::error("no query")}); }
 
   /// Waits for all replies. More queries may be asked afterwards.
   virtual void drain() {}
 
-  /// Waits for all replies, and ends another program. No queries may be asked afterwards.
+  /// Waits for all replies, and ends an external engine. No queries may be asked afterwards.
   virtual void finish() {}
 
   /// For a caller that would otherwise wait for input: waits until the descriptor can be read or some replies
   /// have come. Returns true if it should be called again before reading.
   virtual bool idle(int) { return false; }
 
-  /// True if another program failed: it died, fell silent, or wrote an invalid line. Messages on stderr say
-  /// which.
+  /// True if an external engine failed: it died, fell silent, or wrote an invalid line. Messages on stderr
+  /// say which.
   virtual bool failed() const { return false; }
 
   /// True if it failed so often that it is no longer asked about this scene.
   virtual bool given_up() const { return false; }
 
   /// The time of its own calls so far, without transport, if it reports that: a library does at any time,
-  /// another program at its end.
+  /// an external program at its end.
   virtual std::optional<OwnTime> own_time() const { return {}; }
 
   /// True if it was given up and never answered anything; it is then not asked about other scenes either.
   virtual bool is_hopeless() const { return false; }
 
-  /// The last line that another program has written to its standard error since the last call, or an empty
-  /// text.
+  /// The last line that an external engine has written to its standard error since the last call, or an
+  /// empty text.
   virtual std::string take_last_words() { return {}; }
 
-  /// Processor seconds of another program, summed over its starts; nothing for an engine of this program.
+  /// Processor seconds of an external engine, summed over its starts; nothing for an engine of this program.
   virtual std::optional<double> processor_seconds() const { return std::nullopt; }
 
   /// Lets it be asked again although it was given up, as if nothing had happened, unless it is hopeless.

@@ -1,4 +1,4 @@
-// `cmd:COMMAND`: another program as an engine, which reads a query stream and writes an answer stream.
+// `cmd:COMMAND`: an external program as an engine, which reads a query stream and writes an answer stream.
 // docs/command_engines.md says what it is asked and how its faults are treated.
 #pragma once
 

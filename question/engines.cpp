@@ -143,7 +143,7 @@ std::vector<std::string> own_names() {
 
 std::string names_for_help() {
   return fmt::format(
-      "{}, cmd:COMMAND (another program), lib:FILE.so (a shared library); docs/command_engines.md",
+      "{}, cmd:COMMAND (an external program), lib:FILE.so (a shared library); docs/command_engines.md",
       fmt::join(own_names(), ", "));
 }
 
@@ -199,8 +199,8 @@ EngineInfo engine_named(const std::string& name) {
   if (name.starts_with(kLibrary)) return library_named(name);
   const std::vector<std::string> names = own_names();
   throw InputError(
-      fmt::format("no engine is called {}{}; there are {}, cmd:COMMAND for another program, and lib:FILE.so "
-                  "for a library",
+      fmt::format("no engine is called {}{}; there are {}, cmd:COMMAND for an external program, and "
+                  "lib:FILE.so for a shared library",
                   json_quoted(name), did_you_mean(name, names), fmt::join(names, ", ")));
 }
 

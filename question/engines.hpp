@@ -33,7 +33,7 @@ struct Traits {
 struct EngineInfo {
   enum class Kind {
     own,      ///< an engine of this program
-    command,  ///< `cmd:COMMAND`: another program, which reads a query stream and writes an answer stream
+    command,  ///< `cmd:COMMAND`: an external program, which reads a query stream and writes an answer stream
     library,  ///< `lib:FILE.so`: a shared library with the interface of <lorentz/engine.h>
     guest     ///< a function of the caller
   };

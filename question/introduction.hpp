@@ -1,4 +1,5 @@
-// What another program reports about itself, and about the time of its own calls (docs/command_engines.md).
+// What an external engine reports about itself, and about the time of its own calls
+// (docs/command_engines.md).
 #pragma once
 
 #include <optional>

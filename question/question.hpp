@@ -51,7 +51,7 @@ class Place {
   void note(bool is_unsupported) { ++asked_, unsupported_ += is_unsupported; }
   void note_time(double seconds) { seconds_ += seconds; }
 
-  /// Records that the engine is another program, which failed here again and again.
+  /// Records that the engine is an external one, which failed here again and again.
   void give_up() { given_up_ = true; }
   bool is_given_up() const { return given_up_; }
 

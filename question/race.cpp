@@ -134,7 +134,7 @@ Round run_round_by_own_time(Questions questions, Answerer& program) {
   return round;
 }
 
-// Another program, or a function of the caller.
+// An external engine, or a function of the caller.
 Round run_round(Questions questions, Answerer& program, const std::string& name, const Listener& listener) {
   std::size_t answered = 0;
   program.on_reply([&](Reply&) { report(listener, name, ++answered, questions.size()); });
@@ -221,7 +221,7 @@ class Entrant {
   std::vector<const FirstHit*> first_hits_;
   std::deque<ColumnsThere> columns_;  // instead of these, for a batch engine
   std::unique_ptr<Answerer> own_;
-  Answerer* program_ = nullptr;  // likewise, for another program or a function of the caller
+  Answerer* program_ = nullptr;  // likewise, for an external engine or a function of the caller
   std::vector<Round> rounds_;
 };
 

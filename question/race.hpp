@@ -9,9 +9,9 @@ namespace lorentz::question {
 
 struct RaceOptions {
   int rounds = 5;
-  double timeout = AnswererOptions::kDefaultTimeout;  ///< for another program
+  double timeout = AnswererOptions::kDefaultTimeout;  ///< for an external engine
   Listener listener = {};
-  bool strict = false;                   ///< for another program: AnswererOptions::strict
+  bool strict = false;                   ///< for an external engine: AnswererOptions::strict
   double start_timeout = 0;              ///< AnswererOptions::start_timeout
   std::function<bool()> enough = {};     ///< AnswererOptions::enough
   std::vector<std::size_t> counts = {};  ///< how many questions each engine is asked; empty: all
@@ -20,9 +20,9 @@ struct RaceOptions {
   std::vector<Answerer*> running = {};
 };
 
-/// The engines' speeds, on one thread. A round of an engine ends after ten seconds. Another program is timed
-/// by the wall clock, pipes included, from the first query to the last answer; a library by its own calls. A
-/// program that failed is not run again.
+/// The engines' speeds, on one thread. A round of an engine ends after ten seconds. An external program is
+/// timed by the wall clock, pipes included, from the first query to the last answer; a library by its own
+/// calls. A program that failed is not run again.
 std::vector<Speed> race(std::span<const Question> questions, const std::vector<EngineInfo>& engines,
                         const RaceOptions& options = {});
 

@@ -20,9 +20,9 @@ struct Speed {
   double ns_low = 0, ns_high = 0;           ///< the quartiles of these means
   std::optional<double> processor_ns = {};  ///< ns_per_query in processor time, if known
   std::optional<double> instructions =
-      {};                             ///< per query, if InstructionCounter counts; not for another program
+      {};                             ///< per query, if InstructionCounter counts; not for an external engine
   std::optional<double> own_ns = {};  ///< per query, in the engine's own calls, as it reports (OwnTime)
-  bool failed = false;                ///< another program that broke on the way
+  bool failed = false;                ///< an external engine that broke on the way
 };
 
 /// What one engine did over some questions.
@@ -32,7 +32,7 @@ struct Tally {
               missing = 0;
   std::size_t wrong_time = 0;      ///< of those that agree: the time is beyond its tolerance
   std::size_t other_quantity = 0;  ///< of the wrong times: no rounding explains them
-  bool failed = false;             ///< another program that broke on the way
+  bool failed = false;             ///< an external engine that broke on the way
   std::size_t timed_hits = 0;      ///< hits of the right obstacle with a time that could be measured
   std::vector<double> ulps;        ///< errors of these times
   std::vector<double> wrong_ulps, wrong_conditions;  ///< errors of wrong times: in ulps, in units of the

@@ -50,7 +50,7 @@ def introduction_of(entry):
 
 def judged(entry):
     run = subprocess.run([*judge_line(entry), "--json"], cwd=ROOT, capture_output=True, text=True)
-    if run.returncode not in (0, 1, 3) or not run.stdout.startswith("{"):  # 3: it died, or was given up somewhere
+    if run.returncode not in (0, 1, 3) or not run.stdout.startswith("{"):  # 3: it died, or was given up in a scene
         sys.exit(f"{entry['name']}: `lorentz judge` ended with {run.returncode}: {run.stderr[-500:]}")
     return json.loads(run.stdout)
 

@@ -1,5 +1,5 @@
-// If several obstacles contain x, or are entered together, the answer is the first by name. In other words
-// for the scene that may be another one.
+// If several obstacles contain x, or are entered together, the answer is the first of them in the order
+// (lattice, atom, cell). In other words for the scene that may be another one.
 #pragma once
 
 #include <lorentz/answer.hpp>

@@ -11,9 +11,9 @@
 
 namespace lorentz::harness {
 
-/// Nothing in the scene is slow by design (README.md, Limits: for the smallest of very many obstacles around
-/// x the oracle may take long). Cells have volumes of 2^-6 and more and vectors of length 2^5 and less, and a
-/// box around an obstacle has at most 8 times its cell's volume.
+/// True if the oracle is fast in the scene. (If very many obstacles contain x, it can take long to find the
+/// first of them: docs/limits.md.) Cells have volumes of 2^-6 and more and vectors of length 2^5 and less,
+/// and a box around an obstacle has at most 8 times its cell's volume.
 bool is_ordinary(const Scene& scene);
 
 /// Scenes are ordinary, with 1 to 3 lattices of 1 to 4 atoms. Starts are within 2^60. Velocities have any

@@ -49,9 +49,9 @@ class Rewording {
   ObstacleId back(ObstacleId id, const Reworded& reworded) const;
 
   /// The exact answer to the old question as one to the new: `hit`, `inside` or `never`. Where obstacles are
-  /// entered together, another of them may be the first by name there; everything else is exact. Nothing if
-  /// the old answer does not determine the time's rounding in the new units, or if the question is another
-  /// one.
+  /// entered together, another of them may be the first in the order (lattice, atom, cell) there; everything
+  /// else is exact. Nothing if the old answer does not determine the time's rounding in the new units, or if
+  /// the question is another one.
   std::optional<Answer> carried(const Answer& exact, const Reworded& reworded) const;
 
  private:

@@ -9,7 +9,8 @@
 
 namespace lorentz::oracle {
 
-/// Exact first hits at nearly the speed of the fast engine.
+/// Exact first hits, at nearly the speed of the fast engine where that decides, and at the oracle's speed
+/// elsewhere.
 ///
 ///  1. The answer is that of Oracle::first_hit, to the bit of the time; it is never `undecided`.
 ///     held by "certified is the oracle, to the bit",

@@ -64,8 +64,7 @@ struct Arrival {
 ///  4. Any number of threads may follow journeys of one Itinerary.
 ///
 /// Cost: a passage of N collisions at B bits takes N times a few dozen operations of B bits, and B is
-/// proportional to N. 1000 collisions at r = 1e-3 take about 0.4 s in 2D and 1.6 s in 3D
-/// (docs/itineraries.md). Memory: the itinerary.
+/// proportional to N. docs/itineraries.md has times. Memory: the itinerary.
 ///
 /// Source: this project; the error box is R. Lohner's.
 class Itinerary {

@@ -66,8 +66,9 @@ struct Crossing {
 /// Measures how hard queries in one scene are.
 ///
 ///  1. If each input moves by less than the margin, in units of its last place, the answer stays as it is.
-///     Among movements of twice the margin, some change it. This holds to first order: where the change is
-///     strongly curved, as in 3D along lattice planes, the margin is too large (docs/verdicts.md).
+///     Among movements of twice the margin, some change it. This holds to first order. Where first order is
+///     not enough, the margin is only an estimate: among tiny obstacles, in very long flights in 3D, and
+///     where the line grazes one of two overlapping obstacles and their order decides (docs/verdicts.md).
 ///     held by "Inputs moved by less than the margin give the same answer, moved by twice it some give
 ///     another"
 ///  2. The condition is the largest change of the time, in its ulps, that one ulp in each input can cause.

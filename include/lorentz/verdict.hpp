@@ -1,4 +1,5 @@
-// Judges an answer by the exact one, with a tolerance that is derived, not guessed (docs/verdicts.md).
+// Judges an answer by the exact one (docs/verdicts.md). The caller chooses the tolerance: k ulps of the
+// inputs. By how many ulps the inputs would have to move to make an answer right is computed.
 #pragma once
 
 #include <optional>

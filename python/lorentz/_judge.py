@@ -26,7 +26,7 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
     """A full report on one engine: its errors, their causes, and its speed (docs/judge.md).
 
     Args:
-        engine: the name of an engine, ``"cmd:COMMAND"`` for another program, ``"lib:FILE.so"`` for a shared
+        engine: the name of an engine, ``"cmd:COMMAND"`` for an external program, ``"lib:FILE.so"`` for a shared
             library (docs/command_engines.md), or a function ``f(scene, x, v, start_from)``. Its arguments are
             a `Scene`, a place and a velocity of shape (d,), and the obstacle (lattice, atom, cell) that the
             particle leaves, or None. It returns an `Answer`: `hit`, `never`, `inside`, `undecided`,

@@ -46,7 +46,7 @@ std::vector<Question> questions_of(const BenchPlan& plan, const BenchGroup& grou
 std::size_t affordable(const BenchPlan& plan, const std::vector<Question>& all, const EngineInfo& engine,
                        bool& failed) {
   RaceOptions options;
-  options.rounds = engine.runs_apart() ? 3 : 1;  // the first round of another program includes its start
+  options.rounds = engine.runs_apart() ? 3 : 1;  // the first round of an external engine includes its start
   options.timeout = plan.timeout;
   options.listener = plan.listener;
   double count = 0;

@@ -35,7 +35,7 @@ inline constexpr std::size_t kFewestQueries = 32;
 
 struct BenchCells {
   std::vector<report::Cell> cells;  ///< one per engine, in the engines' order
-  bool failed = false;              ///< another program failed
+  bool failed = false;              ///< an external engine failed
 };
 
 BenchCells measure_cells(const BenchPlan& plan, const BenchGroup& group);

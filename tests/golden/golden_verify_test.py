@@ -5,7 +5,7 @@ python3 tests/golden/golden_verify_test.py PROGRAM [--all]"""
 import json, pathlib, subprocess, sys, tempfile
 
 FOLDER = pathlib.Path(__file__).resolve().parents[2] / "data" / "golden"
-SLOW = {"long-flight", "axis-and-diagonal"}  # three quarters of the time of all eighteen
+SLOW = {"long-flight", "axis-and-diagonal"}  # together a third of the time of all sets
 EVERY = 8
 
 

@@ -415,7 +415,7 @@ std::set<std::string> linked_by(const fs::path& cmake_lists) {
 }
 
 TEST_CASE("What keeps the oracle from the engines is the linker", "[house]") {
-  // The rooms whose word counts because they share nothing with those whose answers they check.
+  // The folders whose word counts because they share no more than this with those whose answers they check.
   std::map<std::string, std::set<std::string>> may_link{
       {"src/engines/base", {"lorentz_problem"}},
       {"src/engines/batch", {"lorentz_reduction"}},
