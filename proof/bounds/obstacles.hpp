@@ -33,7 +33,7 @@ inline FormulaClaim inside_of_ellipsoid() {
       form += " + " + term, sizes += " + Rabs (" + term + ")";
     }
   const Symbol r = in.number("r");
-  return in.claim({"kInsideEllipsoid", kInsideEllipsoid, "12.5"}, "inside_of_ellipsoid",
+  return in.claim({"kInsideEllipsoid", kInsideEllipsoid, "13"}, "inside_of_ellipsoid",
                   (r * r - form_of(G, d)).unrounded(), "r * r - (" + form.substr(3) + ")", "r * r" + sizes);
 }
 
@@ -41,7 +41,7 @@ inline FormulaClaim along_to_ball() {
   Inputs in;
   const Symbol v[3] = {in.number("v0"), in.number("v1"), in.number("v2")},
                d[3] = {in.rounded("d0", kHigh), in.rounded("d1", kHigh), in.rounded("d2", kHigh)};
-  return in.claim({"kLoneAlong", kLoneAlong, "3.5"}, "along_to_ball", product_of(v, d),
+  return in.claim({"kLoneAlong", kLoneAlong, "4"}, "along_to_ball", product_of(v, d),
                   "v0 * exact_d0 + v1 * exact_d1 + v2 * exact_d2",
                   "Rabs (v0 * exact_d0) + Rabs (v1 * exact_d1) + Rabs (v2 * exact_d2)");
 }
@@ -53,7 +53,7 @@ inline FormulaClaim across_to_ball() {
   Symbol h[1];
   cross_of(v, d, h);
   return in
-      .claim({"kLoneAcross", kLoneAcross, "3.5"}, "across_to_ball", h[0], "v0 * exact_d1 - v1 * exact_d0",
+      .claim({"kLoneAcross", kLoneAcross, "4.2"}, "across_to_ball", h[0], "v0 * exact_d1 - v1 * exact_d0",
              "Rabs (v0 * exact_d1) + Rabs (v1 * exact_d0)")
       .taken(1.41422, "three components");
 }
@@ -89,7 +89,7 @@ inline FormulaClaim across_to_row() {
                t1 = in.number("t1"), a0 = start_of_row(in, k, t0, t1, "0"),
                a1 = start_of_row(in, k, t0, t1, "1");
   return in
-      .claim({"kSparse", kSparse, "9.2"}, "across_to_row", difference_of_products(v0, a1, v1, a0),
+      .claim({"kSparse", kSparse, "9.9"}, "across_to_row", difference_of_products(v0, a1, v1, a0),
              "v0 * " + exact_start_of_row("1") + " - v1 * " + exact_start_of_row("0"),
              "Rabs v0 * " + size_of_start_of_row("1") + " + Rabs v1 * " + size_of_start_of_row("0"))
       .taken(1.41422, "three components");
@@ -101,7 +101,7 @@ inline FormulaClaim along_to_row() {
                t0 = in.number("t0"), t1 = in.number("t1"),
                a[3] = {start_of_row(in, k, t0, t1, "0"), start_of_row(in, k, t0, t1, "1"),
                        start_of_row(in, k, t0, t1, "2")};
-  return in.claim({"kSparse", kSparse, "7.5"}, "along_to_row", product_of(v, a),
+  return in.claim({"kSparse", kSparse, "8"}, "along_to_row", product_of(v, a),
                   "v0 * " + exact_start_of_row("0") + " + v1 * " + exact_start_of_row("1") + " + v2 * " +
                       exact_start_of_row("2"),
                   "Rabs v0 * " + size_of_start_of_row("0") + " + Rabs v1 * " + size_of_start_of_row("1") +
@@ -114,7 +114,7 @@ inline FormulaClaim image_in_shape() {
   const Symbol N[3] = {in.rounded("N0", kHigh), in.rounded("N1", kHigh), in.rounded("N2", kHigh)},
                a[3] = {in.rounded("a0", kHigh), in.rounded("a1", kHigh), in.rounded("a2", kHigh)};
   return in
-      .claim({"kSparseOfShape", kSparseOfShape, "13.9"}, "image_in_shape", product_of(N, a),
+      .claim({"kSparseOfShape", kSparseOfShape, "10"}, "image_in_shape", product_of(N, a),
              "exact_N0 * exact_a0 + exact_N1 * exact_a1 + exact_N2 * exact_a2",
              "Rabs (exact_N0 * exact_a0) + Rabs (exact_N1 * exact_a1) + Rabs (exact_N2 * exact_a2)")
       .taken(2, "two vectors");
@@ -124,7 +124,7 @@ inline FormulaClaim image_in_shape() {
 inline FormulaClaim height_over_layer() {
   Inputs in;
   const std::array<Symbol, 3> b = vector_of(in, "b"), c = vector_of(in, "c"), d = vector_of(in, "d");
-  return in.claim({"kLayer", kLayer, "7.5"}, "height_over_layer",
+  return in.claim({"kLayer", kLayer, "8"}, "height_over_layer",
                   volume_of(d, cross_product(b, c)).unrounded(), exact_volume("d", "b", "c"),
                   size_of_volume("d", "b", "c"));
 }
