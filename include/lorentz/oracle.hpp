@@ -1,5 +1,6 @@
 // The exact oracle: exact first hits for every scene of balls and ellipsoids in 2D and 3D. A scene has any
-// number of lattices, and a lattice any number of atoms (obstacles per cell).
+// number of lattices, and a lattice any number of atoms. (An atom is a ball or an ellipsoid that a lattice
+// repeats in every cell.)
 #pragma once
 
 #include <optional>
@@ -31,8 +32,8 @@ struct Request {
 ///  2. A scene and a query may be written in another form: another basis of the lattice, axes exchanged or
 ///     reflected, another origin, other units, another order of lattices and atoms. If binary64 holds the
 ///     numbers of that form exactly, the answer is the same: the cell in the new basis, the time in the new
-///     unit. But the order (lattice, atom, cell) can be another. So if obstacles are entered at the same
-///     time, or several contain x, the answer can name another of them.
+///     unit. But the order (lattice, atom, cell) may differ in that form. So if obstacles are entered at the
+///     same time, or several contain x, the answer may name a different one of them.
 ///     held by "Rewording: the oracle says the same in other words",
 ///             "The square and the cube look the same from all their sides"
 ///  3. The decimal digits and the details of Request are correctly rounded, too.

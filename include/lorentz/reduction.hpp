@@ -40,8 +40,9 @@ struct Task;            // internal: a query with its limit, in the engine's uni
 ///     held by "A flight allocates nothing, in any model"
 ///  6. Any number of threads may use one engine, and share a direction.
 ///     held by "Many threads may ask one engine, oracle, walk and judge"
-///  7. Random queries are decided, except some whose exact answer is `never`. The test asks 3000 on the unit
-///     square lattice at each of 8 radii, the smallest 1e-12, and 3000 on the unit cubic lattice at each of 6
+///  7. On the unit square and cubic lattices random queries are decided. There is one exception: queries
+///     whose exact answer is `never`, because the components of v have few bits. The test asks 3000 queries
+///     at each of 8 radii in the square lattice, the smallest 1e-12. In the cubic lattice it does so at 6
 ///     radii, the smallest 1e-7.
 ///     held by "Nothing is undecided on drawn queries, down to the smallest radii"
 ///
@@ -52,8 +53,8 @@ struct Task;            // internal: a query with its limit, in the engine's uni
 /// most 5 ulps were seen among balls, and 6 among ellipses and ellipsoids; the test of promise 2 allows 6 and
 /// 8. The error can be larger if the obstacle is hit within about 1e-16 r of the start.
 ///
-/// Ranges: not supported are scenes with obstacles that overlap their own copies in other cells, or are too
-/// small or too slender; and scenes with very flat cells. `beyond` tells whether a scene is supported.
+/// Ranges: the engine does not support scenes with very flat cells, or with obstacles that are too small, too
+/// slender, or overlap their own copies in other cells. `beyond` tells whether a scene is supported.
 ///
 /// These queries are `undecided`:
 ///  - queries that the error bounds do not decide;
@@ -102,8 +103,8 @@ class Reduction : public Engine {
   ///
   /// With a finite limit `max_time`, the outcome is `later` if nothing is entered before the limit, whether
   /// or not something is entered afterwards; `never` does not occur. The exact time of the hit is compared
-  /// with the limit, not the reported time: rounding may move that one to the limit or beyond. If
-  /// double-double cannot tell whether the exact time is before the limit, the outcome is `undecided`.
+  /// with the limit. (Rounding may move the reported time to the limit or beyond.) If double-double cannot
+  /// tell whether the exact time is before the limit, the outcome is `undecided`.
   Flight fly(const Query& query, double max_time = std::numeric_limits<double>::infinity(),
              Time time = Time::close) const;
 
