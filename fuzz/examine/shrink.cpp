@@ -274,6 +274,7 @@ class Shrinker {
   void simplify_velocity() {
     const Vec& v = best_.query.v;
     const double largest = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
+    if (!(largest > 0)) return;
     const Vec unit = scaled(scaled(v, std::ldexp(1, -std::ilogb(largest) / 2)),
                             std::ldexp(1, -std::ilogb(largest) + std::ilogb(largest) / 2));
     const double top = std::max({std::fabs(unit[0]), std::fabs(unit[1]), std::fabs(unit[2])});
