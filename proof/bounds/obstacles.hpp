@@ -124,9 +124,8 @@ inline FormulaClaim image_in_shape() {
 inline FormulaClaim height_over_layer() {
   Inputs in;
   const std::array<Symbol, 3> b = vector_of(in, "b"), c = vector_of(in, "c"), d = vector_of(in, "d");
-  return in.claim({"kLayer", kLayer, "8"}, "height_over_layer",
-                  volume_of(d, cross_product(b, c)).unrounded(), exact_volume("d", "b", "c"),
-                  size_of_volume("d", "b", "c"));
+  return in.claim({"kLayer", kLayer, "8"}, "height_over_layer", volume_of(d, cross_product(b, c)).unrounded(),
+                  exact_volume("d", "b", "c"), size_of_volume("d", "b", "c"));
 }
 
 inline std::vector<FormulaClaim> of_obstacles() {
