@@ -1,5 +1,6 @@
 /* Judges answers with a golden set alone (docs/golden.md).
-     runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
+     runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; how many fail on stderr.
+     Status 1: an answer is wrong, missing, or an error; 2: a file cannot be read.
      cc -std=c11 runner.c -lcjson -lm -o runner    (libcjson-dev) */
 #define _POSIX_C_SOURCE 200809L
 #include <cjson/cJSON.h>
@@ -16,7 +17,7 @@ static const char* text(const cJSON* object, const char* key) {
 
 static double number(const cJSON* object, const char* key, double otherwise) {
   const cJSON* value = cJSON_GetObjectItemCaseSensitive(object, key);
-  return cJSON_IsNumber(value) ? value->valuedouble : cJSON_IsString(value) ? INFINITY : otherwise;
+  return cJSON_IsNumber(value) ? value->valuedouble : value ? INFINITY : otherwise;
 }
 
 static int same_integer(const cJSON* a, const cJSON* b) { /* beyond 2^53 they are decimal strings */
@@ -87,7 +88,7 @@ int main(int count, char** arguments) {
     entry->id = text(entry->answer, "id");
     tsearch(entry, &tree, by_id);
   }
-  int binary32 = 0, wrong = 0, records = 0;
+  int binary32 = 0, failed = 0, records = 0;
   while (getline(&line, &room, set) > 0) {
     cJSON* record = cJSON_Parse(line);
     const cJSON* header = cJSON_GetObjectItemCaseSensitive(record, "golden");
@@ -97,10 +98,10 @@ int main(int count, char** arguments) {
       struct known** found = tfind(&key, &tree, by_id);
       const char* its = verdict(record, found ? (*found)->answer : NULL, ulps, binary32);
       printf("%s %s\n", key.id, its);
-      wrong += !strcmp(its, "wrong"), ++records;
+      failed += !strcmp(its, "wrong") || !strcmp(its, "missing") || !strcmp(its, "error"), ++records;
     }
     cJSON_Delete(record);
   }
-  fprintf(stderr, "%d of %d are wrong\n", wrong, records);
-  return wrong > 0;
+  fprintf(stderr, "%d of %d are wrong, missing, or errors\n", failed, records);
+  return failed > 0;
 }

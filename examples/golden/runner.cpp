@@ -1,5 +1,6 @@
 // Judges answers with a golden set alone (docs/golden.md).
-//   runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
+//   runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr.
+//   Status 1: an answer is wrong, missing, or an error; 2: a file cannot be read.
 //   c++ -std=c++17 runner.cpp -o runner    # nlohmann-json3-dev
 #include <algorithm>
 #include <cmath>
@@ -45,7 +46,7 @@ static bool is_wrong_time(const Json& record, const Json& answer, double ulps, b
 
 static const char* verdict(const Json& record, const Json& answer, double ulps, bool binary32) {
   if (answer.is_null()) return "missing";
-  const std::string outcome = answer["outcome"];
+  const std::string outcome = answer.value("outcome", "");
   if (outcome == "undecided" || outcome == "later") return "undecided";
   if (outcome == "error" && record["expect"]["outcome"] != "error")
     return answer.value("reason", "") == "unsupported" ? "unsupported" : "error";
@@ -63,6 +64,7 @@ int main(int count, char** arguments) {
   const double ulps = count > 3 ? std::strtod(arguments[3], nullptr) : 4;
   std::map<std::string, Json> answers;
   std::ifstream answer_file(arguments[2]), set_file(arguments[1]);
+  if (!set_file || !answer_file) return std::cerr << "cannot read " << arguments[set_file ? 2 : 1] << '\n', 2;
   for (std::string line; std::getline(answer_file, line);) {
     const Json answer = Json::parse(line);
     if (answer.contains("id") && answer["id"].is_string()) answers[answer["id"].get<std::string>()] = answer;
@@ -80,5 +82,5 @@ int main(int count, char** arguments) {
     std::cout << id << ' ' << found << '\n';
   }
   for (const auto& [name, number] : counts) std::cerr << name << ' ' << number << '\n';
-  return counts.count("wrong") ? 1 : 0;
+  return counts.count("wrong") || counts.count("missing") || counts.count("error") ? 1 : 0;
 }

@@ -1,5 +1,6 @@
 // Judges answers with a golden set alone (docs/golden.md).
-//   node runner.js SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
+//   node runner.js SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr.
+//   Status 1: an answer is wrong, missing, or an error.
 "use strict";
 const fs = require("node:fs");
 
@@ -21,7 +22,7 @@ function isWrongTime(record, answer, k, bits) {
   const t = record.expect.time;
   if (t === undefined || answer.time === undefined) return false;
   if (t === "inf" || (answer.time === "inf" && bits === 24 && t > LARGEST)) return answer.time !== "inf";
-  const given = answer.time === "inf" ? Infinity : Number(answer.time);
+  const given = typeof answer.time === "number" ? answer.time : Infinity;
   return !(Math.abs(given - t) <= k * Math.max(record.time_change, ulp(t, bits)));
 }
 
@@ -46,4 +47,4 @@ for (const line of lines(setFile)) {
   console.log(line.id, found);
 }
 console.error(counts);
-process.exitCode = counts.wrong ? 1 : 0;
+process.exitCode = counts.wrong || counts.missing || counts.error ? 1 : 0;

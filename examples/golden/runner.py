@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Judges answers with a golden set alone (docs/golden.md).
 
-runner.py SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
+runner.py SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr.
+Status 1: an answer is wrong, missing, or an error.
 """
 import collections
 import json
@@ -29,16 +30,18 @@ def is_wrong_time(record, answer, ulps, binary32):
         return False
     if t == "inf" or (answer["time"] == "inf" and binary32 and t > LARGEST):
         return answer["time"] != "inf"
-    return abs(float(answer["time"]) - t) > ulps * max(record["time_change"], ulp(t, binary32))
+    given = answer["time"] if isinstance(answer["time"], (int, float)) else math.inf
+    return not abs(given - t) <= ulps * max(record["time_change"], ulp(t, binary32))
 
 
 def verdict(record, answer, ulps, binary32):
     expect = record["expect"]
     if answer is None:
         return "missing"
-    if answer["outcome"] in ("undecided", "later"):
+    outcome = answer.get("outcome")
+    if outcome in ("undecided", "later"):
         return "undecided"
-    if answer["outcome"] == "error" != expect["outcome"]:
+    if outcome == "error" != expect["outcome"]:
         return "unsupported" if answer.get("reason") == "unsupported" else "error"
     if same(answer, expect):
         return "wrong-time" if is_wrong_time(record, answer, ulps, binary32) else "agree"
@@ -58,7 +61,7 @@ def main(set_file, answer_file, ulps="4"):
             counts[found] += 1
             print(line["id"], found)
     print(dict(counts), file=sys.stderr)
-    return 1 if counts["wrong"] else 0
+    return 1 if counts["wrong"] or counts["missing"] or counts["error"] else 0
 
 
 if __name__ == "__main__":

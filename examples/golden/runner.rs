@@ -1,5 +1,6 @@
 // Judges answers with a golden set alone (docs/golden.md).
-//   runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr. Status 1: one is wrong.
+//   runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr.
+//   Status 1: an answer is wrong, missing, or an error.
 //   cargo init runner && cd runner && cargo add serde_json --features float_roundtrip && cp ../runner.rs src/main.rs && cargo build
 use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
@@ -76,5 +77,6 @@ fn main() {
         println!("{id} {found}");
     }
     eprintln!("{counts:?}");
-    std::process::exit(counts.contains_key("wrong") as i32);
+    let failed = ["wrong", "missing", "error"].iter().any(|word| counts.contains_key(word));
+    std::process::exit(failed as i32);
 }

@@ -127,10 +127,32 @@ def answers_of(lorentz, engine, path, records, work):
     return answers
 
 
+def require_statuses(programs, work):
+    """Status 0 if all answers are right, 1 if all are missing or have no outcome; a time that is not a number is wrong."""
+    path, answers = SETS / "smoke/smoke.ndjson", work / "answers"
+    records = [record for record in map(json.loads, path.read_text().splitlines()) if "expect" in record]
+    right = [{"id": record["id"], **answer_of(record["expect"])} for record in records]
+    untimed = [{**answer, "time": None} if "time" in answer else answer for answer in right]
+    empty = [{"id": answer["id"]} for answer in right]
+    for told, status, word, least in ((right, 0, "agree", len(records)), ([], 1, "missing", len(records)),
+                                      (untimed, 0, "wrong-time", 50), (empty, 1, "wrong", 50)):
+        answers.write_text("".join(json.dumps(answer) + "\n" for answer in told))
+        for language, command in programs.items():
+            done = subprocess.run([*command, path, answers], capture_output=True, text=True, check=False)
+            count = sum(line.split()[1] == word for line in done.stdout.splitlines())
+            if done.returncode != status or count < least:
+                sys.exit(f"{language}: status {done.returncode}, {count} {word}: {done.stderr}")
+    for language, command in programs.items():
+        for files in ([path, work / "not-there"], [work / "not-there", path]):
+            if subprocess.run([*command, *files], capture_output=True, check=False).returncode == 0:
+                sys.exit(f"{language}: status 0 although a file is not there")
+
+
 def main():
     lorentz, work = sys.argv[1], pathlib.Path(sys.argv[2])
     work.mkdir(parents=True, exist_ok=True)
     programs = runners(work)
+    require_statuses(programs, work)
     every = sorted(str(path.relative_to(SETS))[:-7] for path in SETS.glob("**/*.ndjson") if "itineraries" not in path.parts)
     judged = needing = 0
     seen = {}
