@@ -1,7 +1,10 @@
 #include "cli/file_options.hpp"
 #include "golden/find_sets.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -23,6 +26,17 @@ struct NamedFile {
   bool is_output;
 };
 
+// The program's or the library's file, and files among the program's words: its source, its scene.
+std::vector<std::string> files_of_engine(const std::string& engine) {
+  std::vector<std::string> files;
+  const std::size_t begin = engine.find("cmd:");
+  if (begin == engine.npos && engine.starts_with("lib:")) return {engine.substr(4)};
+  if (begin == engine.npos) return files;
+  std::istringstream words(engine.substr(begin + 4));
+  for (std::string word; words >> word;) files.push_back(word);
+  return files;
+}
+
 // The files that a value refers to, according to the value's name in help. Empty if there is no such file;
 // the command itself reports the missing file.
 std::vector<std::string> files_read(const std::string& type, const std::string& value) {
@@ -30,6 +44,7 @@ std::vector<std::string> files_read(const std::string& type, const std::string& 
     if (type == "FILE") return {value == "-" ? kStandardInput : value};
     if (type == "SCENE") return {find_scene(value)};
     if (type == "SET") return golden::find_sets({value});
+    if (type == "ENGINE") return files_of_engine(value);
     if (type == "NAME=FILE") return {value.substr(value.find('=') + 1)};
   } catch (const std::exception&) {
   }
@@ -66,6 +81,34 @@ std::vector<NamedFile> files_of(const Command& command) {
   return files;
 }
 
+// What a file that an option is to replace begins with, white space aside; empty for no file and for devices.
+std::string beginning_of(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return "";
+  std::ifstream in(path, std::ios::binary);
+  std::string start(64, '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  return start.substr(std::min(start.size(), start.find_first_not_of("\xef\xbb\xbf \t\r\n")));
+}
+
+// An option replaces files of its own kind only, so that a slip of the finger loses no run and no queries.
+void refuse_other_kinds(const NamedFile& output) {
+  if (!output.is_output || output.by == "--store") return;
+  const std::string start = beginning_of(output.path);
+  if (start.empty()) return;
+  const bool wants_markup = output.by.ends_with("svg") || output.by == "--html" || output.by == "--junit";
+  const bool is_other =
+      wants_markup ? start[0] != '<' : output.by == "--csv" && (start[0] == '{' || start[0] == '<');
+  if (start.starts_with("SQLite format 3"))
+    throw InputError(
+        fmt::format("{}: {} is a store, and is left as it is; name another file", output.by, output.path));
+  if (is_other)
+    throw InputError(
+        fmt::format("{}: {} is a file of another kind, and is left as it is; remove it, or name another",
+                    output.by, output.path));
+}
+
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   const fs::file_status there = fs::status(a, error);
@@ -79,7 +122,8 @@ bool is_same_file(const std::string& a, const std::string& b) {
 
 void check_files(const Command& command) {
   const std::vector<NamedFile> files = files_of(command);
-  for (const NamedFile& output : files)
+  for (const NamedFile& output : files) {
+    refuse_other_kinds(output);
     for (const NamedFile& other : files) {
       if (!output.is_output || &other == &output || !is_same_file(output.path, other.path)) continue;
       if (!other.is_output)
@@ -89,6 +133,7 @@ void check_files(const Command& command) {
       throw InputError(fmt::format("{} and {} name the same file: {}; give each its own", output.by, other.by,
                                    other.path));
     }
+  }
 }
 
 }  // namespace lorentz::cli

@@ -5,10 +5,11 @@
 
 namespace lorentz::cli {
 
-/// Called after the options are parsed and before anything is written. Throws InputError if a file to be
-/// written, including standard output, is also read, or written by another option. Different names of a file
-/// (links, the name of a scene, standard input) count as the same file. Also throws if the name is empty.
-/// Devices and pipes may be named several times.
+/// Called after the options are parsed and before anything is written. Throws InputError if the name of a file to
+/// be written is empty; if the file, or standard output, is also read, or written by another option; or if it
+/// exists and is a store, or of another kind than what would replace it. Different names of a file (links, the name
+/// of a scene, standard input) count as the same file. The files among the words of an engine's command count as
+/// read. Devices and pipes may be named several times.
 void check_files(const Command& command);
 
 }  // namespace lorentz::cli

@@ -208,13 +208,22 @@ int fly_all(const std::vector<FlightsTask>& tasks, const flights::FlightBounds& 
             const FlightsOptions& options, flights::Ranks* ranks) {
   Files files(options);
   std::vector<FlightsReport> reports;
+  std::exception_ptr failure;
   for (const FlightsTask& task : tasks) {
-    FlightsReport report = fly(task, bounds, options, ranks);
+    std::optional<FlightsReport> flown;
+    try {
+      flown = fly(task, bounds, options, ranks);
+    } catch (const InputError&) {  // earlier results are kept
+      failure = std::current_exception();
+      break;
+    }
+    FlightsReport& report = *flown;
     if (Interrupt::came() && report.account.done.size() == 0) continue;
     print(options.json ? report.json() : (reports.empty() ? "" : "\n") + report.table());
     reports.push_back(std::move(report));
   }
   if (!reports.empty()) files.write(reports);
+  if (failure) std::rethrow_exception(failure);
   if (!Interrupt::came()) return kDone;
   say("{}; {}{}", Interrupt::what(), reports.empty() ? "there is nothing to report; " : "",
       options.store ? "the same command goes on" : "without --store nothing is kept to go on with");

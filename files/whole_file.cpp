@@ -13,6 +13,7 @@ namespace lorentz {
 namespace fs = std::filesystem;
 
 WholeFile::WholeFile(const std::string& path) : path_(path), place_(path) {
+  if (path == "-") throw FileError("-: this output needs a file; /dev/stdout is one");
   std::error_code error;
   const fs::file_status there = fs::status(path, error);
   if (fs::is_regular_file(there) && ::access(path.c_str(), W_OK) != 0)  // renaming would not notice

@@ -1,6 +1,10 @@
 #include <lorentz/oracle.hpp>
 
+#include <limits>
+#include <string>
 #include <variant>
+
+#include <lorentz/errors.hpp>
 
 #include "oracle/first_hit/first_entry.hpp"
 
@@ -102,7 +106,10 @@ Oracle& Oracle::operator=(Oracle&&) noexcept = default;
 Oracle::~Oracle() = default;
 
 Answer Oracle::first_hit(const Query& query, const Request& request) const {
-  if (auto flaw = flaw_of(query, impl_->scene)) return Answer::error(*flaw);
+  if (request.digits < 0 || request.digits > kMostDigits)
+    throw InputError("digits: needs from 0 to " + std::to_string(kMostDigits));
+  const double max_time = request.max_time.value_or(std::numeric_limits<double>::infinity());
+  if (auto flaw = flaw_of(query, impl_->scene, max_time)) return Answer::error(*flaw);
   return std::visit([&](const auto& problem) { return problem.first_hit(query, request); }, impl_->problem);
 }
 

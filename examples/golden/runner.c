@@ -1,6 +1,6 @@
 /* Judges answers with a golden set alone (docs/golden.md).
      runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; how many fail on stderr.
-     Status 1: an answer is wrong, missing, or an error; 2: a file cannot be read.
+     ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file cannot be read.
      cc -std=c11 runner.c -lcjson -lm -o runner    (libcjson-dev) */
 #define _POSIX_C_SOURCE 200809L
 #include <cjson/cJSON.h>
@@ -20,10 +20,15 @@ static double number(const cJSON* object, const char* key, double otherwise) {
   return cJSON_IsNumber(value) ? value->valuedouble : value ? INFINITY : otherwise;
 }
 
-static int same_integer(const cJSON* a, const cJSON* b) { /* beyond 2^53 they are decimal strings */
-  if (cJSON_IsString(a) || cJSON_IsString(b))
-    return cJSON_IsString(a) && cJSON_IsString(b) && !strcmp(a->valuestring, b->valuestring);
-  return a->valuedouble == b->valuedouble;
+static const char* integer(const cJSON* n, char* room, size_t size) { /* beyond 2^53 it is a decimal string */
+  if (cJSON_IsString(n)) return n->valuestring;
+  snprintf(room, size, "%.0f", n->valuedouble);
+  return room;
+}
+
+static int same_integer(const cJSON* a, const cJSON* b) {
+  char one[512], other[512];
+  return !strcmp(integer(a, one, sizeof one), integer(b, other, sizeof other));
 }
 
 static int same(const cJSON* a, const cJSON* b) {
@@ -74,23 +79,37 @@ static int by_id(const void* a, const void* b) {
   return strcmp(((const struct known*)a)->id, ((const struct known*)b)->id);
 }
 
+/* The object in the next line that is not blank; NULL at the end. */
+static cJSON* next(FILE* file, const char* name, int* number) {
+  static char* line = NULL;
+  static size_t room = 0;
+  while (++*number, getline(&line, &room, file) > 0) {
+    if (!line[strspn(line, " \t\r\n")]) continue;
+    cJSON* object = cJSON_Parse(line);
+    if (object) return object;
+    fprintf(stderr, "%s:%d: not JSON\n", name, *number);
+    exit(2);
+  }
+  return NULL;
+}
+
 int main(int count, char** arguments) {
-  if (count < 3) return fprintf(stderr, "usage: runner SET ANSWERS [ULPS]\n"), 2;
   const double ulps = count > 3 ? atof(arguments[3]) : 4;
+  if (count < 3 || !(ulps > 0 && ulps <= 16))
+    return fprintf(stderr, "usage: runner SET ANSWERS [ULPS]; ULPS is above 0 and at most 16\n"), 2;
   FILE *set = fopen(arguments[1], "r"), *answers = fopen(arguments[2], "r");
   if (!set || !answers) return fprintf(stderr, "cannot open %s\n", arguments[set ? 2 : 1]), 2;
   void* tree = NULL;
-  char* line = NULL;
-  size_t room = 0;
-  while (getline(&line, &room, answers) > 0) {
+  int number = 0;
+  for (cJSON* answer; (answer = next(answers, arguments[2], &number));) {
     struct known* entry = malloc(sizeof *entry);
-    entry->answer = cJSON_Parse(line);
-    entry->id = text(entry->answer, "id");
+    entry->answer = answer;
+    entry->id = text(answer, "id");
     tsearch(entry, &tree, by_id);
   }
   int binary32 = 0, failed = 0, records = 0;
-  while (getline(&line, &room, set) > 0) {
-    cJSON* record = cJSON_Parse(line);
+  number = 0;
+  for (cJSON* record; (record = next(set, arguments[1], &number));) {
     const cJSON* header = cJSON_GetObjectItemCaseSensitive(record, "golden");
     if (header) binary32 = !strcmp(text(header, "precision"), "binary32");
     if (cJSON_HasObjectItem(record, "expect")) {

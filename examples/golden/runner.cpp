@@ -1,11 +1,12 @@
 // Judges answers with a golden set alone (docs/golden.md).
 //   runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr.
-//   Status 1: an answer is wrong, missing, or an error; 2: a file cannot be read.
+//   ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file cannot be read.
 //   c++ -std=c++17 runner.cpp -o runner    # nlohmann-json3-dev
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -59,28 +60,41 @@ static const char* verdict(const Json& record, const Json& answer, double ulps, 
   return "wrong";
 }
 
+// All lines that are not blank.
+static void read(std::istream& file, const std::string& name, const std::function<void(const Json&)>& use) {
+  int number = 0;
+  for (std::string line; ++number, std::getline(file, line);) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    try {
+      use(Json::parse(line));
+    } catch (const Json::exception& why) {
+      std::cerr << name << ':' << number << ": " << why.what() << '\n';
+      std::exit(2);
+    }
+  }
+}
+
 int main(int count, char** arguments) {
-  if (count < 3) return std::cerr << "usage: runner SET ANSWERS [ULPS]\n", 2;
   const double ulps = count > 3 ? std::strtod(arguments[3], nullptr) : 4;
+  if (count < 3 || !(ulps > 0 && ulps <= 16))
+    return std::cerr << "usage: runner SET ANSWERS [ULPS]; ULPS is above 0 and at most 16\n", 2;
   std::map<std::string, Json> answers;
   std::ifstream answer_file(arguments[2]), set_file(arguments[1]);
   if (!set_file || !answer_file) return std::cerr << "cannot read " << arguments[set_file ? 2 : 1] << '\n', 2;
-  for (std::string line; std::getline(answer_file, line);) {
-    const Json answer = Json::parse(line);
+  read(answer_file, arguments[2], [&](const Json& answer) {
     if (answer.contains("id") && answer["id"].is_string()) answers[answer["id"].get<std::string>()] = answer;
-  }
+  });
   std::map<std::string, int> counts;
   bool binary32 = false;
-  for (std::string line; std::getline(set_file, line);) {
-    const Json record = Json::parse(line);
+  read(set_file, arguments[1], [&](const Json& record) {
     if (record.contains("golden")) binary32 = record["golden"].value("precision", "") == "binary32";
-    if (!record.contains("expect")) continue;
+    if (!record.contains("expect")) return;
     const std::string id = record["id"];
     const auto answer = answers.find(id);
     const char* found = verdict(record, answer == answers.end() ? Json() : answer->second, ulps, binary32);
     ++counts[found];
     std::cout << id << ' ' << found << '\n';
-  }
+  });
   for (const auto& [name, number] : counts) std::cerr << name << ' ' << number << '\n';
   return counts.count("wrong") || counts.count("missing") || counts.count("error") ? 1 : 0;
 }

@@ -1,11 +1,25 @@
 // Judges answers with a golden set alone (docs/golden.md).
 //   node runner.js SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr.
-//   Status 1: an answer is wrong, missing, or an error.
+//   ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file cannot be read.
 "use strict";
 const fs = require("node:fs");
 
 const [setFile, answerFile, ulps = "4"] = process.argv.slice(2);
-const lines = (file) => fs.readFileSync(file, "utf8").split("\n").filter((line) => line.trim()).map((line) => JSON.parse(line));
+if (!answerFile || !(ulps > 0 && ulps <= 16)) refuse("usage: runner.js SET ANSWERS [ULPS]; ULPS is above 0 and at most 16");
+
+function refuse(why) {
+  console.error(why);
+  process.exit(2);
+}
+
+function lines(file) {
+  let number = 0;
+  try {
+    return fs.readFileSync(file, "utf8").split("\n").map((line) => (++number, line.trim() ? JSON.parse(line) : {}));
+  } catch (why) {
+    return refuse(`${file}:${number}: ${why.message}`);
+  }
+}
 
 const same = (a, b) =>
   a.outcome === b.outcome && a.lattice === b.lattice && a.atom === b.atom && (a.cell ?? []).join() === (b.cell ?? []).join();

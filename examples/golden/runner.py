@@ -2,7 +2,7 @@
 """Judges answers with a golden set alone (docs/golden.md).
 
 runner.py SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr.
-Status 1: an answer is wrong, missing, or an error.
+ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file cannot be read.
 """
 import collections
 import json
@@ -50,14 +50,36 @@ def verdict(record, answer, ulps, binary32):
     return "needs-judge" if "needs-judge" in record["tags"] else "wrong"
 
 
-def main(set_file, answer_file, ulps="4"):
-    answers = {answer["id"]: answer for answer in map(json.loads, open(answer_file)) if "id" in answer}
+def refuse(why):
+    print(why, file=sys.stderr)
+    sys.exit(2)
+
+
+def lines(path):
+    number = 0
+    try:
+        for number, line in enumerate(open(path), 1):
+            if line.strip():
+                yield json.loads(line)
+    except (OSError, ValueError) as why:
+        refuse(f"{path}:{number}: {why}")
+
+
+def tolerance(word):
+    try:
+        return float(word)
+    except ValueError:
+        return 0
+
+
+def main(set_file, answer_file, ulps):
+    answers = {answer["id"]: answer for answer in lines(answer_file) if "id" in answer}
     counts, binary32 = collections.Counter(), False
-    for line in map(json.loads, open(set_file)):
+    for line in lines(set_file):
         if "golden" in line:
             binary32 = line["golden"].get("precision") == "binary32"
         elif "expect" in line:
-            found = verdict(line, answers.get(line["id"]), float(ulps), binary32)
+            found = verdict(line, answers.get(line["id"]), ulps, binary32)
             counts[found] += 1
             print(line["id"], found)
     print(dict(counts), file=sys.stderr)
@@ -65,4 +87,7 @@ def main(set_file, answer_file, ulps="4"):
 
 
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]))
+    words = [*sys.argv[1:], "4"][:3]
+    if len(words) < 3 or not 0 < tolerance(words[2]) <= 16:
+        refuse("usage: runner.py SET ANSWERS [ULPS]; ULPS is above 0 and at most 16")
+    sys.exit(main(*words[:2], tolerance(words[2])))

@@ -1,12 +1,18 @@
 // Judges answers with a golden set alone (docs/golden.md).
 //   runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr.
-//   Status 1: an answer is wrong, missing, or an error.
+//   ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file cannot be read.
 //   cargo init runner && cd runner && cargo add serde_json --features float_roundtrip && cp ../runner.rs src/main.rs && cargo build
 use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
 
+// The integers of a cell as text; beyond 2^53 they are decimal strings.
+fn cell(answer: &Value) -> Vec<String> {
+    let text = |n: &Value| n.as_str().map_or(n.to_string(), str::to_string);
+    answer["cell"].as_array().map_or(vec![], |cell| cell.iter().map(text).collect())
+}
+
 fn same(a: &Value, b: &Value) -> bool {
-    ["outcome", "lattice", "atom", "cell"].iter().all(|key| a.get(key) == b.get(key))
+    ["outcome", "lattice", "atom"].iter().all(|key| a.get(key) == b.get(key)) && cell(a) == cell(b)
 }
 
 fn ulp(t: f64, binary32: bool) -> f64 {
@@ -49,18 +55,25 @@ fn verdict(record: &Value, answer: Option<&Value>, ulps: f64, binary32: bool) ->
     if needs_judge { "needs-judge" } else { "wrong" }
 }
 
+fn refuse(why: String) -> ! {
+    eprintln!("{why}");
+    std::process::exit(2);
+}
+
 fn lines(path: &str) -> Vec<Value> {
-    let text = std::fs::read_to_string(path).unwrap_or_else(|why| panic!("{path}: {why}"));
-    text.lines().filter(|line| !line.trim().is_empty()).map(|line| serde_json::from_str(line).expect(path)).collect()
+    let text = std::fs::read_to_string(path).unwrap_or_else(|why| refuse(format!("{path}: {why}")));
+    let numbered = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    numbered
+        .map(|(i, line)| serde_json::from_str(line).unwrap_or_else(|why| refuse(format!("{path}:{}: {why}", i + 1))))
+        .collect()
 }
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
-    if arguments.len() < 3 {
-        eprintln!("usage: runner SET ANSWERS [ULPS]");
-        std::process::exit(2);
+    let ulps = arguments.get(3).map_or(4.0, |text| text.parse().unwrap_or(0.0));
+    if arguments.len() < 3 || !(ulps > 0.0 && ulps <= 16.0) {
+        refuse("usage: runner SET ANSWERS [ULPS]; ULPS is above 0 and at most 16".to_string());
     }
-    let ulps = arguments.get(3).map_or(4.0, |text| text.parse().expect("a number of ulps"));
     let answers: HashMap<String, Value> =
         lines(&arguments[2]).into_iter().filter_map(|line| Some((line["id"].as_str()?.to_string(), line))).collect();
     let (mut counts, mut binary32) = (BTreeMap::new(), false);

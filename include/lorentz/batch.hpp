@@ -31,7 +31,7 @@ struct QueryColumns {
   std::array<std::span<const std::int64_t>, 3> from_cell{};
 
   std::size_t size() const { return x[0].size(); }
-  /// Query `i`, whose vectors have `dimension` components.
+  /// Query `i`, whose vectors have `dimension` components; those whose column is empty are zero.
   Query query(std::size_t i, int dimension) const;
   /// The queries [begin, begin + length).
   QueryColumns part(std::size_t begin, std::size_t length) const;
@@ -51,8 +51,8 @@ struct FlightColumns {
   FlightColumns part(std::size_t begin) const;
 };
 
-/// Names the first column that is missing or has fewer rows than there are queries; nothing if all columns
-/// fit a scene of this dimension.
+/// Names the first column that is missing, or has another number of rows than there are queries (a column of
+/// results: fewer rows). Nothing if all columns fit a scene of this dimension.
 std::optional<std::string> flaw_of(const QueryColumns& queries, const FlightColumns& flights, int dimension);
 
 /// Queries in columns that the table owns, filled one query at a time.

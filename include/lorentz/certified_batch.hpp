@@ -17,8 +17,8 @@ namespace lorentz::oracle {
 ///  2. Any number of threads may use one engine.
 ///     held by "Threads share a batch engine"
 ///
-/// Units: as in QueryColumns. Cost: that of Batch with rounded times. One in several thousand drawn queries
-/// is `uncertain` (docs/speed.md).
+/// Units: as in QueryColumns. Cost: that of Batch with rounded times. Of drawn queries fewer than one in several
+/// thousand are `uncertain` (docs/speed.md); in a scene that Reduction does not support, all are.
 class CertifiedBatch {
  public:
   /// Throws InputError if the scene is invalid (flaw_of) or has dependent vectors (dependence_in).
@@ -27,7 +27,7 @@ class CertifiedBatch {
   /// Answers the queries on `jobs` threads. The columns must include `outcome`, `time` and `time_is_rounded`;
   /// throws InputError for invalid columns. A query has the outcome `later` if nothing is entered before its
   /// limit. `uncertain` receives, in order, the indices of the queries for which the oracle must be asked
-  /// (Certified::first_hit); for them the columns hold no answer.
+  /// (Certified::first_hit); their outcome is `undecided`, and their other columns hold no answer.
   void first_hits(const QueryColumns& queries, const FlightColumns& flights,
                   std::vector<std::size_t>& uncertain, int jobs = 1) const;
 

@@ -72,7 +72,7 @@ inline double scaled_limit(double limit, int exponent) {
 template <class Fly>
 void Engine::first_hit_by(const Query& query, double max_time, Answer& answer, const Fly& fly) const {
   answer.clear();
-  if (auto flaw = flaw_of(query, scene_)) {
+  if (auto flaw = flaw_of(query, scene_, max_time)) {
     answer = Answer::error(*flaw);
     return;
   }

@@ -8,16 +8,20 @@
 #include <string>
 #include <vector>
 
+#include <lorentz/oracle.hpp>
 #include <lorentz/pimpl.hpp>
 #include <lorentz/rational.hpp>
 
 namespace lorentz::oracle {
 
+/// The most bits that numbers may have.
+inline constexpr long kMostBits = 1L << 26;
+
 /// How far to follow the particle, and what to report besides the itinerary.
 struct Journey {
   std::optional<std::uint64_t> collisions;  ///< at most this many collisions
   std::optional<Rational> time;             ///< and none after this time
-  int digits = 17;                          ///< of times, positions and velocities
+  int digits = 17;                          ///< of times, positions and velocities; at most kMostDigits
   bool states = false;                      ///< also report position and velocity at each collision
   long first_bits = 0;                      ///< initial precision (0: from `digits`); it grows as needed,
   long most_bits = 0;                       ///< up to this precision (0: 2^18, or what `digits` need)
@@ -78,8 +82,8 @@ class Itinerary {
   using OnCollision = std::function<bool(const CertifiedCollision&)>;
 
   /// Calls `on_collision` for each collision, in order, as soon as all its digits are certain. If the
-  /// callback returns false, the journey ends there (as `collisions`). Throws InputError if v = 0, if no
-  /// digits are requested, if the time is not above 0, or if nothing ends the journey.
+  /// callback returns false, the journey ends there (as `collisions`). Throws InputError if v = 0, if
+  /// digits or bits are out of range, if the time is not finite and above 0, or if nothing ends the journey.
   Arrival follow(const Start& start, const Journey& journey, const OnCollision& on_collision = {}) const;
 
  private:
@@ -92,7 +96,8 @@ class Itinerary {
 /// with certified itineraries.
 class RoundedItinerary {
  public:
-  /// `scene` and `start` are as for Itinerary and Itinerary::follow. Requires bits >= 2.
+  /// `scene` and `start` are as for Itinerary and Itinerary::follow. Throws InputError
+  /// if they have a flaw, or if `bits` is below 2 or above kMostBits.
   RoundedItinerary(const RationalScene& scene, const Start& start, long bits);
   RoundedItinerary(RoundedItinerary&&) noexcept;
   RoundedItinerary& operator=(RoundedItinerary&&) noexcept;

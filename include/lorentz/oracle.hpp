@@ -12,6 +12,9 @@
 
 namespace lorentz::oracle {
 
+/// The most decimal digits that can be asked for.
+inline constexpr int kMostDigits = 100'000;
+
 /// What to compute besides the obstacle and the time.
 struct Request {
   int digits = 0;                  ///< significant decimal digits of the time, rounded half to even; 0: none
@@ -63,7 +66,7 @@ class Oracle {
 
   /// The exact answer: `hit` (with the time correctly rounded to binary64), `inside` or `never`. With a time
   /// limit it is `later` if nothing is entered before the limit. For an invalid query (flaw_of) it is
-  /// `error`.
+  /// `error`. Throws InputError if digits are below 0 or above kMostDigits.
   Answer first_hit(const Query& query, const Request& request = {}) const;
 
   /// True if x lies inside no obstacle; a point on the surface is not inside. Throws InputError if x is not

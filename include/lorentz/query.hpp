@@ -2,6 +2,7 @@
 // times are in units in which x + t v is the particle's position.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -19,9 +20,10 @@ struct Query {
   std::optional<ObstacleId> from;
 };
 
-/// What is wrong with a query in this scene, or nothing if it is valid: the numbers are finite, v != 0, and
-/// `from` names an atom that exists.
-std::optional<std::string> flaw_of(const Query& query, const Scene& scene);
+/// What is wrong with a query in this scene, or nothing if it is valid: the numbers are finite, v != 0, `from`
+/// names an atom that exists, and the limit, if there is one, is not NaN.
+std::optional<std::string> flaw_of(const Query& query, const Scene& scene,
+                                   double max_time = std::numeric_limits<double>::infinity());
 
 /// Returns the query or the obstacle if it is valid in this scene; otherwise throws InputError.
 const Query& checked(const Query& query, const Scene& scene);

@@ -26,6 +26,7 @@ using Rational = std::variant<double, Fraction>;
 /// "0x1.8p-1" (of at most 53 bits). Nothing for any other text, or for an exponent beyond 10^4.
 std::optional<Rational> rational_from(std::string_view text);
 
+/// True for a finite number above zero, whose denominator is above zero, too.
 bool is_positive(const Rational& number);
 
 /// scale * sqrt(root) + shift, which is as much as starts need. A rational number has no root.

@@ -48,11 +48,11 @@ struct Scene {
 bool is_crystal(const Scene& scene);
 
 /// The numbers of components of vectors and cells: of a scene, or of a dimension if all lattices are
-/// crystals.
+/// crystals. Throws InputError if the dimension is neither 2 nor 3.
 class Components {
  public:
-  Components(int dimension) : dimension_(dimension) {}
-  Components(const Scene& scene) : dimension_(scene.dimension) {
+  Components(int dimension) : dimension_(checked_dimension(dimension)) {}
+  Components(const Scene& scene) : Components(scene.dimension) {
     if (is_crystal(scene)) return;
     for (const Lattice& lattice : scene.lattices) ranks_.push_back(lattice.rank(dimension_));
   }
@@ -64,6 +64,8 @@ class Components {
   }
 
  private:
+  static int checked_dimension(int dimension);
+
   int dimension_;
   std::vector<int> ranks_;  ///< one for each lattice; empty if all are crystals
 };
@@ -90,7 +92,8 @@ std::optional<std::string> flaw_of(const Scene& scene);
 /// Everything that takes a scene calls this first, once.
 const Scene& checked(const Scene& scene);
 
-/// The unit square (d = 2) or cubic (d = 3) lattice with one ball of this radius at the origin.
+/// The unit square (d = 2) or cubic (d = 3) lattice with one ball of this radius at the origin. Throws
+/// InputError for another dimension.
 Scene unit_scene(int dimension, double radius);
 
 /// True if the scene is one unit square or cubic lattice with one ball centred at the origin, and its

@@ -106,6 +106,7 @@ class Trajectory {
   /// InputError if the scene or the start is invalid (flaw_of), UnsupportedError if sizes are out of range.
   Trajectory(const Engine& engine, const Scene& scene, const Query& start,
              Precision precision = Precision::binary64);
+  Trajectory(const Engine&& temporary, const Scene&, const Query&, Precision = Precision::binary64) = delete;
 
   /// The same, with a function that answers the queries.
   Trajectory(AskFirstHit ask, const Scene& scene, const Query& start,
@@ -118,8 +119,8 @@ class Trajectory {
   const Particle& state() const { return particle_; }
 
   /// Replaces the state, for example by that of another trajectory in this scene, to continue it. Low parts
-  /// make a start of more than 53 bits possible. Throws InputError if the state names an obstacle that does
-  /// not exist, or has no velocity or speed_squared.
+  /// make a start of more than 53 bits possible. Throws InputError, which names the member, if the state
+  /// names an obstacle that does not exist, or if a number is not finite or out of range.
   void set_state(const Particle& particle);
 
   /// Makes one collision, unless it would come after the time `until`. In that case the particle moves to its
@@ -162,11 +163,12 @@ class Trajectory {
 /// The state at the start of a query. Throws as Trajectory's constructor does.
 Particle particle_at(const Scene& scene, const Query& start, Precision precision = Precision::binary64);
 
-/// The position of a particle in the scene's coordinates, rounded.
+/// The position of a particle in the scene's coordinates, rounded. Throws InputError if the state names an
+/// obstacle that does not exist.
 Vec place_of(const Scene& scene, const Particle& particle);
 
 /// The vector from one particle's position to the other's, rounded once, and so exact even if both are far
-/// from the origin.
+/// from the origin. Throws as place_of does.
 Vec displacement(const Scene& scene, const Particle& from, const Particle& to);
 
 }  // namespace lorentz

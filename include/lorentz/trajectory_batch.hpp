@@ -25,6 +25,7 @@ class Particles {
  public:
   /// `engine` must be the scene's, and must outlive this object. Throws what Trajectory throws.
   Particles(const Batch& engine, const Scene& scene, Precision precision = Precision::binary64);
+  Particles(const Batch&& temporary, const Scene&, Precision = Precision::binary64) = delete;
   ~Particles();
   Particles(Particles&&) noexcept;
   Particles& operator=(Particles&&) noexcept;

@@ -87,13 +87,15 @@ struct ExcusedAnswer {
 /// Cost: negligible if the two answers agree, otherwise 100 us and more.
 class Judge {
  public:
-  /// Throws InputError if the scene is invalid (flaw_of) or has dependent vectors (dependence_in).
+  /// Throws InputError if the scene is invalid (flaw_of) or has dependent vectors (dependence_in), or if the
+  /// claim's tolerance is below zero or NaN.
   explicit Judge(const Scene& scene, const Claim& claim = {});
   Judge(Judge&&) noexcept;
   Judge& operator=(Judge&&) noexcept;
   ~Judge();
 
-  /// `exact` is the oracle's answer to the query without a time limit.
+  /// `exact` is the oracle's answer to the query without a time limit. Throws InputError if `ulps` is below
+  /// zero or NaN.
   Judgement judge(const Query& query, const Answer& exact, const Answer& given,
                   double ulps = kDefaultUlps) const;
 

@@ -26,11 +26,11 @@ void Certified::first_hit(const Query& query, const Request& request, Answer& an
 // the last bit.
 bool Certified::answer_fast(const Query& query, const Request& request, Answer& answer,
                             StageTally* tally) const {
-  if (auto flaw = flaw_of(query, scene_)) {
+  const double max_time = request.max_time.value_or(std::numeric_limits<double>::infinity());
+  if (auto flaw = flaw_of(query, scene_, max_time)) {
     answer = Answer::error(*flaw);
     return true;
   }
-  const double max_time = request.max_time.value_or(std::numeric_limits<double>::infinity());
   Flight flight = fast_->fly(query, max_time, Reduction::Time::rounded);
   if (flight.outcome == Outcome::undecided) return false;
   if (flight.outcome == Outcome::hit && !flight.time_is_rounded) return false;

@@ -1,5 +1,7 @@
 #include <lorentz/certified_batch.hpp>
 
+#include <algorithm>
+
 #include <lorentz/errors.hpp>
 
 namespace lorentz::oracle {
@@ -13,16 +15,15 @@ void CertifiedBatch::first_hits(const QueryColumns& queries, const FlightColumns
   if (const auto flaw = flaw_of(queries, flights, dimension_)) throw InputError(*flaw);
   if (queries.size() > 0 && (flights.time.empty() || flights.time_is_rounded.empty()))
     throw InputError("the columns time and time_is_rounded are needed");
+  if (batch_)
+    batch_->fly(queries, flights, Batch::Time::rounded, jobs);
+  else
+    std::ranges::fill(flights.outcome.first(queries.size()), Outcome::undecided);
   uncertain.clear();
-  if (!batch_) {
-    for (std::size_t i = 0; i < queries.size(); ++i) uncertain.push_back(i);
-    return;
-  }
-  batch_->fly(queries, flights, Batch::Time::rounded, jobs);
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const Outcome outcome = flights.outcome[i];
-    if (outcome == Outcome::undecided || (outcome == Outcome::hit && !flights.time_is_rounded[i]))
-      uncertain.push_back(i);
+    Outcome& outcome = flights.outcome[i];
+    if (outcome == Outcome::hit && !flights.time_is_rounded[i]) outcome = Outcome::undecided;
+    if (outcome == Outcome::undecided) uncertain.push_back(i);
   }
 }
 

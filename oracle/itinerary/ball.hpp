@@ -2,7 +2,11 @@
 // exact arithmetic gives for all numbers in the balls of its operands. Private to oracle/itinerary.
 #pragma once
 
+#if __has_include(<arb.h>)
 #include <arb.h>
+#else  // from FLINT 3 on
+#include <flint/arb.h>
+#endif
 
 #include <array>
 #include <concepts>

@@ -94,8 +94,11 @@ Itinerary::~Itinerary() = default;
 
 Arrival Itinerary::follow(const Start& start, const Journey& journey, const OnCollision& on_collision) const {
   checked(start, impl_->scene);
-  if (journey.digits < 1) throw InputError("digits: needs 1 or more");
-  if (journey.time && !is_positive(*journey.time)) throw InputError("time: must be above zero");
+  if (journey.digits < 1 || journey.digits > kMostDigits)
+    throw InputError("digits: needs from 1 to " + std::to_string(kMostDigits));
+  for (const long bits : {journey.first_bits, journey.most_bits})
+    if (bits < 0 || bits > kMostBits) throw InputError("bits: needs from 0 to " + std::to_string(kMostBits));
+  if (journey.time && !is_positive(*journey.time)) throw InputError("time: must be finite and above zero");
   if (!journey.collisions && !journey.time && !journey.stop && !on_collision)
     throw InputError("journey: give it collisions, a time or a way to stop; else it never ends");
   return impl_->scene.dimension == 2 ? follow_in<2>(impl_->scene, start, journey, on_collision)

@@ -67,7 +67,7 @@ class Rounded final : public RoundedItinerary::Impl {
 
 RoundedItinerary::RoundedItinerary(const RationalScene& scene, const Start& start, long bits) {
   checked(start, checked(scene));
-  if (bits < 2) throw InputError("bits: needs 2 or more");
+  if (bits < 2 || bits > kMostBits) throw InputError("bits: needs from 2 to " + std::to_string(kMostBits));
   if (scene.dimension == 2)
     impl_ = std::make_unique<Rounded<2>>(scene, start, bits);
   else

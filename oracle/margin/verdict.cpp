@@ -2,10 +2,19 @@
 
 #include <cmath>
 
+#include <lorentz/errors.hpp>
 #include "oracle/margin/departure.hpp"
 #include "oracle/margin/excused.hpp"
 
 namespace lorentz::oracle {
+
+namespace {
+
+void check_tolerance(double ulps) {
+  if (!(ulps >= 0)) throw InputError("ulps: must not be below zero or NaN");
+}
+
+}  // namespace
 
 struct Judge::Impl {
   PerturbedScene scene;
@@ -64,12 +73,16 @@ struct Judge::Impl {
 
 Judge::Judge(const Scene& scene, const Claim& claim)
     : impl_(
-          std::make_unique<const Impl>(Impl{PerturbedScene(scene, claim.precision), claim.time_tolerance})) {}
+          std::make_unique<const Impl>(Impl{PerturbedScene(scene, claim.precision), claim.time_tolerance})) {
+  if (claim.time_tolerance && !(*claim.time_tolerance >= 0))
+    throw InputError("time_tolerance: must not be below zero or NaN");
+}
 Judge::Judge(Judge&&) noexcept = default;
 Judge& Judge::operator=(Judge&&) noexcept = default;
 Judge::~Judge() = default;
 
 Judgement Judge::judge(const Query& query, const Answer& exact, const Answer& given, double ulps) const {
+  check_tolerance(ulps);
   if (exact.outcome == Outcome::error) return {Verdict::error};
   switch (given.outcome) {
     case Outcome::undecided:
@@ -103,6 +116,7 @@ Judgement Judge::judge(const Query& query, const Answer& exact, const Answer& gi
 
 std::optional<std::vector<ExcusedAnswer>> Judge::excused(const Query& query, const Answer& exact, double ulps,
                                                          std::size_t most) const {
+  check_tolerance(ulps);
   return impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
     return excused_answers<D>(perturbed, exact, ulps, most);
   });

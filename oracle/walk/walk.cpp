@@ -24,6 +24,7 @@
 #include <vector>
 
 #include <lorentz/errors.hpp>
+#include <lorentz/pimpl.hpp>
 
 namespace lorentz::oracle {
 namespace {
@@ -331,7 +332,8 @@ Walk::Walk(Scene scene, std::int64_t max_cells) : scene_(std::move(scene)), max_
 }
 
 Answer Walk::first_hit(const Query& query, double max_time) const {
-  if (auto flaw = flaw_of(query, scene_)) return Answer::error(*flaw);
+  if (scene_.lattices.empty()) throw_moved_from();
+  if (auto flaw = flaw_of(query, scene_, max_time)) return Answer::error(*flaw);
   std::vector<AtomWalk> walks;
   for (int l = 0; l < static_cast<int>(scene_.lattices.size()); ++l)
     for (int a = 0; a < static_cast<int>(scene_.lattices[l].atoms.size()); ++a) {

@@ -120,6 +120,7 @@ void add_answer(json::Members& object, const Answer& answer, const Components& c
 }
 
 void append_scene_line(std::string& out, const Scene& scene) {
+  (void)Components(scene);
   json::append(out, [&](json::Members& line) {
     line.add("scene", [&](json::Members& object) { add_scene(object, scene); });
   });

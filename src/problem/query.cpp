@@ -1,5 +1,6 @@
 #include <lorentz/query.hpp>
 
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -27,7 +28,8 @@ std::optional<std::string> from_flaw(const ObstacleId& from, const Scene& scene)
 
 }  // namespace
 
-std::optional<std::string> flaw_of(const Query& query, const Scene& scene) {
+std::optional<std::string> flaw_of(const Query& query, const Scene& scene, double max_time) {
+  if (std::isnan(max_time)) return "max_time is not a number; without a limit it is infinity";
   if (!all_finite(query.x)) return "x is not finite";
   if (!all_finite(query.v)) return "v is not finite";
   if (scene.dimension == 2 && (query.x[2] != 0 || query.v[2] != 0))

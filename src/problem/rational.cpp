@@ -104,9 +104,10 @@ std::optional<Surd> surd_from(std::string_view text) {
 }
 
 bool is_positive(const Rational& number) {
-  if (const double* value = std::get_if<double>(&number)) return *value > 0;
-  const std::string numerator = std::get<Fraction>(number).numerator.decimal();
-  return numerator != "0" && !numerator.starts_with('-');
+  if (const double* value = std::get_if<double>(&number)) return *value > 0 && std::isfinite(*value);
+  const auto above_zero = [](const Integer& n) { return n != Integer(0) && !n.decimal().starts_with('-'); };
+  const auto& [numerator, denominator] = std::get<Fraction>(number);
+  return above_zero(numerator) && above_zero(denominator);
 }
 
 namespace {

@@ -68,9 +68,15 @@ bool is_crystal(const Scene& scene) {
                      [](const Lattice& lattice) { return lattice.missing == 0; });
 }
 
+int Components::checked_dimension(int dimension) {
+  if (dimension != 2 && dimension != 3)
+    throw InputError("dimension: needs 2 or 3, not " + std::to_string(dimension));
+  return dimension;
+}
+
 Scene unit_scene(int dimension, double radius) {
   Scene scene;
-  scene.dimension = dimension;
+  scene.dimension = Components(dimension).of_vectors();
   Lattice lattice;
   for (int i = 0; i < dimension; ++i) lattice.vectors[i][i] = 1;
   lattice.atoms.push_back(Atom{{}, radius, {}});

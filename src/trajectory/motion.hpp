@@ -38,6 +38,7 @@ class Places {
   Particle at(const Query& start, Precision precision) const;
   /// Throws InputError if the particle's state is not valid in this scene.
   void check(const Particle& particle) const;
+  void check_obstacle(const Particle& particle) const;
   Point<Wide> centre(std::int32_t lattice, std::int32_t atom, const std::array<std::int64_t, 3>& cell) const;
   Point<Wide> place(const Particle& particle) const;
 

@@ -82,15 +82,21 @@ Particle Places::at(const Query& start, Precision precision) const {
   return particle;
 }
 
+void Places::check_obstacle(const Particle& particle) const {
+  checked(ObstacleId{particle.lattice, particle.atom, {}}, scene_);
+}
+
 void Places::check(const Particle& particle) const {
-  const auto number = [](std::int32_t i, std::size_t count) {
-    return i >= 0 && static_cast<std::size_t>(i) < count;
-  };
-  bool good = number(particle.lattice, scene_.lattices.size()) &&
-              number(particle.atom, scene_.lattices[particle.lattice].atoms.size());
-  for (const double x : particle.offset) good &= std::fabs(x) <= kLargest;
-  good &= in_range(particle.velocity) && particle.speed_squared > 0 && std::isfinite(particle.time);
-  if (!good) throw InputError("this is not a state of a particle in this scene");
+  check_obstacle(particle);
+  const bool leaves_plane = scene_.dimension == 2 &&
+                            (particle.offset[2] != 0 || particle.velocity[2] != 0 || particle.cell[2] != 0);
+  if (leaves_plane) throw InputError("state: the third component must be zero in the plane");
+  for (const double x : particle.offset)
+    if (!(std::fabs(x) <= kLargest)) throw InputError("state: offset must be within 2^100");
+  if (!in_range(particle.velocity)) throw InputError("state: velocity must be between 2^-100 and 2^100");
+  if (!(particle.speed_squared > 0 && std::isfinite(particle.speed_squared)))
+    throw InputError("state: speed_squared must be finite and above zero");
+  if (!std::isfinite(particle.time)) throw InputError("state: time is not finite");
 }
 
 Point<Wide> Places::centre(std::int32_t lattice, std::int32_t atom,
@@ -111,11 +117,14 @@ Particle particle_at(const Scene& scene, const Query& start, Precision precision
 }
 
 Vec place_of(const Scene& scene, const Particle& particle) {
-  return rounded(Places(scene).place(particle));
+  const Places places(scene);
+  places.check_obstacle(particle);
+  return rounded(places.place(particle));
 }
 
 Vec displacement(const Scene& scene, const Particle& from, const Particle& to) {
   const Places places(scene);
+  places.check_obstacle(from), places.check_obstacle(to);
   return rounded(plus(places.place(to), Wide(-1), places.place(from)));
 }
 

@@ -14,6 +14,7 @@ DiffusionReport::DiffusionReport(std::string scene_name, DiffusionPlan its_plan,
       plan(std::move(its_plan)),
       found(std::move(what_was_found)),
       random_walk(machta_zwanzig(plan.scene)),
+      mean_free_path(flights::mean_free_path_of(plan.scene).value),
       tail(flights::tail_of_long_paths(plan.scene, flights::Ensemble::uniform)) {}
 
 Estimate DiffusionReport::rate(const Displacement& at) const {
@@ -26,8 +27,14 @@ std::string DiffusionReport::lines_of_coefficient() const {
   const std::string estimate =
       fmt::format("{:.6g} +- {:.1e}", found.coefficient.value, found.coefficient.error);
   constexpr const char* kWhat = "(MSD(T) - MSD(T/2)) / (d T)";
+  const std::string too_short =
+      is_too_short() ? fmt::format(
+                           "T is {:.3g} mean free paths: too short for this to be near its limit, and the "
+                           "error does not show it; {:g} or more are needed\n",
+                           plan.time / *mean_free_path, kLeastPaths)
+                     : "";
   if (!has_corridors())
-    return fmt::format("D = {}, {}\n{}long free paths: {}\n", estimate, kWhat,
+    return fmt::format("D = {}, {}\n{}{}long free paths: {}\n", estimate, kWhat, too_short,
                        tail.open ? "" : "whether there is a D is not known\n", tail.remark);
   std::string text = fmt::format(
       "no D: corridors or planar channels are open, MSD ~ 2 C t ln t in the end\n{} = {}, which grows with "
@@ -36,7 +43,7 @@ std::string DiffusionReport::lines_of_coefficient() const {
   text += fmt::format("slope of MSD / t in ln t from T / 16 on: {:.4g} +- {:.1g}; theory, 2 C: {}\n",
                       found.logarithmic.value, found.logarithmic.error,
                       tail.constant ? fmt::format("{:.6g}", 2 * *tail.constant) : "not known");
-  return text + "(heavy tails: these errors are too small)\n";
+  return text + too_short + "(heavy tails: these errors are too small)\n";
 }
 
 std::string DiffusionReport::lines_of_theory() const {
@@ -94,7 +101,8 @@ std::string DiffusionReport::json() const {
                          if_uniform(at.from_velocity.error));
                }));
     report.add("open", tail.open, "D", if_bounded(found.coefficient.value), "D_error",
-               if_bounded(found.coefficient.error), "machta_zwanzig", finite(random_walk), "logarithmic",
+               if_bounded(found.coefficient.error), "too_short", is_too_short(), "machta_zwanzig",
+               has_corridors() ? std::nullopt : finite(random_walk), "logarithmic",
                finite(found.logarithmic.value), "logarithmic_error", finite(found.logarithmic.error), "two_C",
                has_corridors() && tail.constant ? finite(2 * *tail.constant) : std::nullopt);
   });

@@ -16,7 +16,8 @@ struct DiffusionReport {
   DiffusionPlan plan;
   Diffusion found;
   std::optional<double> random_walk;  ///< Machta and Zwanzig's coefficient
-  flights::Tail tail;                 ///< of free paths from uniform starts, t -> infinity
+  std::optional<double> mean_free_path;
+  flights::Tail tail;  ///< of free paths from uniform starts, t -> infinity
 
   /// False if no particle got beyond its first obstacle, or no group was finished. When particles ended early
   /// and no collision is counted, the remaining particles are those that hit nothing.
@@ -27,7 +28,10 @@ struct DiffusionReport {
   std::string json() const;  ///< one object on one line
 
  private:
+  static constexpr double kLeastPaths = 20;
   bool is_uniform() const { return plan.from == flights::Ensemble::uniform; }
+  /// True if the particles have hardly collided, so that the MSD does not grow linearly yet.
+  bool is_too_short() const { return mean_free_path && plan.time < kLeastPaths * *mean_free_path; }
   bool has_corridors() const { return tail.open.value_or(false); }
   Estimate rate(const Displacement& at) const;  ///< MSD / (2 d t)
   std::string lines_of_coefficient() const;

@@ -64,6 +64,7 @@ class Group {
 // Estimates of all exponents, of their sum, and of the sum of the first `half`.
 Lyapunov told(const std::vector<Sums>& groups, int exponents, int half) {
   Lyapunov result;
+  result.particles = groups.size() * kParticles;
   std::vector<double> part, sum(groups.size()), growing(groups.size()), flight;
   for (const Sums& group : groups) {
     flight.push_back(group.values[kFlight] / static_cast<double>(group.collisions));

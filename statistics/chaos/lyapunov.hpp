@@ -32,6 +32,7 @@ struct Lyapunov {
   Estimate sum;                ///< of the exponents in `map`
   Estimate growing;            ///< the sum of the positive exponents, the first d - 1
   Estimate mean_flight;  ///< as measured; with open corridors its error is too small (docs/free_paths.md)
+  std::uint64_t particles = 0;   ///< in the groups that are counted
   std::uint64_t collisions = 0;  ///< counted
   std::uint64_t stopped = 0;     ///< particles that ended (undecided, or in a corner); their part counts
   bool is_whole = true;          ///< false: the work was stopped

@@ -30,9 +30,9 @@ Estimate LyapunovReport::flow(std::size_t k) const {
 }
 
 std::string LyapunovReport::table() const {
-  std::string text = fmt::format("scene {}, seed {}\n{} collisions of {} particles",
-                                 report::name_with_radius(scene, plan.scene), plan.seed, found.collisions,
-                                 kGroups * kParticles);
+  std::string text =
+      fmt::format("scene {}, seed {}\n{} collisions of {} particles",
+                  report::name_with_radius(scene, plan.scene), plan.seed, found.collisions, found.particles);
   if (found.stopped > 0) text += fmt::format(", {} of which ended on the way", found.stopped);
   text += '\n' + remark_on_end(found.is_whole) + '\n';
   report::Table table({"exponent", "a collision", "+-", "a unit of time", "+-"});
@@ -45,7 +45,7 @@ std::string LyapunovReport::table() const {
   if (plan.scene.dimension == 3)
     text += fmt::format("sum of those above zero, a collision: {}\n", plus_minus(found.growing));
   if (limit)
-    text += fmt::format("theory, r -> 0: {:.7g} a collision, {}; here {:+.2g} of it\n", *limit,
+    text += fmt::format("theory, r -> 0: {:.7g} a collision, {}; off by {:+.2g}\n", *limit,
                         plan.scene.dimension == 2 ? "the exponent above zero" : "the sum of those above zero",
                         found.growing.value - *limit);
   text += fmt::format("mean free path {}; ", plus_minus(found.mean_flight));
@@ -67,7 +67,7 @@ std::string LyapunovReport::json() const {
   const std::optional<double> radius = report::common_radius(plan.scene);
   return json::line_of([&](json::Members& report) {
     report.add("scene", scene, "radius", radius, "seed", plan.seed, "collisions", found.collisions,
-               "particles", kGroups * kParticles, "stopped", found.stopped, "whole", found.is_whole);
+               "particles", found.particles, "stopped", found.stopped, "whole", found.is_whole);
     report.add("exponents", json::objects(found.map, [&](json::Members& one, const Estimate& map) {
                  const auto k = static_cast<std::size_t>(&map - found.map.data());
                  one.add("map", finite(map.value), "map_error", finite(map.error), "flow",

@@ -19,8 +19,10 @@ using json::finite;
 namespace {
 
 // The result of a test of fit. With only one bin nothing is tested.
-std::string text_of(const ChiSquared& fit) {
-  if (!fit.p_value) return "not tested: too few flights for two bins";
+std::string text_of(const ChiSquared& fit, double smooth_from) {
+  if (!fit.p_value)
+    return smooth_from > 0 ? fmt::format("not tested: hardly a flight is longer than {:g}", smooth_from)
+                           : "not tested: too few flights for two bins";
   const double p = *fit.p_value;
   return fmt::format("p = {}", p < 1e-300 ? "below 1e-300"
                                : p < 1e-4 ? fmt::format("{:.1e}", p)
@@ -56,13 +58,15 @@ std::string lines_of_theory(const FlightsFindings& found) {
   std::string text;
   if (!found.no_law.empty()) text += fmt::format("no law is known: {}\n", found.no_law);
   for (const FlightsFindings::Fit& fit : found.fits) {
-    text += fmt::format("law: {} ({})\n", fit.law.name, fit.law.when);
+    const double from = fit.law.smooth_from;
+    text += fmt::format("law: {} ({}{})\n", fit.law.name, fit.law.when,
+                        from > 0 ? fmt::format("; tested beyond t = {:g}", from) : "");
     text += fit.as_it_is.p_value ? fmt::format(
                                        "  chi squared {:.1f}, {} degrees: {}; of 1.02 times its "
                                        "survival: {}\n",
-                                       fit.as_it_is.statistic, fit.as_it_is.degrees, text_of(fit.as_it_is),
-                                       text_of(fit.two_percent_more))
-                                 : fmt::format("  {}\n", text_of(fit.as_it_is));
+                                       fit.as_it_is.statistic, fit.as_it_is.degrees,
+                                       text_of(fit.as_it_is, from), text_of(fit.two_percent_more, from))
+                                 : fmt::format("  {}\n", text_of(fit.as_it_is, from));
   }
   if (found.exponent)
     text += fmt::format(

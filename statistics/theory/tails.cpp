@@ -84,7 +84,7 @@ Tail tail_of_shut(const Scene& scene) {
                      " radians, though not exactly: as good as open until t is about one over that");
   }
   if (scene.dimension == 2) return tail_without("none: every path ends");
-  Tail tail = tail_without("no planar channel is open: it falls faster than with one");
+  Tail tail = tail_without("no planar channel is open: the density falls faster than with one");
   tail.constant = 0;
   return tail;
 }

@@ -1,7 +1,9 @@
 #!/bin/sh
-# ./run golden-archive makes the same bytes twice, and what is in it verifies by itself. $1: the project's folder.
+# ./run golden-archive makes the same bytes twice, what is in it verifies by itself, and no link leads out of it.
+# $1: the project's folder.
 set -eu
 cd "$1"
+links=$PWD/tests/house/links_test.py
 archive=$(./run golden-archive)
 first=$(sha256sum "$archive")
 touch docs/golden.md # of another time
@@ -13,4 +15,5 @@ tar -xzf "$archive" -C "$folder"
 cd "$folder"/lorentz-golden-*
 (cd data/golden && sha256sum --quiet -c SHA256SUMS)
 python3 data/check.py data/golden/ties.ndjson data/golden/smoke/smoke.ndjson
-test -f examples/golden/runner.py && test -f docs/golden.md && test -f LICENSE
+python3 "$links" . 7
+test -f README.md && test -f examples/golden/runner.py && test -f docs/golden.md && test -f LICENSE

@@ -127,6 +127,11 @@ def answers_of(lorentz, engine, path, records, work):
     return answers
 
 
+def text_cells(answer):
+    """The same answer, whose integers are all decimal strings."""
+    return answer | {"cell": [str(n) for n in answer["cell"]]} if "cell" in answer else answer
+
+
 def require_statuses(programs, work):
     """Status 0 if all answers are right, 1 if all are missing or have no outcome; a time that is not a number is wrong."""
     path, answers = SETS / "smoke/smoke.ndjson", work / "answers"
@@ -142,10 +147,16 @@ def require_statuses(programs, work):
             count = sum(line.split()[1] == word for line in done.stdout.splitlines())
             if done.returncode != status or count < least:
                 sys.exit(f"{language}: status {done.returncode}, {count} {word}: {done.stderr}")
+    blank, cut = work / "blank", work / "cut"
+    blank.write_text("\n" + "".join(json.dumps(text_cells(answer)) + "\n \n" for answer in right))
+    cut.write_text(json.dumps(right[0]) + '\n{"id":"')
+    gone = work / "not-there"
     for language, command in programs.items():
-        for files in ([path, work / "not-there"], [work / "not-there", path]):
-            if subprocess.run([*command, *files], capture_output=True, check=False).returncode == 0:
-                sys.exit(f"{language}: status 0 although a file is not there")
+        for words, status in (([path, gone], 2), ([gone, blank], 2), ([path, cut], 2), ([cut, blank], 2), ([path, blank, "17"], 2),
+                              ([path, blank, "0"], 2), ([path, blank, "x"], 2), ([path], 2), ([path, blank, "16"], 0)):
+            done = subprocess.run([*command, *words], capture_output=True, text=True, check=False)
+            if done.returncode != status or (cut in words and f"{cut}:2" not in done.stderr):
+                sys.exit(f"{language}, {words}: status {done.returncode}, {done.stderr}")
 
 
 def main():

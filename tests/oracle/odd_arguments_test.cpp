@@ -10,7 +10,9 @@
 #include <lorentz/certificate_check.hpp>
 #include <lorentz/certified.hpp>
 #include <lorentz/certified_batch.hpp>
+#include <lorentz/collision.hpp>
 #include <lorentz/errors.hpp>
+#include <lorentz/exchange.hpp>
 #include <lorentz/horizon.hpp>
 #include <lorentz/itinerary.hpp>
 #include <lorentz/margin.hpp>
@@ -196,6 +198,18 @@ TEST_CASE("Odd queries are errors, of every class that answers", "[oracle][odd]"
     query.from = ObstacleId{lattice, atom, {0, 0, 0}};
     return query;
   };
+  // A limit that is not a number is no limit and no time.
+  oracle::Request request;
+  request.max_time = kNaN;
+  CHECK(oracle.first_hit(kQuery, request).outcome == Outcome::error);
+  CHECK(certified.first_hit(kQuery, request).outcome == Outcome::error);
+  CHECK(walk.first_hit(kQuery, kNaN).outcome == Outcome::error);
+  for (const std::string name : {"classical", "published", "reduction"})
+    CHECK(make_engine(name, scene)->first_hit(kQuery, kNaN).outcome == Outcome::error);
+  for (const int digits : {-1, oracle::kMostDigits + 1, std::numeric_limits<int>::max()}) {
+    CHECK_THROWS_WITH(oracle.first_hit(kQuery, {digits, false, {}}), Catch::Contains("digits"));
+    CHECK_THROWS_WITH(certified.first_hit(kQuery, {digits, false, {}}), Catch::Contains("digits"));
+  }
   for (const auto& [name, ask] : all) {
     INFO(name);
     for (const Query& query :
@@ -206,6 +220,101 @@ TEST_CASE("Odd queries are errors, of every class that answers", "[oracle][odd]"
       CHECK(ask(query).outcome == Outcome::error);
     CHECK(ask(kQuery).outcome == Outcome::hit);
   }
+}
+
+TEST_CASE("Odd columns are refused, and odd rows are errors of their own", "[oracle][odd]") {
+  const Scene scene = unit_scene(2, 0.25);
+  const Batch batch(scene);
+  const oracle::CertifiedBatch certified(scene);
+  QueryTable table;
+  for (int i = 0; i < 19; ++i) table.push_back(kQuery, i % 3 == 1 ? kNaN : i % 3 == 2 ? 0.001 : kInf);
+  FlightTable flights;
+  flights.resize(table.size());
+  std::vector<std::size_t> uncertain;
+  batch.fly(table.columns(), flights.columns());
+  certified.first_hits(table.columns(), flights.columns(), uncertain);
+  CHECK(uncertain.empty());
+  for (std::size_t i = 0; i < table.size(); ++i)
+    CHECK(flights[i].outcome == (i % 3 == 1 ? Outcome::error : i % 3 == 2 ? Outcome::later : Outcome::hit));
+  const std::vector<double> numbers(20);
+  const std::vector<std::int32_t> integers(20);
+  const std::vector<std::int64_t> cells(20);
+  struct BadColumn {
+    const char* words;
+    std::function<void(QueryColumns&, FlightColumns&)> change;
+  };
+  const BadColumn bad[] = {
+      {"x[0] is missing", [](QueryColumns& q, FlightColumns&) { q.x[0] = {}; }},
+      {"x[0] has 18 rows, not 19", [](QueryColumns& q, FlightColumns&) { q.x[0] = q.x[0].first(18); }},
+      {"x[1] is missing", [](QueryColumns& q, FlightColumns&) { q.x[1] = {}; }},
+      {"v[1] has 20 rows, not 19", [&](QueryColumns& q, FlightColumns&) { q.v[1] = numbers; }},
+      {"max_time has 1 rows", [](QueryColumns& q, FlightColumns&) { q.max_time = q.max_time.first(1); }},
+      {"from_lattice is missing",
+       [&](QueryColumns& q, FlightColumns&) { q.from_atom = std::span(integers).first(19); }},
+      {"from_lattice is missing",
+       [&](QueryColumns& q, FlightColumns&) {
+         for (auto& column : q.from_cell) column = std::span(cells).first(19);
+       }},
+      {"outcome is missing", [](QueryColumns&, FlightColumns& f) { f.outcome = {}; }},
+      {"cell[1] has 3 rows", [](QueryColumns&, FlightColumns& f) { f.cell[1] = f.cell[1].first(3); }}};
+  for (const BadColumn& one : bad) {
+    QueryColumns queries = table.columns();
+    FlightColumns told = flights.columns();
+    one.change(queries, told);
+    INFO(one.words);
+    CHECK_THROWS_WITH(batch.fly(queries, told), Catch::Contains(one.words));
+    CHECK_THROWS_WITH(certified.first_hits(queries, told, uncertain), Catch::Contains(one.words));
+  }
+  // In a scene beyond the fast engine no row is answered.
+  const oracle::CertifiedBatch tiny(unit_scene(2, 1e-30));
+  tiny.first_hits(table.columns(), flights.columns(), uncertain);
+  CHECK(uncertain.size() == table.size());
+  for (std::size_t i = 0; i < table.size(); ++i) CHECK(flights[i].outcome == Outcome::undecided);
+  QueryColumns plane = table.columns();
+  plane.x[2] = plane.v[2] = {};
+  CHECK(plane.query(0, 3).x == kQuery.x);
+}
+
+TEST_CASE("Odd numbers and obstacles are refused by functions that take them", "[oracle][odd]") {
+  const Scene scene = unit_scene(2, 0.25);
+  for (const int dimension : {-1, 0, 1, 4, 30, std::numeric_limits<int>::max()}) {
+    CHECK_THROWS_WITH(unit_scene(dimension, 0.25), Catch::Contains("dimension"));
+    CHECK_THROWS_WITH(Components(dimension), Catch::Contains("dimension"));
+    Scene odd = scene;
+    odd.dimension = dimension;
+    std::string line;
+    CHECK_THROWS_WITH(append_scene_line(line, odd), Catch::Contains("dimension"));
+  }
+  const oracle::Judge judge(scene);
+  const Answer exact = oracle::Oracle(scene).first_hit(kQuery);
+  for (const double odd : {kNaN, -1.0}) {
+    CHECK_THROWS_WITH(judge.judge(kQuery, exact, Answer::never(), odd), Catch::Contains("ulps"));
+    CHECK_THROWS_WITH(judge.excused(kQuery, exact, odd, 5), Catch::Contains("ulps"));
+    CHECK_THROWS_WITH(oracle::Judge(scene, {NumberFormat::binary64, odd}), Catch::Contains("time_tolerance"));
+  }
+  const Particle good = particle_at(scene, kQuery);
+  Trajectory trajectory(AskFirstHit(), scene, kQuery);
+  struct BadState {
+    const char* words;
+    std::function<void(Particle&)> change;
+  };
+  const BadState bad[] = {{"names lattice 7", [](Particle& p) { p.lattice = 7; }},
+                          {"names atom -1", [](Particle& p) { p.atom = -1; }},
+                          {"third component", [](Particle& p) { p.offset[2] = 3; }},
+                          {"offset", [](Particle& p) { p.offset[0] = kNaN; }},
+                          {"velocity", [](Particle& p) { p.velocity = {}; }},
+                          {"speed_squared", [](Particle& p) { p.speed_squared = kInf; }},
+                          {"time", [](Particle& p) { p.time = kNaN; }}};
+  for (const BadState& one : bad) {
+    Particle odd = good;
+    one.change(odd);
+    CHECK_THROWS_WITH(trajectory.set_state(odd), Catch::Contains(one.words));
+    if (odd.lattice == good.lattice && odd.atom == good.atom) continue;
+    CHECK_THROWS_AS(place_of(scene, odd), InputError);
+    CHECK_THROWS_AS(displacement(scene, good, odd), InputError);
+    CHECK_THROWS_AS(collision_detail(scene, kQuery, Answer::hit({odd.lattice, odd.atom, {}}, 1)), InputError);
+  }
+  CHECK_THROWS_AS(collision_detail(scene, kQuery, Answer::never()), InputError);
 }
 
 TEST_CASE("Odd obstacles, places and answers are refused by what looks closely at a flight",
@@ -292,6 +401,7 @@ TEST_CASE("All classes move and assign, and what was moved from says that it is 
   const auto first = [&](const auto& one) { return time(one.first_hit(kQuery)); };
   require_moves(oracle::Oracle(scene), oracle::Oracle(other), first);
   require_moves(oracle::Certified(scene), oracle::Certified(other), first);
+  require_moves(oracle::Walk(scene), oracle::Walk(other), first);
   require_moves(Reduction(scene), Reduction(other), [](const auto& one) { return one.fly(kQuery).time; });
   require_moves(oracle::Margins(scene), oracle::Margins(other),
                 [&](const auto& one) { return one.approach(kQuery, exact.obstacle).gap; });
@@ -375,5 +485,18 @@ TEST_CASE("Odd starts of itineraries are refused", "[oracle][odd]") {
                       Catch::StartsWith("start: ") && Catch::Contains(one.words));
     CHECK_THROWS_WITH(oracle::RoundedItinerary(scene, odd, 53), Catch::StartsWith("start: "));
   }
-  CHECK_THROWS_WITH(oracle::RoundedItinerary(scene, start(), 1), Catch::Contains("bits"));
+  for (const long bits : {1L, 0L, -1L, oracle::kMostBits + 1, 1L << 62})
+    CHECK_THROWS_WITH(oracle::RoundedItinerary(scene, start(), bits), Catch::Contains("bits"));
+  const auto refused = [&](const char* words, const auto& change) {
+    oracle::Journey odd = journey;
+    change(odd);
+    CHECK_THROWS_WITH(itinerary.follow(start(), odd), Catch::Contains(words));
+  };
+  for (const Rational& time : {Rational(kInf), Rational(kNaN), Rational(-1.0), Rational(0.0),
+                               Rational(nothing), Rational(Fraction{1, -2}), Rational(Fraction{-1, -2})})
+    refused("time: must be finite and above zero", [&](oracle::Journey& j) { j.time = time; });
+  for (const int digits : {0, -1, oracle::kMostDigits + 1})
+    refused("digits", [&](oracle::Journey& j) { j.digits = digits; });
+  for (const long bits : {-1L, 1L << 40}) refused("bits", [&](oracle::Journey& j) { j.first_bits = bits; });
+  refused("bits", [](oracle::Journey& j) { j.most_bits = 1L << 40; });
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
 
 namespace lorentz {
@@ -41,6 +42,8 @@ double length_of_any(const Vec& a) {
 }  // namespace
 
 Detail collision_detail(const Scene& scene, const Query& query, const Answer& answer) {
+  if (!answer.time) throw InputError("answer: needs a hit with a time");
+  checked(answer.obstacle, checked(scene));
   const Vec centre = centre_of(scene, answer.obstacle);
   const double speed = length_of_any(query.v);
   Detail detail;

@@ -113,9 +113,10 @@ void Batch::Inside::tell(const StretchBuffer& buffer, const FlightColumns& fligh
 void Batch::Inside::fly_single(const QueryColumns& queries, std::size_t i, const FlightColumns& flights,
                                Time time) const {
   const Query query = queries.query(i, scene.dimension);
+  const double max_time = queries.max_time.empty() ? HUGE_VAL : queries.max_time[i];
   Flight flight;
-  if (!flaw_of(query, scene))
-    flight = single.fly(query, queries.max_time.empty() ? HUGE_VAL : queries.max_time[i], time);
+  if (!flaw_of(query, scene, max_time))
+    flight = single.fly(query, max_time, time);
   else
     flight.outcome = Outcome::error;
   flights.outcome[i] = flight.outcome;
@@ -147,7 +148,9 @@ std::size_t Batch::Inside::fly(const QueryColumns& queries, const FlightColumns&
     tell(buffer, told, stretch);
     for (std::size_t i = 0; i < stretch.left_count; ++i) fly_single(asked, stretch.left_over[i], told, time);
     left += stretch.left_count;
-    // Lanes do not check that the obstacle that is left belongs to an atom of the scene.
+    // Lanes check neither limits nor that the obstacle that is left belongs to an atom of the scene.
+    for (std::size_t i = 0; i < asked.max_time.size(); ++i)
+      if (std::isnan(asked.max_time[i])) fly_single(asked, i, told, time);
     for (std::size_t i = 0; i < asked.from_lattice.size(); ++i)
       if (asked.from_lattice[i] >= 0 && !has_atom(asked.from_lattice[i], asked.from_atom[i]))
         fly_single(asked, i, told, time);

@@ -1,6 +1,8 @@
 // Parts of columns, and tables that own their columns.
 #include <lorentz/batch.hpp>
 
+#include <algorithm>
+
 namespace lorentz {
 namespace {
 
@@ -14,16 +16,25 @@ class ColumnCheck {
  public:
   explicit ColumnCheck(std::size_t size) : size_(size) {}
 
+  /// A column of queries has one row for each.
   template <class T>
-  void see(std::span<T> column, const std::string& name, bool needed) {
-    if (flaw_ || column.size() >= size_ || (column.empty() && !needed)) return;
-    flaw_ = column.empty() ? "the column " + name + " is missing"
-                           : "the column " + name + " has " + std::to_string(column.size()) + " rows, not " +
-                                 std::to_string(size_);
+  void asked(std::span<T> column, const std::string& name, bool needed) {
+    if (column.size() != size_) see(column.size(), name, needed);
+  }
+  template <class T>
+  void told(std::span<T> column, const std::string& name, bool needed) {
+    if (column.size() < size_) see(column.size(), name, needed);
   }
   const std::optional<std::string>& flaw() const { return flaw_; }
 
  private:
+  void see(std::size_t rows, const std::string& name, bool needed) {
+    if (flaw_ || (rows == 0 && !needed)) return;
+    flaw_ = rows == 0 ? "the column " + name + " is missing"
+                      : "the column " + name + " has " + std::to_string(rows) + " rows, not " +
+                            std::to_string(size_);
+  }
+
   std::size_t size_;
   std::optional<std::string> flaw_;
 };
@@ -32,11 +43,12 @@ class ColumnCheck {
 
 Query QueryColumns::query(std::size_t i, int dimension) const {
   Query query;
-  for (int k = 0; k < dimension; ++k) query.x[k] = x[k][i], query.v[k] = v[k][i];
+  const auto at = [i](const auto& column) { return column.empty() ? 0 : column[i]; };
+  for (int k = 0; k < dimension; ++k) query.x[k] = at(x[k]), query.v[k] = at(v[k]);
   if (from_lattice.empty() || from_lattice[i] < 0) return query;
   query.from.emplace();
   query.from->lattice = from_lattice[i], query.from->atom = from_atom[i];
-  for (int k = 0; k < dimension; ++k) query.from->cell[k] = from_cell[k][i];
+  for (int k = 0; k < dimension; ++k) query.from->cell[k] = at(from_cell[k]);
   return query;
 }
 
@@ -63,24 +75,26 @@ FlightColumns FlightColumns::part(std::size_t begin) const {
 }
 
 std::optional<std::string> flaw_of(const QueryColumns& queries, const FlightColumns& flights, int dimension) {
-  ColumnCheck check(queries.size());
-  const bool any_from = !queries.from_lattice.empty();
+  const bool any_from =
+      !queries.from_lattice.empty() || !queries.from_atom.empty() ||
+      std::ranges::any_of(queries.from_cell, [](const auto& column) { return !column.empty(); });
+  ColumnCheck check(std::max({queries.x[0].size(), queries.x[1].size(), queries.v[0].size()}));
+  check.asked(queries.max_time, "max_time", false);
+  check.asked(queries.from_lattice, "from_lattice", any_from);
+  check.asked(queries.from_atom, "from_atom", any_from);
   for (int k = 0; k < dimension; ++k) {
     const std::string component = "[" + std::to_string(k) + "]";
-    check.see(queries.x[k], "x" + component, true);
-    check.see(queries.v[k], "v" + component, true);
-    check.see(queries.from_cell[k], "from_cell" + component, any_from);
+    check.asked(queries.x[k], "x" + component, true);
+    check.asked(queries.v[k], "v" + component, true);
+    check.asked(queries.from_cell[k], "from_cell" + component, any_from);
   }
-  for (int k = 0; k < 3; ++k) check.see(flights.cell[k], "cell[" + std::to_string(k) + "]", false);
-  check.see(queries.max_time, "max_time", false);
-  check.see(queries.from_lattice, "from_lattice", false);
-  check.see(queries.from_atom, "from_atom", any_from);
-  check.see(flights.outcome, "outcome", true);
-  check.see(flights.stage, "stage", false);
-  check.see(flights.time_is_rounded, "time_is_rounded", false);
-  check.see(flights.lattice, "lattice", false);
-  check.see(flights.atom, "atom", false);
-  check.see(flights.time, "time", false);
+  for (int k = 0; k < 3; ++k) check.told(flights.cell[k], "cell[" + std::to_string(k) + "]", false);
+  check.told(flights.outcome, "outcome", true);
+  check.told(flights.stage, "stage", false);
+  check.told(flights.time_is_rounded, "time_is_rounded", false);
+  check.told(flights.lattice, "lattice", false);
+  check.told(flights.atom, "atom", false);
+  check.told(flights.time, "time", false);
   return check.flaw();
 }
 

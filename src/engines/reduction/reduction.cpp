@@ -103,7 +103,7 @@ inline void Reduction::fly(const Ray& ray, const AtomDirections* directions, dou
 }
 
 Flight Reduction::fly(const Query& query, double max_time, Time time) const {
-  assert(!flaw_of(query, scene()));
+  assert(!flaw_of(query, scene(), max_time));
   Flight flight;
   const ScaledVelocity velocity(query.v);
   fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr, query.v}, nullptr,
@@ -125,7 +125,7 @@ Reduction::Direction Reduction::direction(const Vec& v) const {
 
 Flight Reduction::fly(const Direction& direction, const Vec& x, const ObstacleId* from, double max_time,
                       Time time) const {
-  assert(!flaw_of(from ? Query{x, direction.v_, *from} : Query{x, direction.v_, {}}, scene()));
+  assert(!flaw_of(from ? Query{x, direction.v_, *from} : Query{x, direction.v_, {}}, scene(), max_time));
   Flight flight;
   fly(Ray{x, direction.scaled_v_, from, direction.v_}, direction.atoms_.get(),
       scaled_limit(max_time, direction.exponent_), time, flight);

@@ -2,9 +2,7 @@
 // flights COUNT SEED draws flights; flights reads such lines and prints what the engine says and what it computed on
 // the way, as the model does (flights.ml).
 //
-// g++ -std=c++20 -O2 -fno-fast-math -ffp-contract=off -fno-tree-vectorize -I. -Iinclude tests/engines/model/flights.cpp
-//   src/engines/reduction/*.cpp src/engines/base/*.cpp src/problem/*.cpp -o engine_flights
-// engine_flights 1000000 1 > drawn; engine_flights < drawn > engine; proof/flights < drawn > model; cmp engine model
+// `make -C proof same_bits FLIGHTS=1000000` compares the two on a million flights; ./run proof on fewer.
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
