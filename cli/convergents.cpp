@@ -59,9 +59,7 @@ Command convergents_command() {
           {"--json", &options->json, "", "one JSON object, the remainders also as exact fractions"},
       },
 
-      "Example:\n  lorentz convergents 0.01745240643728351 0.9998476951563913\nA negative slope goes behind "
-      "--:"
-      "\n  lorentz convergents -- -0.618",
+      "Examples:\n  lorentz convergents 0.01745240643728351 0.9998476951563913\n  lorentz convergents -0.618",
       [options] { return act(*options); }};
 }
 

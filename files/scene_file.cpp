@@ -51,6 +51,7 @@ std::string find_scene(const std::string& name_or_file) {
   std::vector<std::string> names;
   for (const CatalogueEntry& entry : catalogue()) names.push_back(entry.name);
   const std::string shown = shortened(name_or_file, 200);
+  if (fs::is_directory(status)) throw FileError(shown + ": is a directory; a scene is a file");
   if (names.empty())
     throw FileError(fmt::format("{}: no such file, and no catalogue of scenes (looked for in {})", shown,
                                 data_places("scenes")));

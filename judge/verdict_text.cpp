@@ -200,19 +200,21 @@ std::string wrong_text(const question::Tally& t) {
   return wrong == 0 ? "none wrong" : percent(wrong, judged_of(t)) + " wrong";
 }
 
-// "none wrong of 46 000 drawn; hard cases: 4.7 % wrong (of 3 210); of all 10 % undecided"
+// "none wrong of 46 000 drawn; hard cases: 4.7 % wrong (of 3 210); 10 % of all undecided"
 std::string how_bad_text(const JudgeReport& report) {
   const question::Tally drawn = sum_of(report.rows, false), hard = sum_of(report.rows, true),
                         all = report.total();
   if (judged_of(all) == 0)
     return all.queries > 0 ? "nothing was judged: all is unsupported" : "nothing was asked";
+  if (all.missing == judged_of(all))
+    return fmt::format("nothing was judged: {} questions, and no answer", grouped(all.missing));
   std::vector<std::string> parts;
   if (judged_of(drawn) > 0)
     parts.push_back(fmt::format("{} of {} drawn", wrong_text(drawn), grouped(judged_of(drawn))));
   if (judged_of(hard) > 0)
     parts.push_back(fmt::format("hard cases: {} (of {})", wrong_text(hard), grouped(judged_of(hard))));
   const auto add = [&](std::size_t number, const char* what) {
-    if (number > 0) parts.push_back("of all " + percent(number, judged_of(all)) + ' ' + what);
+    if (number > 0) parts.push_back(percent(number, judged_of(all)) + " of all " + what);
   };
   add(all.missing, "without an answer");
   add(all.wrong_time, "with a wrong time");

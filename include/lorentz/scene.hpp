@@ -48,7 +48,8 @@ struct Scene {
 bool is_crystal(const Scene& scene);
 
 /// The numbers of components of vectors and cells: of a scene, or of a dimension if all lattices are
-/// crystals. Throws InputError if the dimension is neither 2 nor 3.
+/// crystals. The dimension 0 stands for a scene that is not known yet: vectors without components. Throws
+/// InputError for other dimensions than 0, 2 and 3.
 class Components {
  public:
   Components(int dimension) : dimension_(checked_dimension(dimension)) {}

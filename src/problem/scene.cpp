@@ -68,15 +68,24 @@ bool is_crystal(const Scene& scene) {
                      [](const Lattice& lattice) { return lattice.missing == 0; });
 }
 
-int Components::checked_dimension(int dimension) {
+namespace {
+
+void check_dimension(int dimension) {
   if (dimension != 2 && dimension != 3)
     throw InputError("dimension: needs 2 or 3, not " + std::to_string(dimension));
+}
+
+}  // namespace
+
+int Components::checked_dimension(int dimension) {
+  if (dimension != 0) check_dimension(dimension);
   return dimension;
 }
 
 Scene unit_scene(int dimension, double radius) {
+  check_dimension(dimension);
   Scene scene;
-  scene.dimension = Components(dimension).of_vectors();
+  scene.dimension = dimension;
   Lattice lattice;
   for (int i = 0; i < dimension; ++i) lattice.vectors[i][i] = 1;
   lattice.atoms.push_back(Atom{{}, radius, {}});

@@ -142,7 +142,7 @@ TEST_CASE("Radii and cells beyond the engine are named, certified does them all 
   CHECK_FALSE(Reduction::beyond(square(0.5)));
   CHECK_FALSE(Reduction::beyond(square(1e-12)));
   CHECK_FALSE(Reduction::beyond(cubic(1e-7)));
-  CHECK(Reduction::beyond(square(0.6)).value() == "does radii below half the shortest lattice vector only");
+  CHECK(Reduction::beyond(square(0.6)).value() == "does radii up to half the shortest lattice vector only");
   CHECK(Reduction::beyond(square(9e-13)).value() ==
         "does radii from 1e-12 of the shortest lattice vector only");
   CHECK(Reduction::beyond(cubic(9e-8)).value() == "does radii from 1e-7 of the shortest lattice vector only");

@@ -403,7 +403,7 @@ TEST_CASE("Flights: bad input is named, with the remedy", "[flights][flights_com
       {"--engine bacth", "batch"},
       {"--engine cmd:cat", "lorentz sample"},
       {"--radius 0.75",
-       "the engine batch does radii below half the shortest lattice vector only; certified does"},
+       "the engine batch does radii up to half the shortest lattice vector only; certified does"},
       {"--radius 0.75 --engine certified", "no free start"},
       {"--radius -1", "--radius"},
       {"--scene sqare", "square"},

@@ -138,7 +138,7 @@ TEST_CASE("Three lines come first: what, how bad, and the worst of it", "[judge]
       .place = place, .query = query, .exact = place->exact(query), .where = "here"};
   report.findings.push_back(finding(question, judge::Cause::wrong_time, judge::Severity::wrong_time));
   report.findings.push_back(finding(question, judge::Cause::never_for_hit, judge::Severity::wrong));
-  CHECK(begins("none wrong of 40 000 drawn; hard cases: 4.7 % wrong (of 3 210); of all 1.1 % undecided",
+  CHECK(begins("none wrong of 40 000 drawn; hard cases: 4.7 % wrong (of 3 210); 1.1 % of all undecided",
                "says never where an obstacle is hit (entered by up to 0.5 of its radii)"));
   CHECK(contains(
       report.json(),

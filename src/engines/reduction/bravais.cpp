@@ -204,7 +204,7 @@ std::string beyond(const Bravais& bravais, const Metric& metric) {
     return "does not do lattices of so different spacings, or so flat a cell";
   if (metric.shape && !(2 * bravais.radius <= shortest))
     return "does ellipsoids only that do not overlap their own translates";
-  if (!(2 * bravais.radius <= shortest)) return "does radii below half the shortest lattice vector only";
+  if (!(2 * bravais.radius <= shortest)) return "does radii up to half the shortest lattice vector only";
   if (!(std::max({reach[0], reach[1], reach[2]}) < 1 - 2 * kMaxHomeError))
     return "does not do obstacles that reach so far into a cell so flat";
   if (bravais.rank == bravais.dimension && !(bravais.radius >= smallest * shortest))
