@@ -34,9 +34,9 @@ struct Request {
 ///             "Oracle equals walk on ellipsoids, alone and mixed with balls"
 ///  2. A scene and a query may be written in another form: another basis of the lattice, axes exchanged or
 ///     reflected, another origin, other units, another order of lattices and atoms. If binary64 holds the
-///     numbers of that form exactly, the answer is the same: the cell in the new basis, the time in the new
-///     unit. But the order (lattice, atom, cell) may differ in that form. So if obstacles are entered at the
-///     same time, or several contain x, the answer may name a different one of them.
+///     numbers of that form exactly, the answer is the same, with the cell in the new basis and the time in
+///     the new unit. But the order (lattice, atom, cell) may differ in that form. So if obstacles are entered
+///     at the same time, or several contain x, the answer may name a different one of them.
 ///     held by "Rewording: the oracle says the same in other words",
 ///             "The square and the cube look the same from all their sides"
 ///  3. The decimal digits and the details of Request are correctly rounded, too.
@@ -48,11 +48,11 @@ struct Request {
 /// Units: as in Query: lengths are in the scene's unit, and times are such that x + t v is the particle's
 /// position.
 ///
-/// Cost: 4 to 7 us (2D) and 15 to 30 us (3D) for each atom of the scene at ordinary radii. It grows with the
-/// logarithms of 1/r, of the length of the flight, and of the ratio of the largest to the smallest number of
-/// the scene and the query (docs/speed.md). There is one exception: if very many obstacles contain x (10^10
-/// of them, in a lattice both dense and skewed), it can take long to find the first of them in the order
-/// (lattice, atom, cell). Allocates.
+/// Cost: 4 to 7 us (2D) and 15 to 30 us (3D) for each atom of the scene at ordinary radii. The cost grows
+/// with the logarithms of 1/r, of the length of the flight, and of the ratio of the largest to the smallest
+/// number of the scene and the query (docs/speed.md). There is one exception: if very many obstacles contain
+/// x (10^10 of them, in a lattice both dense and skewed), it can take long to find the first of them in the
+/// order (lattice, atom, cell). Allocates.
 ///
 /// Source: this project. oracle/README.md says why it can be trusted.
 class Oracle {

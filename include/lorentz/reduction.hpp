@@ -25,8 +25,8 @@ struct Task;            // internal: a query with its limit, in the engine's uni
 ///             "Grazing hits: every stage decides, and none wrongly",
 ///             "Among ellipsoids the reduction engine agrees with the oracle on drawn and constructed cases",
 ///             "Limits within ulps of the time: every decided answer is right, alone and in a batch"
-///  2. With Time::rounded, the time is correctly rounded if Flight::time_is_rounded is true. For all other
-///     times no error bound is promised (see "Errors of times" below).
+///  2. If `fly` is called with Time::rounded (below) and sets Flight::time_is_rounded, the time is correctly
+///     rounded. For all other times no error bound is promised (see "Errors of times" below).
 ///     held by "Times of drawn flights err by few ulps, those said to be rounded not at all"
 ///  3. The bits are the same on every processor that computes in IEEE 754 binary64, with a fused multiply-add
 ///     or without. This requires that the compiler does not fuse a product and a sum by itself, and does not
@@ -40,10 +40,10 @@ struct Task;            // internal: a query with its limit, in the engine's uni
 ///     held by "A flight allocates nothing, in any model"
 ///  6. Any number of threads may use one engine, and share a direction.
 ///     held by "Many threads may ask one engine, oracle, walk and judge"
-///  7. On the unit square and cubic lattices random queries are decided. There is one exception: queries
-///     whose exact answer is `never`, because the components of v have few bits. The test asks 3000 queries
-///     at each of 8 radii in the square lattice, the smallest 1e-12. In the cubic lattice it does so at 6
-///     radii, the smallest 1e-7.
+///  7. On the unit square and cubic lattices random queries are decided. There is one exception: a query may
+///     be undecided if its exact answer is `never`. (Few random queries have this answer.) The test asks 3000
+///     queries at each of 8 radii in the square lattice, the smallest 1e-12. In the cubic lattice it does so
+///     at 6 radii, the smallest 1e-7.
 ///     held by "Nothing is undecided on drawn queries, down to the smallest radii"
 ///
 /// Units: lengths are in the scene's unit; times are such that x + t v is the particle's position. |v| may
@@ -78,8 +78,8 @@ class Reduction : public Engine {
   enum class Processor { this_one, without_fma };
 
   /// Throws InputError if the scene is invalid (flaw_of), UnsupportedError if the engine does not support it.
-  /// Does not decide whether the lattice vectors are independent, which takes exact arithmetic:
-  /// oracle::dependence_in does.
+  /// Does not check that the lattice vectors are independent: oracle::dependence_in does, in exact
+  /// arithmetic.
   explicit Reduction(const Scene& scene, Processor processor = Processor::this_one);
   ~Reduction() override;
   Reduction(Reduction&&) noexcept;
@@ -103,8 +103,9 @@ class Reduction : public Engine {
   ///
   /// With a finite limit `max_time`, the outcome is `later` if nothing is entered before the limit, whether
   /// or not something is entered afterwards; `never` does not occur. The exact time of the hit is compared
-  /// with the limit. (Rounding may move the reported time to the limit or beyond.) If double-double cannot
-  /// tell whether the exact time is before the limit, the outcome is `undecided`.
+  /// with the limit. (Rounding may move the reported time to the limit or beyond.) If arithmetic in
+  /// double-double (sums of two binary64) cannot tell whether the exact time is before the limit, the outcome
+  /// is `undecided`.
   Flight fly(const Query& query, double max_time = std::numeric_limits<double>::infinity(),
              Time time = Time::close) const;
 
@@ -140,8 +141,8 @@ class Reduction::Direction {
   std::shared_ptr<const AtomDirections> atoms_;
 };
 
-/// Turn a flight into an Answer, the form that all engines share. set_answer writes into an existing answer,
-/// which must be new or cleared (Answer::clear); so the memory of the answer can be used again.
+/// Turn a flight into an Answer, the form that all engines share. set_answer writes into the caller's Answer,
+/// which must be new or cleared. Answer::clear keeps the memory, so one Answer can serve many flights.
 Answer answer_of(const Flight& flight);
 void set_answer(const Flight& flight, Answer& answer);
 
