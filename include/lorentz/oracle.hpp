@@ -54,7 +54,7 @@ struct Request {
 /// x (10^10 of them, in a lattice both dense and skewed), it can take long to find the first of them in the
 /// order (lattice, atom, cell). Allocates.
 ///
-/// Source: this project. oracle/README.md says why it can be trusted.
+/// Source: this project. In the sources, oracle/README.md says why it can be trusted.
 class Oracle {
  public:
   /// Throws InputError if the scene is invalid (flaw_of) or has dependent vectors (dependence_in). Finds

@@ -44,7 +44,7 @@ std::optional<Surd> surd_from(std::string_view text);
 
 using RationalVec = std::array<Rational, 3>;
 
-/// Atom, Lattice and Scene (problem.hpp) in rational numbers.
+/// Atom, Lattice and Scene (scene.hpp) in rational numbers.
 struct RationalAtom {
   RationalVec position{};
   Rational radius = 0.0;
@@ -64,7 +64,7 @@ struct RationalScene {
   std::vector<RationalLattice> lattices;
 };
 
-/// What is wrong with a scene, or nothing if it is valid; as for Scene (problem.hpp).
+/// What is wrong with a scene, or nothing if it is valid; as for Scene (scene.hpp).
 std::optional<std::string> flaw_of(const RationalScene& scene);
 
 /// Returns the scene if it is valid; otherwise throws InputError.

@@ -19,7 +19,7 @@ enum class Verdict {
   wrong,        ///< another answer, which no such movement makes right
   undecided,    ///< the engine answered that it does not know, or `later`
   unsupported,  ///< the engine answered that it does not support this kind of query
-  error,        ///< the engine answered that the query is invalid, or it failed
+  error,        ///< the query is invalid, or the engine answered that it is, or failed
   missing       ///< no answer was given
 };
 
