@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import dataclass
 from itertools import product
 from numbers import Real
@@ -21,10 +22,23 @@ SEED = 20161115
 
 
 class Estimate(NamedTuple):
-    """A number and its standard error. Either is None if it is not known."""
+    """A number and its standard error. Either is None if it is not known. ``float()`` and formats such as
+    ``f"{e:.3f}"`` take the number alone; ``print`` shows both, rounded to the first digit of the error."""
 
     value: float | None
     error: float | None
+
+    def __float__(self) -> float:
+        return math.nan if self.value is None else float(self.value)
+
+    def __format__(self, form: str) -> str:
+        return format(float(self), form) if form else str(self)
+
+    def __str__(self) -> str:
+        if self.value is None or not self.error or not 1e-12 < self.error < 1e12:
+            return " +- ".join("unknown" if number is None else f"{number:.6g}" for number in self)
+        places = -int(f"{self.error:.0e}"[2:])
+        return " +- ".join(f"{round(number, places):.{max(places, 0)}f}" for number in (self.value, self.error))
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -54,7 +68,7 @@ class Lyapunov:
         return row
 
     def __repr__(self) -> str:
-        told = ", ".join(f"{value:.6g} +- {error:.1g}" for value, error in self.exponents)
+        told = ", ".join(map(str, self.exponents))
         return f"Lyapunov({told} a collision)"
 
 
@@ -88,7 +102,7 @@ class Diffusion:
     def __repr__(self) -> str:
         told = "no coefficient, for corridors are open"
         if self.coefficient is not None:
-            told = f"D = {self.coefficient.value:.6g} +- {self.coefficient.error:.1g}"
+            told = f"D = {self.coefficient}"
         return f"Diffusion({told}; {self.report['particles']} particles followed until t = {self.times[-1]:g})"
 
 
@@ -202,8 +216,8 @@ def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLi
 
     Returns:
         A dict for each scene and radius: ``scene`` as given, ``radius``, and the single numbers and texts of
-        the result (``value`` if the function returns one number). ``pandas.DataFrame(scan(..))`` makes a
-        table of them.
+        the result (``value`` if the function returns one number, ``value`` and ``error`` if an `Estimate`).
+        ``pandas.DataFrame(scan(..))`` makes a table of them.
     """
     if not callable(function):
         raise Error(f"function: {function!r} is not a function")
@@ -230,6 +244,8 @@ def _report(text: str) -> dict[str, Any]:
 
 
 def _row_of(found: Any) -> dict[str, Any]:
+    if isinstance(found, Estimate):
+        return found._asdict()
     if isinstance(found, dict):
         return single_numbers(found)
     return dict(found.to_dict()) if hasattr(found, "to_dict") else {"value": found}

@@ -26,6 +26,18 @@ def test_diffusion_between_small_gaps():
     assert open_ways.coefficient is None and open_ways.report["open"] and "scene" not in open_ways.report
 
 
+def test_estimates():
+    estimate = lorentz.Estimate(0.0843017, 0.00042)
+    assert float(estimate) == 0.0843017 and f"{estimate:.3f}" == "0.084" and str(estimate) == "0.0843 +- 0.0004"
+    for value, error, text in ((0.084, 0.00096, "0.084 +- 0.001"), (12345.6, 250.0, "12300 +- 200"), (3, 1, "3 +- 1"),
+                               (2.0, 0.0, "2 +- 0"), (1.5, None, "1.5 +- unknown"), (None, None, "unknown +- unknown")):
+        assert str(lorentz.Estimate(value, error)) == text
+    one = lorentz.diffusion("triangular", 0.45, count=1, max_time=5)
+    assert repr(one).startswith("Diffusion(D = 0.267845 +- unknown; 1 particle")
+    rows = lorentz.scan(lambda scene, radius: lorentz.Estimate(radius, 0.1), "square", [0.2, 0.3])
+    assert rows[1] == {"scene": "square", "radius": 0.3, "value": 0.3, "error": 0.1}
+
+
 def test_more_bits_last_longer():
     found = lorentz.survival("square", 0.1, count=30, bits=[53, 106, 200], seed=SEED)
     means = [sum(right) / 30 for right in found.right.values()]
