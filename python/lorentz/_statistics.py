@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import warnings
 from dataclasses import dataclass
 from itertools import product
 from numbers import Real
@@ -81,8 +82,9 @@ class Diffusion:
 
     @property
     def coefficient(self) -> Estimate | None:
-        """D in <|x|^2> ~ 2 d D t; None if corridors are open, because D then does not exist."""
-        return None if self.report["D"] is None else Estimate(self.report["D"], self.report["D_error"])
+        """D in <|x|^2> ~ 2 d D t; None if corridors are open, because D then does not exist. A RuntimeWarning
+        says if ``max_time`` is too short for D, below 20 mean free paths."""
+        return self._coefficient()
 
     @property
     def times(self) -> Floats:
@@ -100,10 +102,16 @@ class Diffusion:
         return single_numbers(self.report) | last
 
     def __repr__(self) -> str:
-        told = "no coefficient, for corridors are open"
-        if self.coefficient is not None:
-            told = f"D = {self.coefficient}"
+        coefficient = self._coefficient()
+        told = "no coefficient, for corridors are open" if coefficient is None else f"D = {coefficient}"
         return f"Diffusion({told}; {self.report['particles']} particles followed until t = {self.times[-1]:g})"
+
+    def _coefficient(self) -> Estimate | None:
+        if self.report["D"] is None:
+            return None
+        if self.report.get("too_short"):
+            warnings.warn("max_time: is below 20 mean free paths, too short for D", RuntimeWarning, stacklevel=3)
+        return Estimate(self.report["D"], self.report["D_error"])
 
 
 @dataclass(frozen=True, repr=False, eq=False)

@@ -1,5 +1,8 @@
 """Statistics of trajectories say what the command line says, and what theory does."""
 
+import warnings
+from dataclasses import replace
+
 import lorentz
 import pytest
 
@@ -24,6 +27,17 @@ def test_diffusion_between_small_gaps():
     assert found.times[-1] == 100 and len(found.displacements) == len(found.times) == 17
     open_ways = lorentz.diffusion("square", 0.2, count=1000, max_time=20, seed=SEED)
     assert open_ways.coefficient is None and open_ways.report["open"] and "scene" not in open_ways.report
+
+
+def test_a_time_that_is_too_short_for_diffusion():
+    found = lorentz.diffusion("triangular", 0.45, count=100, max_time=50)
+    short = replace(found, report=found.report | {"too_short": True})
+    for told in (lambda: short.coefficient, lambda: repr(short)):
+        with pytest.warns(RuntimeWarning, match="max_time: .* too short") as seen:
+            told()
+        assert [warning.filename for warning in seen] == [__file__]
+    with warnings.catch_warnings(action="error"):
+        assert found.coefficient == replace(found, report=found.report | {"too_short": False}).coefficient and repr(found)
 
 
 def test_estimates():
