@@ -55,7 +55,8 @@ class Paths(Columns):
 
     def to_dict(self) -> dict[str, Array]:
         """One row for each kept collision, by particle: ``particle``, ``collision`` (from 1), and the columns
-        of the collision. ``place`` becomes ``place_0``, ``place_1`` .."""
+        of the collision. ``place`` becomes ``place_0``, ``place_1`` .. A particle without a kept collision has no
+        row; ``count`` and ``stop_code`` tell why."""
         kept = self.kept()
         happened = np.arange(self.time.shape[1]) < kept[:, None]
         particle, column = np.nonzero(happened)
