@@ -129,6 +129,8 @@ class Survival:
 
     def share(self, bits: int, collisions: int) -> float:
         """The share of starts with at least ``collisions`` right collisions in arithmetic of ``bits`` bits."""
+        if bits not in self.right:
+            raise Error(f"bits: {bits!r} is not one of {', '.join(map(str, self.right))}")
         right = self.right[bits]
         return sum(n >= collisions for n in right) / len(right)
 

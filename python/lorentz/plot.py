@@ -20,6 +20,7 @@ from matplotlib.collections import LineCollection, PatchCollection
 from matplotlib.patches import Ellipse
 
 from ._answers import Answers, Outcome
+from ._first_hit import floats_of
 from ._flights import FreePaths
 from ._lorentz import Error
 from ._numbers import finite
@@ -87,7 +88,11 @@ def trajectory(of: SceneLike, start: npt.ArrayLike, paths: Paths, particle: int 
     if not 0 <= particle < len(paths):
         raise Error(f"particle: there is no {particle}; there are {len(paths)}, from 0 on")
     place, kept = of if isinstance(of, Scene) else Scene(of), int(paths.kept()[particle])
-    starts = np.atleast_2d(np.asarray(start, float))
+    starts, dimension = np.atleast_2d(floats_of(start, "start")), paths.dimension
+    if place.dimension != dimension:
+        raise Error(f"paths: are in {dimension}D, the scene is in {place.dimension}D")
+    if starts.shape not in ((1, dimension), (len(paths), dimension)):
+        raise Error(f"start: has the shape {np.shape(start)}, needs ({dimension},) or ({len(paths)}, {dimension})")
     points = np.concatenate([starts[[particle if len(starts) > 1 else 0]], paths.place[particle, :kept]])
     if ax is None:
         ax = scene(of, _around(points)) if place.dimension == 2 else _met_in_space(place, paths[particle], kept)

@@ -106,6 +106,9 @@ def test_an_answer_can_be_left():
     first = lorentz.first_hit(scene, [[0.25, 0.0]], [[-1.0, 0.0]])[0]
     then = lorentz.first_hit(scene, [[0.25, 0.0]], [[-1.0, 0.0]], start_from=first)
     assert first.cell == (0, 0) and then[0].cell == (-1, 0)
+    answers = some_answers()[:4]
+    x, v = [[0.5, 0.5]] * 4, [[1, 0.3]] * 4
+    assert list(lorentz.first_hit(scene, x, v, start_from=list(answers))) == list(lorentz.first_hit(scene, x, v, start_from=answers))
 
 
 def test_radii_of_starts_are_those_of_their_flights():
