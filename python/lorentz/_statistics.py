@@ -17,7 +17,7 @@ from ._answers import Floats
 from ._flights import single_numbers
 from ._lorentz import Error
 from ._numbers import Number, finite, items, time_limit, whole, word
-from ._scene import Scene, SceneLike, native
+from ._scene import Scene, SceneLike, common_radius, native
 
 SEED = 20161115
 
@@ -225,9 +225,10 @@ def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLi
         options: further arguments of the function.
 
     Returns:
-        A dict for each scene and radius: ``scene`` as given, ``radius``, and the single numbers and texts of
-        the result (``value`` if the function returns one number, ``value`` and ``error`` if an `Estimate`).
-        ``pandas.DataFrame(scan(..))`` makes a table of them.
+        A dict for each scene and radius: ``scene`` as given, ``radius`` (without radii the scene's own, if
+        all balls have the same), and the single numbers and texts of the result (``value`` if the function
+        returns one number, ``value`` and ``error`` if an `Estimate`). ``pandas.DataFrame(scan(..))`` makes a
+        table of them.
     """
     if not callable(function):
         raise Error(f"function: {function!r} is not a function")
@@ -238,13 +239,15 @@ def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLi
     one = radii is None or isinstance(radii, (str, Real))
     sizes: list[Any] = [radii] if one else items(radii, "radii")
     for scene, radius in product(several, sizes):
+        row = {"scene": scene, "radius": radius}
         try:
-            row = _row_of(function(scene, radius, **options))
+            found = function(scene, radius, **options)
+            row |= ({"radius": common_radius(Scene(scene))} if radius is None else {}) | _row_of(found)
         except Error as error:
             if on_error == "raise":
                 raise
-            row = {"error": str(error)}
-        rows.append({"scene": scene, "radius": radius} | row)
+            row["error"] = str(error)
+        rows.append(row)
     return rows
 
 

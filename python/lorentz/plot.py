@@ -25,7 +25,7 @@ from ._flights import FreePaths
 from ._lorentz import Error
 from ._numbers import finite
 from ._paths import Paths
-from ._scene import Scene, SceneLike
+from ._scene import Scene, SceneLike, common_radius
 from ._statistics import Diffusion, Survival
 
 __all__ = ["displacements", "flights", "free_paths", "scene", "survival", "survival_function", "trajectory"]
@@ -168,20 +168,22 @@ def _check_kind(found: Any, kind: type) -> None:
 
 
 def _labelled(runs: Runs) -> list[tuple[FreePaths, str]]:
-    """Each run with its label: its radius if several runs have radii, else its number of flights."""
+    """Each run with its label: scene, radius, start, seed, engine, as far as they differ, or the number of flights."""
     several = [runs] if isinstance(runs, FreePaths) else list(runs)
     if not several or not all(isinstance(run, FreePaths) for run in several):
         raise Error("runs: needs what lorentz.flights returns, one or a list")
-    radii = [_radius(run.scene) for run in several]
-    if len(several) == 1 or None in radii:
-        return [(run, f"{run.count:.3g} flights") for run in several]
-    return [(run, f"r = {radius:g}") for run, radius in zip(several, radii)]
+    facts = [_facts(run, number) for number, run in enumerate(several, 1)]
+    telling = [k for k, first in enumerate(facts[0]) if any(one[k][0] != first[0] for one in facts)]
+    labels = [", ".join(one[k][1] for k in telling if one[k][1]) for one in facts]
+    return [(run, label or f"{run.count:.3g} flights") for run, label in zip(several, labels)]
 
 
-def _radius(of: Scene) -> float | None:
-    radii = {atom.get("radius") for lattice in of.to_dict()["lattices"] for atom in lattice["atoms"]}
-    radius = radii.pop()
-    return None if radii or radius is None else float(radius)
+def _facts(run: FreePaths, number: int) -> list[tuple[Any, str]]:
+    """What may tell a run from others: values to compare, with their texts."""
+    radius, seed, engine = common_radius(run.scene), run.report["seed"], run.report["engine"]
+    alike = run.scene if radius is None else Scene(run.scene, 1)  # whatever the radius is
+    return [(alike, run.scene._name or f"scene {number}"), (radius, "" if radius is None else f"r = {float(radius):g}"),
+            (run.start, run.start), (seed, f"seed {seed}"), (engine, engine)]
 
 
 def _colour(number: int) -> str:

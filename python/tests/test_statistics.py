@@ -69,7 +69,7 @@ def test_scans():
     assert [row["start"] for row in rows] == ["surface"] * 2 and "from" not in rows[0]
     assert [row["mean_free_path"] for row in rows] == [lorentz.mean_free_path(name, 0.2) for name in ("square", "triangular")]
     assert [row["horizon"] for row in lorentz.scan(lorentz.horizon, "triangular", [0.4, 0.45])] == ["infinite", "finite"]
-    assert lorentz.scan(lorentz.mean_free_path, "honeycomb")[0]["radius"] is None
+    assert [row["radius"] for row in lorentz.scan(lorentz.mean_free_path, ["honeycomb", "rock-salt"])] == [0.23, None]
     assert lorentz.scan(lorentz.mean_free_path, "square", 0.2) == lorentz.scan(lorentz.mean_free_path, "square", [0.2])
     marked = lorentz.scan(lorentz.lyapunov, "square", [0.2, 0.6], collisions=1000, on_error="mark")
     assert "exponent_1" in marked[0] and "radii below half" in marked[1]["error"]
