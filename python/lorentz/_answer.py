@@ -163,7 +163,13 @@ class Answer:
 
 def hit(time: float, cell: Any, lattice: int = 0, atom: int = 0) -> Answer:
     """The answer of an engine that found a first hit: its time and obstacle."""
-    return Answer("hit", *_obstacle(lattice, atom, cell), float(time))
+    try:
+        number = float(time)
+    except (TypeError, ValueError):
+        number = math.nan
+    if math.isnan(number):
+        raise Error(f"time: {time!r} is not a number")
+    return Answer("hit", *_obstacle(lattice, atom, cell), number)
 
 
 def inside(cell: Any, lattice: int = 0, atom: int = 0) -> Answer:

@@ -80,7 +80,7 @@ class Columns:
         raise TypeError(f"{type(self).__name__} are columns ({', '.join(self._NAMES)}); take one of them")
 
     def to_frame(self) -> Any:
-        """The rows as a pandas DataFrame with the columns of `to_dict`. pandas must be installed."""
+        """`to_dict` as a pandas DataFrame. pandas must be installed."""
         import pandas
 
         return pandas.DataFrame(self.to_dict())

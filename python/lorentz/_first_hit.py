@@ -11,7 +11,7 @@ from . import _lorentz
 from ._answer import Answer
 from ._answers import Answers, Floats, Outcome
 from ._lorentz import Error
-from ._numbers import integer, rational, whole, word
+from ._numbers import Obstacle, integer, rational, renamed, whole, word
 from ._scene import SceneLike, native
 
 #: The obstacles that queries leave: None, one obstacle (lattice, atom, cell) for all, columns of the three (a
@@ -46,6 +46,7 @@ class Engine:
     def __repr__(self) -> str:
         return f"Engine({self._engine.name!r}, {self._scene.dimension}D)"
 
+    @renamed("from", "start_from")
     def first_hit(self, x: npt.ArrayLike, v: npt.ArrayLike, *, max_time: npt.ArrayLike | None = None,
                   start_from: StartFrom = None, on_error: str = "raise", out: Answers | None = None) -> Answers:
         """As `lorentz.first_hit`, for this engine's scene.
@@ -174,6 +175,8 @@ def _columns(start_from: StartFrom, count: int, scene: Any) -> _Left | None:
         return _columns_of_answers(start_from)
     if isinstance(start_from, Answer):
         start_from = [start_from.obstacle] * count
+    if isinstance(start_from, list):
+        start_from = [_left(row) if isinstance(row, Answer) else row for row in start_from]
     try:
         if isinstance(start_from, (list, tuple)) and all(map(_is_obstacle_or_none, start_from)):
             return _columns_of_rows(list(start_from), count, scene)
@@ -194,6 +197,10 @@ def _columns_of_answers(answers: Answers) -> _Left:
              for row, cell in sorted(answers.large_cells.items()) if left[row] >= 0]
     left[[row for row, *_ in large]] = -1
     return left, answers.atom, answers.cell, large
+
+
+def _left(answer: Answer) -> Obstacle | None:
+    return answer.obstacle if answer.outcome == "hit" else None
 
 
 def _is_obstacle_or_none(row: Any) -> bool:

@@ -46,12 +46,14 @@ class FreePaths:
 
     @property
     def mean(self) -> float:
-        """The mean of the flights that end; nan if no flight ends."""
+        """The mean of the flights that end; nan if no flight ends. If the exact mean is infinite, as with open
+        corridors for ``uniform`` starts, ``report["mean_remark"]`` says so."""
         return _known(self.report["mean"])
 
     @property
     def mean_error(self) -> float:
-        """One standard error of the mean, statistical only; nan for fewer than two flights."""
+        """One standard error of the mean, statistical only; nan for fewer than two flights. It is too small
+        where the exact variance is infinite: ``report["mean_remark"]`` says so."""
         return _known(self.report["mean_error"])
 
     def survival_function(self) -> Floats:
@@ -78,7 +80,9 @@ class FreePaths:
         return {"start": row.pop("from")} | row
 
     def __repr__(self) -> str:
-        return f"FreePaths({self.count} flights, start={self.start!r}, mean {self.mean:.6g} +- {self.mean_error:.2g})"
+        text = f"FreePaths({self.count} flights, start={self.start!r}, mean {self.mean:.6g} +- {self.mean_error:.2g})"
+        remark = self.report.get("mean_remark")
+        return f"{text}\n  {remark}" if remark else text
 
 
 def single_numbers(report: dict[str, Any]) -> dict[str, Any]:

@@ -8,10 +8,10 @@ import os
 from typing import Any, Callable, Iterable, Union
 
 from . import _lorentz
-from ._answer import Answer, unsupported
+from ._answer import Answer, hit, inside, unsupported
 from ._answers import Answers, Outcome
 from ._lorentz import Error, UnsupportedError
-from ._numbers import Obstacle, claim, finite, integer, whole
+from ._numbers import Obstacle, claim, finite, whole
 from ._scene import Scene, wrapped
 
 #: ``engine(scene, x, v, start_from)`` returns the answer to one query, or to N (docs/python.md). start_from
@@ -37,8 +37,8 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
             `Outcome`, or their names), ``cell`` (N, d), ``time``, ``lattice`` and ``atom`` if these are not
             all 0, and ``reasons`` as in `Answers`: why a row is an error, and whether it is only unsupported.
         name: the engine's name in the report; by default the function's own name.
-        quick: 20 seconds instead of two minutes.
-        time: about this many seconds instead.
+        quick: at most 20 seconds, the default, instead of two minutes.
+        time: at most about this many seconds instead.
         questions: the number of questions in each row, instead of a time. It is the same on every machine.
         seed: the seed of all drawn questions.
         jobs: the number of threads of the campaign, unless `questions` is given. A Python function still runs
@@ -182,10 +182,8 @@ def _answer(columns: dict[str, Any], i: int, outcome: Outcome) -> Answer:
         return Answer("error", message=message, unsupported=unsupported)
     if outcome not in (Outcome.HIT, Outcome.INSIDE):
         return Answer(outcome.name.lower())
-    lattice, atom = (integer(columns[name][i], name) if name in columns else 0 for name in ("lattice", "atom"))
-    cell = tuple(integer(n, "cell") for n in columns["cell"][i])
-    time = float(columns["time"][i]) if outcome is Outcome.HIT else None
-    return Answer(outcome.name.lower(), lattice, atom, cell, time)
+    place = [columns["cell"][i], *(columns[name][i] if name in columns else 0 for name in ("lattice", "atom"))]
+    return hit(columns["time"][i], *place) if outcome is Outcome.HIT else inside(*place)
 
 
 def _message(error: Exception) -> str:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 import math
 import re
+from contextlib import contextmanager
 from fractions import Fraction
 from numbers import Integral, Rational
-from typing import Any, Sequence, Union
+from typing import Any, Iterator, Sequence, Union
 
 import numpy as np
 
@@ -68,6 +69,16 @@ def plain(value: Any, name: str = "number") -> Any:
 def text(value: Any) -> str:
     """The same value as a line of JSON."""
     return json.dumps(plain(value), allow_nan=False)
+
+
+@contextmanager
+def renamed(name: str, argument: str) -> Iterator[None]:
+    """Errors of the compiled module name the argument, instead of its own name for it."""
+    try:
+        yield
+    except Error as error:
+        error.args = (re.sub(rf"^(row \d+: )?{name}\b", rf"\1{argument}", str(error)),)
+        raise
 
 
 def word(value: Any, name: str) -> str:

@@ -15,7 +15,7 @@ from ._columns import Array, Column, Columns, by_component
 from ._first_hit import StartFrom, _columns, vectors_of
 from ._lorentz import Error
 from ._memory import free_memory
-from ._numbers import Number, Obstacle, Vector, obstacle_dict, plain, text, time_limit, whole, word
+from ._numbers import Number, Obstacle, Vector, obstacle_dict, plain, renamed, text, time_limit, whole, word
 from ._scene import Scene, SceneLike, native
 
 #: The meaning of ``Paths.stop_code``: why a particle stopped (docs of the C++ header trajectory.hpp).
@@ -55,7 +55,8 @@ class Paths(Columns):
 
     def to_dict(self) -> dict[str, Array]:
         """One row for each kept collision, by particle: ``particle``, ``collision`` (from 1), and the columns
-        of the collision. ``place`` becomes ``place_0``, ``place_1`` .."""
+        of the collision. ``place`` becomes ``place_0``, ``place_1`` .. A particle without a kept collision has
+        no row; ``count`` and ``stop_code`` tell why."""
         kept = self.kept()
         happened = np.arange(self.time.shape[1]) < kept[:, None]
         particle, column = np.nonzero(happened)
@@ -86,6 +87,7 @@ class Paths(Columns):
         return (self.every,)
 
 
+@renamed("from", "start_from")
 def trajectories(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, collisions: int, *,
                  radius: Number | None = None, start_from: StartFrom = None, max_time: float = math.inf,
                  every: Every = 1, engine: str = "batch", precision: str = "binary64") -> Paths:
@@ -185,6 +187,7 @@ class Itinerary:
         return asdict(self)
 
 
+@renamed("from", "start_from")
 def itinerary(scene: SceneLike, x: Vector, v: Vector, *, radius: Number | None = None,
               start_from: Obstacle | None = None, collisions: int | None = None, max_time: Number | None = None,
               digits: int = 17, states: bool = False, most_bits: int = 0) -> Itinerary:
@@ -224,6 +227,7 @@ class Starts(NamedTuple):
     start_from: tuple[npt.NDArray[np.int32], npt.NDArray[np.int32], npt.NDArray[np.int64]] | None
 
 
+@renamed("kind", "start")
 def draw_starts(scene: SceneLike, count: int, start: str = "uniform", *, radius: Number | None = None,
                 seed: int = 20161115, first: int = 0) -> Starts:
     """Starts outside all obstacles, decided exactly: places, velocities, and the obstacles that ``surface``

@@ -31,12 +31,14 @@ class Scene:
         FileError: there is no such file, and no such name in the catalogue.
     """
 
-    __slots__ = ("_scene", "_oracle")
+    __slots__ = ("_scene", "_oracle", "_name")
     _scene: _lorentz.Scene
     _oracle: _lorentz.Oracle | None  # created at its first use
+    _name: str | None  # of the catalogue, or of a file
 
     def __init__(self, source: SceneLike, radius: Number | None = None) -> None:
         self._oracle = None
+        self._name = str(source) if isinstance(source, (str, os.PathLike)) else getattr(source, "_name", None)
         self._scene = _read(source)
         if radius is not None:
             if isinstance(radius, (list, tuple, np.ndarray)):
@@ -72,7 +74,7 @@ class Scene:
         return f"Scene({self.to_dict()!r})"
 
     def __reduce__(self) -> Any:
-        return Scene, (self.to_dict(),)
+        return Scene, (self.to_dict(),), (None, {"_name": self._name})
 
 
 def unit_scene(dimension: int, radius: Number) -> Scene:
@@ -96,8 +98,14 @@ def native(scene: SceneLike) -> _lorentz.Scene:
 def wrapped(native_scene: _lorentz.Scene) -> Scene:
     """The Scene for an object of the extension module."""
     scene = Scene.__new__(Scene)
-    scene._scene, scene._oracle = native_scene, None
+    scene._scene, scene._oracle, scene._name = native_scene, None, None
     return scene
+
+
+def common_radius(scene: Scene) -> Number | None:
+    """The radius of all obstacles; None if they have several, or are ellipsoids."""
+    radii = {atom.get("radius") for lattice in scene.to_dict()["lattices"] for atom in lattice["atoms"]}
+    return radii.pop() if len(radii) == 1 else None
 
 
 def _read(source: SceneLike) -> _lorentz.Scene:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import math
+import warnings
 from dataclasses import dataclass
 from itertools import product
 from numbers import Real
@@ -15,16 +17,29 @@ from ._answers import Floats
 from ._flights import single_numbers
 from ._lorentz import Error
 from ._numbers import Number, finite, items, time_limit, whole, word
-from ._scene import Scene, SceneLike, native
+from ._scene import Scene, SceneLike, common_radius, native
 
 SEED = 20161115
 
 
 class Estimate(NamedTuple):
-    """A number and its standard error. Either is None if it is not known."""
+    """A number and its standard error. Either is None if it is not known. ``float()`` and formats such as
+    ``f"{e:.3f}"`` take the number alone; ``print`` shows both, rounded to the first digit of the error."""
 
     value: float | None
     error: float | None
+
+    def __float__(self) -> float:
+        return math.nan if self.value is None else float(self.value)
+
+    def __format__(self, form: str) -> str:
+        return format(float(self), form) if form else str(self)
+
+    def __str__(self) -> str:
+        if self.value is None or not self.error or not 1e-12 < self.error < 1e12:
+            return " +- ".join("unknown" if number is None else f"{number:.6g}" for number in self)
+        places = -int(f"{self.error:.0e}"[2:])
+        return " +- ".join(f"{round(number, places):.{max(places, 0)}f}" for number in (self.value, self.error))
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -54,7 +69,7 @@ class Lyapunov:
         return row
 
     def __repr__(self) -> str:
-        told = ", ".join(f"{value:.6g} +- {error:.1g}" for value, error in self.exponents)
+        told = ", ".join(map(str, self.exponents))
         return f"Lyapunov({told} a collision)"
 
 
@@ -67,8 +82,9 @@ class Diffusion:
 
     @property
     def coefficient(self) -> Estimate | None:
-        """D in <|x|^2> ~ 2 d D t; None if corridors are open, because D then does not exist."""
-        return None if self.report["D"] is None else Estimate(self.report["D"], self.report["D_error"])
+        """D in <|x|^2> ~ 2 d D t; None if corridors are open, because D then does not exist. A RuntimeWarning
+        says if ``max_time`` is too short for D, below 20 mean free paths."""
+        return self._coefficient()
 
     @property
     def times(self) -> Floats:
@@ -86,10 +102,16 @@ class Diffusion:
         return single_numbers(self.report) | last
 
     def __repr__(self) -> str:
-        told = "no coefficient, for corridors are open"
-        if self.coefficient is not None:
-            told = f"D = {self.coefficient.value:.6g} +- {self.coefficient.error:.1g}"
+        coefficient = self._coefficient()
+        told = "no coefficient, for corridors are open" if coefficient is None else f"D = {coefficient}"
         return f"Diffusion({told}; {self.report['particles']} particles followed until t = {self.times[-1]:g})"
+
+    def _coefficient(self) -> Estimate | None:
+        if self.report["D"] is None:
+            return None
+        if self.report.get("too_short"):
+            warnings.warn("max_time: is below 20 mean free paths, too short for D", RuntimeWarning, stacklevel=3)
+        return Estimate(self.report["D"], self.report["D_error"])
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -107,6 +129,8 @@ class Survival:
 
     def share(self, bits: int, collisions: int) -> float:
         """The share of starts with at least ``collisions`` right collisions in arithmetic of ``bits`` bits."""
+        if bits not in self.right:
+            raise Error(f"bits: {bits!r} is not one of {', '.join(map(str, self.right))}")
         right = self.right[bits]
         return sum(n >= collisions for n in right) / len(right)
 
@@ -201,8 +225,9 @@ def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLi
         options: further arguments of the function.
 
     Returns:
-        A dict for each scene and radius: ``scene`` as given, ``radius``, and the single numbers and texts of
-        the result (``value`` if the function returns one number). ``pandas.DataFrame(scan(..))`` makes a
+        A dict for each scene and radius: ``scene`` as given, ``radius`` (without radii the scene's own, if
+        all balls have the same), and the single numbers and texts of the result (``value`` if the function
+        returns one number, ``value`` and ``error`` if an `Estimate`). ``pandas.DataFrame(scan(..))`` makes a
         table of them.
     """
     if not callable(function):
@@ -214,13 +239,15 @@ def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLi
     one = radii is None or isinstance(radii, (str, Real))
     sizes: list[Any] = [radii] if one else items(radii, "radii")
     for scene, radius in product(several, sizes):
+        row = {"scene": scene, "radius": radius}
         try:
-            row = _row_of(function(scene, radius, **options))
+            found = function(scene, radius, **options)
+            row |= ({"radius": common_radius(Scene(scene))} if radius is None else {}) | _row_of(found)
         except Error as error:
             if on_error == "raise":
                 raise
-            row = {"error": str(error)}
-        rows.append({"scene": scene, "radius": radius} | row)
+            row["error"] = str(error)
+        rows.append(row)
     return rows
 
 
@@ -230,6 +257,8 @@ def _report(text: str) -> dict[str, Any]:
 
 
 def _row_of(found: Any) -> dict[str, Any]:
+    if isinstance(found, Estimate):
+        return found._asdict()
     if isinstance(found, dict):
         return single_numbers(found)
     return dict(found.to_dict()) if hasattr(found, "to_dict") else {"value": found}

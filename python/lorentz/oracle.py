@@ -18,19 +18,21 @@ from . import _lorentz
 from ._answer import Answer, ExactTime
 from ._lorentz import Certificate, Error
 from ._numbers import (Number, Obstacle, Vector, claim, exact, finite, integer, is_binary64, obstacle_dict, parts, plain,
-                       text, time_limit, vector, whole)
+                       renamed, text, time_limit, vector, whole)
 from ._scene import Scene, SceneLike
 
 __all__ = ["Approach", "Convergent", "Margin", "Verdict", "certificate", "check", "convergents", "entry_time",
            "first_hit", "is_free", "judge_answer", "margin", "passed"]
 
 
+@renamed("from", "start_from")
 def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | None = None, digits: int = 0,
               detail: bool = False, max_time: Number | None = None) -> Answer:
     """Which obstacle is hit first, exactly.
 
     Args:
-        scene, x, v: numbers are floats, ints, Fractions, or texts such as "1/3", with their exact values.
+        scene, x, v: numbers are floats, ints, Fractions, or texts such as "1/3", with their exact values; in v
+            also "sqrt(2)" and "golden".
         start_from: the obstacle that the particle leaves, (lattice, atom, cell).
         digits: the number of significant decimal digits of the time that are also returned as
             ``time_decimal``.
@@ -109,6 +111,7 @@ class Margin:
     obstacle: Obstacle | None = None
 
 
+@renamed("from", "start_from")
 def margin(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | None = None) -> Margin:
     """How far the inputs are from a different answer. Cost: at least 100 us."""
     return Margin(**_oracle(scene).margin(_text(x, v, start_from)))
@@ -125,6 +128,7 @@ class Approach:
     margin: float
 
 
+@renamed("from", "start_from")
 def passed(scene: SceneLike, x: Vector, v: Vector, *, most: int = 5,
            start_from: Obstacle | None = None) -> list[Approach]:
     """At most ``most`` obstacles, the nearest to the flight, in order of time; the one hit is last."""
@@ -151,6 +155,7 @@ class Verdict:
     sentence: str | None
 
 
+@renamed("from", "start_from")
 def judge_answer(scene: SceneLike, x: Vector, v: Vector, answer: Answer, *, start_from: Obstacle | None = None,
                  ulps: float = 4, precision: str = "binary64", time_tolerance: float | None = None) -> Verdict:
     """Is this answer right? One that is right only if inputs move by up to `ulps` ulps is "ill-posed".
@@ -165,6 +170,7 @@ def judge_answer(scene: SceneLike, x: Vector, v: Vector, answer: Answer, *, star
                                           *claim(precision, time_tolerance)))
 
 
+@renamed("from", "start_from")
 def certificate(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | None = None) -> Certificate:
     """A proof of the exact answer (docs/certificates.md), which can be checked without trusting the oracle.
 
@@ -173,6 +179,7 @@ def certificate(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle 
     return _oracle(scene).prove(_text(x, v, start_from))
 
 
+@renamed("from", "start_from")
 def check(scene: SceneLike, x: Vector, v: Vector, answer: Answer, proof: Certificate, *,
           start_from: Obstacle | None = None) -> str | None:
     """None if the certificate proves the answer; else the reason why it does not.

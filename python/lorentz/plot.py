@@ -20,11 +20,12 @@ from matplotlib.collections import LineCollection, PatchCollection
 from matplotlib.patches import Ellipse
 
 from ._answers import Answers, Outcome
+from ._first_hit import floats_of
 from ._flights import FreePaths
 from ._lorentz import Error
 from ._numbers import finite
 from ._paths import Paths
-from ._scene import Scene, SceneLike
+from ._scene import Scene, SceneLike, common_radius
 from ._statistics import Diffusion, Survival
 
 __all__ = ["displacements", "flights", "free_paths", "scene", "survival", "survival_function", "trajectory"]
@@ -87,7 +88,11 @@ def trajectory(of: SceneLike, start: npt.ArrayLike, paths: Paths, particle: int 
     if not 0 <= particle < len(paths):
         raise Error(f"particle: there is no {particle}; there are {len(paths)}, from 0 on")
     place, kept = of if isinstance(of, Scene) else Scene(of), int(paths.kept()[particle])
-    starts = np.atleast_2d(np.asarray(start, float))
+    starts, dimension = np.atleast_2d(floats_of(start, "start")), paths.dimension
+    if place.dimension != dimension:
+        raise Error(f"paths: are in {dimension}D, the scene is in {place.dimension}D")
+    if starts.shape not in ((1, dimension), (len(paths), dimension)):
+        raise Error(f"start: has the shape {np.shape(start)}, needs ({dimension},) or ({len(paths)}, {dimension})")
     points = np.concatenate([starts[[particle if len(starts) > 1 else 0]], paths.place[particle, :kept]])
     if ax is None:
         ax = scene(of, _around(points)) if place.dimension == 2 else _met_in_space(place, paths[particle], kept)
@@ -163,20 +168,22 @@ def _check_kind(found: Any, kind: type) -> None:
 
 
 def _labelled(runs: Runs) -> list[tuple[FreePaths, str]]:
-    """Each run with its label: its radius if several runs have radii, else its number of flights."""
+    """Each run with its label: scene, radius, start, seed, engine, as far as they differ, or the number of flights."""
     several = [runs] if isinstance(runs, FreePaths) else list(runs)
     if not several or not all(isinstance(run, FreePaths) for run in several):
         raise Error("runs: needs what lorentz.flights returns, one or a list")
-    radii = [_radius(run.scene) for run in several]
-    if len(several) == 1 or None in radii:
-        return [(run, f"{run.count:.3g} flights") for run in several]
-    return [(run, f"r = {radius:g}") for run, radius in zip(several, radii)]
+    facts = [_facts(run, number) for number, run in enumerate(several, 1)]
+    telling = [k for k, first in enumerate(facts[0]) if any(one[k][0] != first[0] for one in facts)]
+    labels = [", ".join(one[k][1] for k in telling if one[k][1]) for one in facts]
+    return [(run, label or f"{run.count:.3g} flights") for run, label in zip(several, labels)]
 
 
-def _radius(of: Scene) -> float | None:
-    radii = {atom.get("radius") for lattice in of.to_dict()["lattices"] for atom in lattice["atoms"]}
-    radius = radii.pop()
-    return None if radii or radius is None else float(radius)
+def _facts(run: FreePaths, number: int) -> list[tuple[Any, str]]:
+    """What may tell a run from others: values to compare, with their texts."""
+    radius, seed, engine = common_radius(run.scene), run.report["seed"], run.report["engine"]
+    alike = run.scene if radius is None else Scene(run.scene, 1)  # whatever the radius is
+    return [(alike, run.scene._name or f"scene {number}"), (radius, "" if radius is None else f"r = {float(radius):g}"),
+            (run.start, run.start), (seed, f"seed {seed}"), (engine, engine)]
 
 
 def _colour(number: int) -> str:

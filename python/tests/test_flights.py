@@ -16,6 +16,13 @@ def test_the_mean_is_the_exact_one():
     assert np.isnan(lorentz.flights("square", 0.2, count=1, start="surface", seed=SEED).mean_error)
 
 
+def test_an_infinite_mean_or_variance_is_said():
+    for start, remark in (("uniform", "mean is infinite"), ("surface", "variance is infinite")):
+        text = repr(lorentz.flights("square", 0.2, count=1000, start=start)).split("\n")
+        assert text[0].startswith("FreePaths(1000 flights, ") and remark in text[1]
+    assert "\n" not in repr(lorentz.flights("triangular", 0.45, count=1000))
+
+
 def test_survival_follows_the_law():
     paths = lorentz.flights("square", 1e-3, count=300_000, seed=SEED)
     laws, measured = paths.laws(), paths.survival_function()

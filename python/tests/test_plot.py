@@ -1,5 +1,7 @@
 """Pictures hold what they should."""
 
+import pickle
+
 import lorentz
 import matplotlib
 import numpy as np
@@ -96,6 +98,22 @@ def test_free_paths_of_one_radius_and_of_several():
         assert [text for text in labels(ax) if text.startswith("r =")] == ["r = 0.1", "r = 0.01", "r = 0.001"]
         dots = [line for line in ax.lines if line.get_marker() == "."]
         assert len({line.get_color() for line in dots}) == len(dots) == 3
+
+
+def test_labels_of_free_paths_name_what_differs():
+    def labelled(*runs):
+        found = [lorentz.flights(*scene, count=100, **options) for scene, options in runs]
+        return labels(lorentz.plot.free_paths(found, ax=matplotlib.figure.Figure().subplots()))
+
+    assert labelled((("square", 0.1), {}), (("triangular", 0.1), {})) == ["square", "triangular"]
+    assert labelled((("square", 0.1), {}), (("triangular", 0.2), {})) == ["square, r = 0.1", "triangular, r = 0.2"]
+    assert labelled((("square", 0.1), {}), (("square", 0.1), {"start": "surface"})) == ["uniform", "surface"]
+    assert labelled((("square", 0.1), {"seed": 1}), (("square", 0.1), {"seed": 2})) == ["seed 1", "seed 2"]
+    assert labelled((("rock-salt",), {}), (("ellipse",), {})) == ["rock-salt", "ellipse"]
+    unit = lorentz.unit_scene(2, 0.1)
+    assert labelled(((unit,), {}), ((lorentz.Scene(unit, 0.2),), {})) == ["r = 0.1", "r = 0.2"]
+    assert labelled(((unit,), {}), ((pickle.loads(pickle.dumps(lorentz.Scene("hexagonal", 0.1))),), {})) == ["scene 1", "hexagonal"]
+    assert labelled((("square", 0.1), {}), (("square", 0.1), {})) == ["100 flights"] * 2
 
 
 def test_statistics_of_trajectories(tmp_path):

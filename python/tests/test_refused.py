@@ -127,6 +127,17 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("box: ", lambda: lorentz.plot.scene("square", (1, 0, 0, 1))),
     ("particle: there is no 1", lambda: lorentz.plot.trajectory(SQUARE, X, lorentz.trajectories(SQUARE, [X], [V], 2), 1)),
     ("answers: ", lambda: lorentz.plot.flights(SQUARE, [X, X], [V, V], lorentz.first_hit(SQUARE, [X], [V]))),
+    ("start: has the shape .2, 2., needs .2,. or .1, 2.",
+     lambda: lorentz.plot.trajectory(SQUARE, [X, X], lorentz.trajectories(SQUARE, [X], [V], 2))),
+    ("paths: are in 2D, the scene is in 3D", lambda: lorentz.plot.trajectory("cubic", X, lorentz.trajectories(SQUARE, [X], [V], 2))),
+    ("time: nan is not a number", lambda: lorentz.hit(math.nan, (0, 0))),
+    ("time: None is not a number", lambda: lorentz.hit(None, (0, 0))),  # type: ignore[arg-type]
+    ("^row 0: start_from names atom 5", lambda: lorentz.first_hit(SQUARE, X, V, start_from=(0, 5, (0, 0)))),
+    ("^row 0: start_from names lattice 7", lambda: lorentz.trajectories(SQUARE, X, V, 1, start_from=[(7, 0, (0, 0))])),
+    ("^start_from names lattice 7", lambda: oracle.margin(SQUARE, X, V, start_from=(7, 0, (0, 0)))),
+    ("^start_from.cell: has 3", lambda: oracle.first_hit(SQUARE, X, V, start_from=(0, 0, (0, 0, 0)))),
+    ("^start: \"surfaces\"", lambda: lorentz.draw_starts(SQUARE, 1, "surfaces")),
+    ("bits: 64 is not one of 53, 106$", lambda: lorentz.survival(SQUARE, count=1, bits=[53, 106]).share(64, 3)),
     ("engine: .*scene, x, v, start_from", lambda: lorentz.judge(lambda x, v: lorentz.never())),
 ]
 

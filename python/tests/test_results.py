@@ -106,6 +106,9 @@ def test_an_answer_can_be_left():
     first = lorentz.first_hit(scene, [[0.25, 0.0]], [[-1.0, 0.0]])[0]
     then = lorentz.first_hit(scene, [[0.25, 0.0]], [[-1.0, 0.0]], start_from=first)
     assert first.cell == (0, 0) and then[0].cell == (-1, 0)
+    answers = some_answers()[:4]
+    x, v = [[0.5, 0.5]] * 4, [[1, 0.3]] * 4
+    assert list(lorentz.first_hit(scene, x, v, start_from=list(answers))) == list(lorentz.first_hit(scene, x, v, start_from=answers))
 
 
 def test_radii_of_starts_are_those_of_their_flights():
@@ -134,7 +137,7 @@ def test_results_print_themselves():
     for result in (lorentz.flights("square", 0.1, count=1000), lorentz.lyapunov("square", 0.2, collisions=1000),
                    lorentz.diffusion("triangular", 0.45, count=100, max_time=5),
                    lorentz.survival("square", 0.1, count=3, bits=[53])):
-        assert len(repr(result)) < 200 and repr(result).startswith(type(result).__name__ + "(")
+        assert len(repr(result)) < 250 and repr(result).startswith(type(result).__name__ + "(")
 
 
 @pytest.mark.parametrize("copied", [lambda one: pickle.loads(pickle.dumps(one)), copy.deepcopy, copy.copy])
@@ -193,6 +196,7 @@ def test_each_kth_collision_or_the_last(engine):
         assert np.array_equal(a[:2, 6:], c[:2]), name
     assert whole.count.tolist() == third.count.tolist() == last.count.tolist() == [7, 7, 0]
     assert third.kept().tolist() == [2, 2, 0] and last.kept().tolist() == [1, 1, 0]
+    assert third.to_dict()["particle"].tolist() == [0, 0, 1, 1]
     assert third.to_dict()["collision"].tolist() == [3, 6, 3, 6] and last.to_dict()["collision"].tolist() == [7, 7]
     with pytest.raises(lorentz.Error, match="every: 3 is above collisions, 2: nothing would be kept"):
         lorentz.trajectories(scene, x, v, 2, every=3)

@@ -1,5 +1,8 @@
 """Statistics of trajectories say what the command line says, and what theory does."""
 
+import warnings
+from dataclasses import replace
+
 import lorentz
 import pytest
 
@@ -26,6 +29,29 @@ def test_diffusion_between_small_gaps():
     assert open_ways.coefficient is None and open_ways.report["open"] and "scene" not in open_ways.report
 
 
+def test_a_time_that_is_too_short_for_diffusion():
+    found = lorentz.diffusion("triangular", 0.45, count=100, max_time=50)
+    short = replace(found, report=found.report | {"too_short": True})
+    for told in (lambda: short.coefficient, lambda: repr(short)):
+        with pytest.warns(RuntimeWarning, match="max_time: .* too short") as seen:
+            told()
+        assert [warning.filename for warning in seen] == [__file__]
+    with warnings.catch_warnings(action="error"):
+        assert found.coefficient == replace(found, report=found.report | {"too_short": False}).coefficient and repr(found)
+
+
+def test_estimates():
+    estimate = lorentz.Estimate(0.0843017, 0.00042)
+    assert float(estimate) == 0.0843017 and f"{estimate:.3f}" == "0.084" and str(estimate) == "0.0843 +- 0.0004"
+    for value, error, text in ((0.084, 0.00096, "0.084 +- 0.001"), (12345.6, 250.0, "12300 +- 200"), (3, 1, "3 +- 1"),
+                               (2.0, 0.0, "2 +- 0"), (1.5, None, "1.5 +- unknown"), (None, None, "unknown +- unknown")):
+        assert str(lorentz.Estimate(value, error)) == text
+    one = lorentz.diffusion("triangular", 0.45, count=1, max_time=5)
+    assert repr(one).startswith("Diffusion(D = 0.267845 +- unknown; 1 particle")
+    rows = lorentz.scan(lambda scene, radius: lorentz.Estimate(radius, 0.1), "square", [0.2, 0.3])
+    assert rows[1] == {"scene": "square", "radius": 0.3, "value": 0.3, "error": 0.1}
+
+
 def test_more_bits_last_longer():
     found = lorentz.survival("square", 0.1, count=30, bits=[53, 106, 200], seed=SEED)
     means = [sum(right) / 30 for right in found.right.values()]
@@ -43,7 +69,7 @@ def test_scans():
     assert [row["start"] for row in rows] == ["surface"] * 2 and "from" not in rows[0]
     assert [row["mean_free_path"] for row in rows] == [lorentz.mean_free_path(name, 0.2) for name in ("square", "triangular")]
     assert [row["horizon"] for row in lorentz.scan(lorentz.horizon, "triangular", [0.4, 0.45])] == ["infinite", "finite"]
-    assert lorentz.scan(lorentz.mean_free_path, "honeycomb")[0]["radius"] is None
+    assert [row["radius"] for row in lorentz.scan(lorentz.mean_free_path, ["honeycomb", "rock-salt"])] == [0.23, None]
     assert lorentz.scan(lorentz.mean_free_path, "square", 0.2) == lorentz.scan(lorentz.mean_free_path, "square", [0.2])
     marked = lorentz.scan(lorentz.lyapunov, "square", [0.2, 0.6], collisions=1000, on_error="mark")
     assert "exponent_1" in marked[0] and "radii below half" in marked[1]["error"]
