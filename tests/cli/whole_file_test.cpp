@@ -168,6 +168,34 @@ TEST_CASE("What killed processes left is taken away by the next, and nothing els
   CHECK(left == others.size());  // the link, and all but g's
 }
 
+TEST_CASE("Files of another kind are left as they are", "[cli][whole_file]") {
+  const Folder folder;
+  const std::string queries = folder.write("queries", "{\"x\":[0,0],\"v\":[1,0]}\n"),
+                    store = folder.file("store"), source = folder.write("engine.py", "import sys\n"),
+                    old = folder.write("old", "<svg/>");
+  REQUIRE(folder.lorentz("flights --count 100 --store " + store).status == 0);
+  const auto require_left = [&](const std::string& words, const std::string& name, const std::string& why) {
+    const std::string before = folder.read(name);
+    const Run run = folder.lorentz(words + folder.file(name));
+    INFO(words << name << run.err);
+    CHECK(run.status == 2);
+    CHECK(contains(run.err, why));
+    CHECK(folder.read(name) == before);
+  };
+  for (const std::string option : {"--svg ", "--csv ", "--html "}) {
+    require_left("flights --count 10 " + option, "store", "is a store, and is left as it is");
+    require_left("flights --count 10 " + option, "queries",
+                 "is a file of another kind, and is left as it is");
+  }
+  require_left("flights --count 10 --csv ", "old", "is a file of another kind");
+  require_left("judge --engine reduction --time 1 --junit ", "queries", "is a file of another kind");
+  require_left("compare --count 5 -e 'cmd:python3 " + source + " -u' --disagreements ", "engine.py",
+               "--engine reads");
+  CHECK(folder.lorentz("flights --count 10 --svg " + old).status == 0);
+  CHECK(contains(folder.read("old"), "free path"));
+  CHECK(contains(folder.lorentz("flights --count 10 --csv -").err, "needs a file; /dev/stdout is one"));
+}
+
 TEST_CASE("Two options that name one file are refused, whatever they call it", "[cli][whole_file]") {
   const Folder folder;
   const std::string path = folder.write("f", "old\n"), other = folder.file("g");

@@ -20,6 +20,7 @@ TEST_CASE("lorentz lyapunov: theory stands beside, and threads change nothing", 
   CHECK(contains(one.out, "scene square, r = 0.2, seed 9301"));
   CHECK(contains(one.out, "exact 2.185840735"));
   CHECK(contains(one.out, "theory, r -> 0: 3.0905"));  // - 2 ln 0.2 - 0.1283720411
+  CHECK(contains(one.out, "; off by -0."));
   CHECK(folder.lorentz(what + "--jobs 3").out == one.out);
   const Run json = folder.lorentz(what + "--json --spectrum");
   CHECK(json.status == 0);
@@ -73,6 +74,19 @@ TEST_CASE("lorentz diffusion: no D where lattices leave corridors open that they
   const std::string tiny = what + scene("[[1.4142135623730951, 1e-11], [1e-11, 1.7320508]]") + " ";
   CHECK(contains(folder.lorentz(tiny).out, "\nwhether there is a D is not known\n"));
   CHECK(contains(folder.lorentz(tiny + "--json").out, R"("open":null,"D":)"));
+}
+
+TEST_CASE("lorentz diffusion says when its time is too short for a D", "[chaos][chaos_command]") {
+  const Folder folder;
+  const auto run = [&](const char* words) {
+    return folder.lorentz(std::string("diffusion --count 200 ") + words).out;
+  };
+  CHECK(contains(run("--scene triangular --time 0.5"), "T is 1.96 mean free paths: too short"));
+  CHECK_FALSE(contains(run("--scene triangular --time 20"), "too short"));
+  CHECK(contains(run("--radius 0.1 --time 20"), "too short"));
+  CHECK(contains(run("--scene triangular --time 5 --json"), R"("too_short":true)"));
+  CHECK(contains(run("--scene triangular --time 5.2 --json"), R"("too_short":false)"));  // 20 of 0.2554
+  CHECK(contains(run("--radius 0.4 --json"), R"("machta_zwanzig":null)"));               // where no D is
 }
 
 TEST_CASE("Groups that were kept are gone on with, to the bit, and impossible ones are refused", "[chaos]") {
@@ -168,8 +182,9 @@ except sqlite3.Error:
 
 TEST_CASE("Several scenes and radii give what each gives alone, and one table", "[chaos][chaos_command]") {
   const Folder folder;
-  for (const std::string command : {"lyapunov --collisions 5e3", "diffusion --count 500 --time 5",
-                                    "survival --count 3 --collisions 20 --bits 53,106"}) {
+  for (const std::string command :
+       {"lyapunov --collisions 5e3", "diffusion --count 500 --time 5",
+        "survival --count 3 --collisions 20 --bits 53,106", "flights --count 2000"}) {
     const auto of = [&](const std::string& places) {
       const Run run = folder.lorentz(command + " --json --csv " + folder.file("csv") + places);
       INFO(run.err);
