@@ -165,7 +165,7 @@ def hit(time: float, cell: Any, lattice: int = 0, atom: int = 0) -> Answer:
     """The answer of an engine that found a first hit: its time and obstacle."""
     try:
         number = float(time)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         number = math.nan
     if math.isnan(number):
         raise Error(f"time: {time!r} is not a number")

@@ -35,8 +35,8 @@ class Columns:
 
     ``result[i]`` is row i. ``result[rows]``, with a slice, a mask or an array of numbers, is a result with
     these rows. ``result["time"]`` is a column. A loop goes over the rows. Results can be pickled and copied.
-    When an engine writes over the result (``out=``), columns and `to_dict` change; slices, copies and data
-    frames do not.
+    They are equal if all columns are equal. When an engine writes over the result (``out=``), columns and
+    `to_dict` change; slices, copies and data frames do not.
     """
 
     __slots__ = ("_native", "_columns")
@@ -64,6 +64,9 @@ class Columns:
 
     def __iter__(self) -> Iterator[Any]:
         return (self._row(i) for i in range(len(self)))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, type(self)) and self._rest() == other._rest() and same(self._columns, other._columns)
 
     def __repr__(self) -> str:
         shown = range(len(self)) if len(self) <= 6 else [0, 1, 2, -3, -2, -1]
@@ -108,6 +111,12 @@ class Columns:
     def _rest(self) -> tuple[Any, ...]:
         """The data besides columns: further arguments of the constructor."""
         return ()
+
+
+def same(values: dict[str, Any], others: dict[str, Any]) -> bool:
+    """True if all values are equal, arrays and others. A NaN equals a NaN."""
+    return all(np.array_equal(value, others[name], equal_nan=np.asarray(value).dtype.kind == "f")
+               for name, value in values.items())
 
 
 def _frozen(columns: dict[str, Array]) -> dict[str, Array]:

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from . import _lorentz
 from ._answers import Floats
+from ._columns import same
 from ._first_hit import floats_of
 from ._lorentz import Error
 from ._numbers import Vector, finite, vector, whole, word
@@ -78,6 +79,9 @@ class FreePaths:
         """The single numbers of the report, as one row of a table."""
         row = single_numbers(self.report)
         return {"start": row.pop("from")} | row
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, FreePaths) and same(vars(self), vars(other))
 
     def __repr__(self) -> str:
         text = f"FreePaths({self.count} flights, start={self.start!r}, mean {self.mean:.6g} +- {self.mean_error:.2g})"

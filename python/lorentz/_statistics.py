@@ -42,7 +42,7 @@ class Estimate(NamedTuple):
         return " +- ".join(f"{round(number, places):.{max(places, 0)}f}" for number in (self.value, self.error))
 
 
-@dataclass(frozen=True, repr=False, eq=False)
+@dataclass(frozen=True, repr=False)
 class Lyapunov:
     """Lyapunov exponents in nats, the largest first. ``report`` is that of `lorentz lyapunov --json`, without
     the scene."""
@@ -73,7 +73,7 @@ class Lyapunov:
         return f"Lyapunov({told} a collision)"
 
 
-@dataclass(frozen=True, repr=False, eq=False)
+@dataclass(frozen=True, repr=False)
 class Diffusion:
     """Mean squared displacements. ``report`` is that of `lorentz diffusion --json` without the scene."""
 
@@ -114,7 +114,7 @@ class Diffusion:
         return Estimate(self.report["D"], self.report["D_error"])
 
 
-@dataclass(frozen=True, repr=False, eq=False)
+@dataclass(frozen=True, repr=False)
 class Survival:
     """How many collisions of trajectories are right. ``report`` is the report of `lorentz survival --json`
     without the scene."""

@@ -46,14 +46,15 @@ CALLS = [
     (lorentz.oracle.passed, dict(scene=SCENE, x=X, v=V, start_from=None), "scene x v start_from"),
     (lorentz.oracle.certificate, dict(scene=SCENE, x=X, v=V, start_from=None), "scene x v start_from"),
     (lorentz.oracle.convergents, dict(rise=1.0, run=3.0), "rise run"),
+    (lorentz.hit, dict(time=1.0, cell=(0, 0)), "time"),
     (lorentz.golden, dict(name_or_file="ties"), "name_or_file"),
     (lorentz.judge, dict(engine="reduction", questions=1, seed=1, jobs=1, ulps=4.0, precision="binary64", time_tolerance=None),
      "engine questions seed jobs ulps precision time_tolerance"),
 ]
 # What an argument is called in messages, where that is not its name.
 ALSO = {"source": "scene", "scene": "dimension|lattices|file|catalogue", "name": "engine", "name_or_file": "file|set", "scenes": "scene",
-        "radii": "radius|scene", "radius": "radi|scene|starts|sizes|obstacles", "x": "row 0|has", "v": "row 0", "start_from": "from|row 0|lattice|atom|cell", "engine": "threads",
-        "max_time": "time", "times": "time", "particles": "count", "start": "kind", "run": "slope", "rise": "slope"}
+        "radii": "radius|scene", "radius": "radi|scene|starts|sizes|obstacles", "x": "row 0|has", "v": "row 0", "start_from": "row 0|lattice|atom|cell", "engine": "threads",
+        "max_time": "time", "times": "time", "particles": "count", "run": "slope", "rise": "slope"}
 # What is asked for, and takes its time: two minutes of judging, flights of 10^21.
 LONG = {("questions", None), ("max_time", 2**70), ("max_time", 1e308)}
 

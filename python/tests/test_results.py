@@ -21,19 +21,31 @@ def some_answers():
     return lorentz.first_hit("square", x, v, 0.1, on_error="mark")
 
 
-def same(a, b):
-    return (a.large_cells == b.large_cells and a.reasons == b.reasons and
-            all(np.array_equal(getattr(a, name), getattr(b, name), equal_nan=name == "time")
-                for name in lorentz.Answers._NAMES))
+def test_results_are_equal_if_their_values_are():
+    answers, again = some_answers(), some_answers()
+    assert answers == again == answers[:] and answers[:4] != answers[1:] and answers != 5 and answers != list(answers)
+    columns, rest = {name: answers[name] for name in answers._NAMES}, (answers.large_cells, answers.reasons)
+    assert lorentz.Answers(None, columns, *rest) == answers
+    for name in columns:
+        assert lorentz.Answers(None, columns | {name: columns[name] + np.ones(1, columns[name].dtype)}, *rest) != answers, name
+    assert lorentz.Answers(None, columns, rest[0]) != answers != lorentz.Answers(None, columns, {}, rest[1])
+    x, v, _ = lorentz.draw_starts("square", 3, seed=SEED)
+    paths, again = (lorentz.trajectories("square", x, v, 4, max_time=5) for _ in range(2))
+    assert np.isnan(paths.time).any() and paths == again != paths[:2] and paths != lorentz.trajectories("square", x, v, 4)
+    for call in (lambda seed: lorentz.flights("square", 0.1, count=1000, seed=seed),
+                 lambda seed: lorentz.lyapunov("square", 0.2, collisions=1000, seed=seed),
+                 lambda seed: lorentz.diffusion("triangular", 0.45, count=100, max_time=5, seed=seed),
+                 lambda seed: lorentz.survival("square", 0.1, count=3, bits=[53], seed=seed)):
+        assert call(1) == call(1) != call(2)
 
 
 def test_one_place_and_many_velocities_and_the_other_way_round():
     angles = np.linspace(0.1, 1.5, 50)
     v = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     many = lorentz.first_hit("square", [0.5, 0.5], v, 0.1)
-    assert same(many, lorentz.first_hit("square", np.tile([0.5, 0.5], (50, 1)), v, 0.1))
+    assert many == lorentz.first_hit("square", np.tile([0.5, 0.5], (50, 1)), v, 0.1)
     x = np.random.default_rng(SEED).uniform(0.3, 0.7, (50, 2))
-    assert same(lorentz.first_hit("square", x, [1, 0.3], 0.1), lorentz.first_hit("square", x, np.tile([1, 0.3], (50, 1)), 0.1))
+    assert lorentz.first_hit("square", x, [1, 0.3], 0.1) == lorentz.first_hit("square", x, np.tile([1, 0.3], (50, 1)), 0.1)
     assert len(lorentz.first_hit("square", [0.5, 0.5], [1, 0.3], 0.1)) == 1
     assert len(lorentz.first_hit("square", np.zeros((0, 2)), [1, 0.3], 0.1)) == 0
     paths = lorentz.trajectories(lorentz.Scene("square", 0.1), [0.5, 0.5], v, 3)
@@ -79,7 +91,7 @@ def test_parts_keep_what_is_of_their_rows():
         part, numbers = answers[rows], np.arange(5)[rows]
         assert list(part) == [answers[i] for i in numbers]
         assert not part.time.flags.writeable
-        assert same(part[::-1], answers[numbers[::-1]])
+        assert part[::-1] == answers[numbers[::-1]]
     assert len(answers[answers.hit]) == 2 and len(answers[[]]) == 0
     next_hit = lorentz.first_hit("square", [[3.5, 0.5]] * 5, [[1, 0.3]] * 5, 0.1, start_from=answers[np.arange(5)])
     assert len(next_hit) == 5
@@ -144,7 +156,7 @@ def test_results_print_themselves():
 def test_results_are_pickled_and_copied(copied):
     answers = some_answers()
     again = copied(answers)
-    assert same(again, answers) and list(again) == list(answers) and not again.time.flags.writeable
+    assert again == answers and list(again) == list(answers) and not again.time.flags.writeable
     scene = lorentz.Scene("cubic", 0.3)
     x, v, _ = lorentz.draw_starts(scene, 4, seed=SEED)
     paths = lorentz.trajectories(scene, x, v, 7, every=2)
