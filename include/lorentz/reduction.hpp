@@ -33,7 +33,8 @@ struct Task;            // internal: a query with its limit, in the engine's uni
 ///     use fast-math. This project's build files see to both.
 ///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
 ///             "lorentz doctor finds this machine fit, and says what it looked at"
-///  4. A flight along a Direction (below) has the same bits as a flight with that velocity in the query.
+///  4. A flight along a Direction, which is a velocity prepared once (below), has the same bits as a flight with
+///     this velocity in the query.
 ///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
 ///             "A prepared direction keeps the limit, at any speed"
 ///  5. `fly` allocates nothing, throws nothing and ends: every loop has a bound.
