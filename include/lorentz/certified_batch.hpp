@@ -17,8 +17,8 @@ namespace lorentz::oracle {
 ///  2. Any number of threads may use one engine.
 ///     held by "Threads share a batch engine"
 ///
-/// Units: as in QueryColumns. Cost: that of Batch with rounded times. Of drawn queries fewer than one in several
-/// thousand are `uncertain` (docs/speed.md); in a scene that Reduction does not support, all are.
+/// Units: as in QueryColumns. Cost: that of Batch with rounded times. Fewer than one in 10 000 drawn queries
+/// are `uncertain`; in a scene that Reduction does not support, all are.
 class CertifiedBatch {
  public:
   /// Throws InputError if the scene is invalid (flaw_of) or has dependent vectors (dependence_in).

@@ -8,8 +8,9 @@
 namespace lorentz {
 
 /// The collision point, the outward unit normal, and the distance of the line of flight from the obstacle's
-/// centre, in the scene's own geometry. Numbers beyond binary64 come out as non-finite. Throws
-/// InputError if the answer has no time or no obstacle of the scene. The error is that of x + t v: a few ulps of the distance flown.
+/// centre, in the scene's own geometry. Numbers beyond binary64 come out as non-finite. The error is that of
+/// x + t v: a few ulps of the distance flown. Throws InputError if the answer has no time, or names no
+/// obstacle of the scene.
 ///
 /// held by "Collision detail of balls is the oracle's, which is correctly rounded"
 Detail collision_detail(const Scene& scene, const Query& query, const Answer& answer);

@@ -113,7 +113,8 @@ class RoundedItinerary {
 };
 
 /// The nearest binary64 of every number: the problem as binary64 programs see it. Numbers beyond binary64's
-/// range become infinite, which makes the result invalid (flaw_of). `degrees` become a velocity.
+/// range become infinite, which makes the result invalid (flaw_of). `degrees` become a velocity. Throws
+/// std::domain_error if a denominator is 0.
 double nearest(const Rational& number);
 Scene nearest(const RationalScene& scene);
 Query nearest(const Start& start);

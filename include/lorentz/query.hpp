@@ -20,8 +20,8 @@ struct Query {
   std::optional<ObstacleId> from;
 };
 
-/// What is wrong with a query in this scene, or nothing if it is valid: the numbers are finite, v != 0, `from`
-/// names an atom that exists, and the limit, if there is one, is not NaN.
+/// What is wrong with a query in this scene, or nothing if it is valid: the numbers are finite, v != 0,
+/// `from` names an atom that exists, and the limit is not NaN.
 std::optional<std::string> flaw_of(const Query& query, const Scene& scene,
                                    double max_time = std::numeric_limits<double>::infinity());
 

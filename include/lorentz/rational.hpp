@@ -78,8 +78,8 @@ struct Start {
   std::optional<ObstacleId> from;   ///< as in Query
 };
 
-/// What is wrong with a start in this scene, or nothing if it is valid: finite numbers, v != 0, no square root of a
-/// number below zero, and `from` names an atom that exists.
+/// What is wrong with a start in this scene, or nothing if it is valid: finite numbers, v != 0, no square
+/// root of a number below zero, and `from` names an atom that exists.
 std::optional<std::string> flaw_of(const Start& start, const RationalScene& scene);
 
 /// Returns the start if it is valid in this scene; otherwise throws InputError.
