@@ -122,8 +122,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
 
 void check_files(const Command& command) {
   const std::vector<NamedFile> files = files_of(command);
-  for (const NamedFile& output : files) {
-    refuse_other_kinds(output);
+  for (const NamedFile& output : files)
     for (const NamedFile& other : files) {
       if (!output.is_output || &other == &output || !is_same_file(output.path, other.path)) continue;
       if (!other.is_output)
@@ -133,7 +132,7 @@ void check_files(const Command& command) {
       throw InputError(fmt::format("{} and {} name the same file: {}; give each its own", output.by, other.by,
                                    other.path));
     }
-  }
+  std::ranges::for_each(files, refuse_other_kinds);
 }
 
 }  // namespace lorentz::cli

@@ -208,7 +208,7 @@ Command first_hit_command() {
               {"--scene", &options->scene, "SCENE",
                "scene before the first scene line: a file, or a name of the catalogue"},
               {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
-              {"--digits", Whole{&options->digits, 1, oracle::kMostDigits}, "N",
+              {"--digits", Whole{&options->digits, 1, kMostDigits}, "N",
                "also print the time with N significant decimal digits (oracle)"},
               {"--max-time", Positive{&options->max_time}, "T",
                "answer `later` if nothing is entered before time T"},

@@ -300,7 +300,7 @@ Command trajectory_command() {
           {"--collisions", Whole{&options->collisions, 0, 1u << 30}, "N",
            "follow each start for N collisions"},
           {"--time,--max-time", &options->time, "T", "or to this time, exactly: 10, 1/3"},
-          {"--digits", Whole{&options->digits, 1, oracle::kMostDigits}, "N",
+          {"--digits", Whole{&options->digits, 1, kMostDigits}, "N",
            "digits of times, places and velocities (default: 17)"},
           {"--detail", &options->detail, "", "place and velocity at each collision, too"},
           {"--bits", Whole{&options->bits, 32, kMostBits}, "B",

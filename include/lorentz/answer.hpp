@@ -18,6 +18,9 @@ enum class Outcome {
   error       ///< the query is invalid, or (if `unsupported`) this engine does not support it
 };
 
+/// The most decimal digits that can be asked for.
+inline constexpr int kMostDigits = 100'000;
+
 /// Details of a collision, computed on request. `normal` is the outward unit normal; `impact_parameter` is
 /// the distance of the line of flight from the obstacle's centre.
 struct Detail {

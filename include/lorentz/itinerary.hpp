@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <lorentz/oracle.hpp>
+#include <lorentz/answer.hpp>
 #include <lorentz/pimpl.hpp>
 #include <lorentz/rational.hpp>
 

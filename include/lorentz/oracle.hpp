@@ -12,9 +12,6 @@
 
 namespace lorentz::oracle {
 
-/// The most decimal digits that can be asked for.
-inline constexpr int kMostDigits = 100'000;
-
 /// What to compute besides the obstacle and the time.
 struct Request {
   int digits = 0;                  ///< significant decimal digits of the time, rounded half to even; 0: none

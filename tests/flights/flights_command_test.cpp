@@ -151,6 +151,10 @@ TEST_CASE("Flights: several radii, each as alone", "[flights][flights_command]")
                  "\n"
                  R"({"scene":"square","radius":0.01,"from":)"));
   CHECK_FALSE(contains(folder.lorentz("flights --count 1e4 --json --radius 0.3").out, "\"radius\""));
+  // What was found before a radius that is refused is not lost.
+  const Run half = folder.lorentz("flights --count 1e3 --radius 0.3,0.8 --csv " + folder.file("half"));
+  CHECK(half.status == 2);
+  CHECK(contains(folder.read("half"), "\n0.3,"));
 }
 
 TEST_CASE("Flights: pictures of several radii, of survival and density", "[flights][flights_command]") {
@@ -332,7 +336,7 @@ TEST_CASE("Flights: where nothing is tested there is no p-value", "[flights][fli
   const Folder folder;
   // The law begins at 64 spacings, and no path is so long.
   const std::string what = "flights --scene triangular --radius 0.45 --from surface --count 1e5 --seed 7507 ";
-  CHECK(contains(folder.lorentz(what).out, "\n  not tested: too few flights for two bins\n"));
+  CHECK(contains(folder.lorentz(what).out, "\n  not tested: hardly a flight is longer than 64\n"));
   const std::string json = folder.lorentz(what + "--json").out;
   CHECK(contains(json, R"("degrees":0,"p_value":null,"p_value_of_1.02":null)"));
   // One flight has a mean, and nothing that tells its error.

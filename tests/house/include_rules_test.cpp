@@ -68,7 +68,7 @@ const std::vector<Room> kHouse{
     {"oracle/itinerary",
      {"src/problem"},
      {"oracle/integers", "oracle/exact", "oracle/first_hit"},
-     {"arb.h ball.hpp", "flint/ ball.cpp"}},
+     {"arb.h ball.hpp", "flint/ ball.hpp", "flint/ ball.cpp"}},
     {"oracle/walk", {"src/problem"}, {}, {"CGAL/ walk.cpp"}},
     {"oracle/certified", {"src/problem", "src/engines/base", "src/engines/reduction", "oracle"}, {}, {}},
     {"oracle/certified_batch",

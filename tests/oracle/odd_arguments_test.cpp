@@ -206,7 +206,7 @@ TEST_CASE("Odd queries are errors, of every class that answers", "[oracle][odd]"
   CHECK(walk.first_hit(kQuery, kNaN).outcome == Outcome::error);
   for (const std::string name : {"classical", "published", "reduction"})
     CHECK(make_engine(name, scene)->first_hit(kQuery, kNaN).outcome == Outcome::error);
-  for (const int digits : {-1, oracle::kMostDigits + 1, std::numeric_limits<int>::max()}) {
+  for (const int digits : {-1, kMostDigits + 1, std::numeric_limits<int>::max()}) {
     CHECK_THROWS_WITH(oracle.first_hit(kQuery, {digits, false, {}}), Catch::Contains("digits"));
     CHECK_THROWS_WITH(certified.first_hit(kQuery, {digits, false, {}}), Catch::Contains("digits"));
   }
@@ -496,7 +496,7 @@ TEST_CASE("Odd starts of itineraries are refused", "[oracle][odd]") {
   for (const Rational& time : {Rational(kInf), Rational(kNaN), Rational(-1.0), Rational(0.0),
                                Rational(nothing), Rational(Fraction{1, -2}), Rational(Fraction{-1, -2})})
     refused("time: must be finite and above zero", [&](oracle::Journey& j) { j.time = time; });
-  for (const int digits : {0, -1, oracle::kMostDigits + 1})
+  for (const int digits : {0, -1, kMostDigits + 1})
     refused("digits", [&](oracle::Journey& j) { j.digits = digits; });
   for (const long bits : {-1L, 1L << 40}) refused("bits", [&](oracle::Journey& j) { j.first_bits = bits; });
   refused("bits", [](oracle::Journey& j) { j.most_bits = 1L << 40; });
