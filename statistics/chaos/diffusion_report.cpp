@@ -101,10 +101,11 @@ std::string DiffusionReport::json() const {
                          if_uniform(at.from_velocity.error));
                }));
     report.add("open", tail.open, "D", if_bounded(found.coefficient.value), "D_error",
-               if_bounded(found.coefficient.error), "too_short", is_too_short(), "machta_zwanzig",
+               if_bounded(found.coefficient.error), "machta_zwanzig",
                has_corridors() ? std::nullopt : finite(random_walk), "logarithmic",
                finite(found.logarithmic.value), "logarithmic_error", finite(found.logarithmic.error), "two_C",
-               has_corridors() && tail.constant ? finite(2 * *tail.constant) : std::nullopt);
+               has_corridors() && tail.constant ? finite(2 * *tail.constant) : std::nullopt, "too_short",
+               is_too_short());
   });
 }
 
