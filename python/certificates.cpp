@@ -19,7 +19,7 @@ py::list basis_list(const CertificateBasis& basis, int rank) {
 }
 
 // A float if the value is exactly a binary64, else a text.
-py::object to_python(const WindowEnd& end) {
+py::object limit_of_window(const WindowEnd& end) {
   if (const auto value = oracle::binary64_of(end)) return py::float_(*value);
   return py::str(oracle::text_of(end));
 }
@@ -28,7 +28,7 @@ py::dict to_dict(const PyCertificate& certificate) {
   py::list windows, rows;
   for (const oracle::Window& w : certificate.proof.windows)
     windows.append(py::dict(py::arg("lattice") = w.lattice, py::arg("atom") = w.atom,
-                            py::arg("from") = to_python(w.from), py::arg("to") = to_python(w.to),
+                            py::arg("from") = limit_of_window(w.from), py::arg("to") = limit_of_window(w.to),
                             py::arg("basis") = basis_list(w.basis, certificate.ranks.at(w.lattice))));
   for (const oracle::Rows& r : certificate.proof.rows)
     rows.append(py::dict(py::arg("lattice") = r.lattice, py::arg("atom") = r.atom,

@@ -13,7 +13,7 @@ namespace {
 using oracle::DecisionKind;
 using oracle::Verdict;
 
-const char* name_of(DecisionKind kind) {
+const char* decision_name(DecisionKind kind) {
   switch (kind) {
     case DecisionKind::containing:
       return "containing";
@@ -25,7 +25,7 @@ const char* name_of(DecisionKind kind) {
   return "order";
 }
 
-const char* name_of(Verdict verdict) {
+const char* verdict_name(Verdict verdict) {
   constexpr const char* kNames[] = {"agree",       "ill-posed", "wrong",  "undecided",
                                     "unsupported", "error",     "missing"};
   return kNames[static_cast<int>(verdict)];
@@ -58,7 +58,7 @@ class PyOracle {
     if (!hardest) return dict;
     dict["margin"] = hardest->margin;
     if (hardest->margin >= oracle::kLargestMargin) return dict;
-    dict["decision"] = name_of(hardest->kind);
+    dict["decision"] = decision_name(hardest->kind);
     dict["decided"] = hardest->yes;
     dict["obstacle"] = obstacle_tuple(hardest->obstacle);
     return dict;
@@ -84,7 +84,7 @@ class PyOracle {
     const oracle::Judgement judgement = judge.judge(query, exact, given, ulps);
     const auto diagnosis = lorentz::judge::diagnosis_of({place_, query, exact, {}, {}}, given, judgement);
     py::dict dict;
-    dict["verdict"] = name_of(judgement.verdict);
+    dict["verdict"] = verdict_name(judgement.verdict);
     dict["wrong_time"] = judgement.wrong_time;
     dict["other_quantity"] = judgement.other_quantity;
     dict["ulps"] = judgement.ulps;

@@ -26,7 +26,7 @@ py::array outcome(const py::object& self) {
   return column(reinterpret_cast<const std::int32_t*>(self.cast<const AnswerRows&>().outcome.data()), self);
 }
 
-py::array cell(const py::object& self) {
+py::array cell_columns(const py::object& self) {
   const auto& answers = self.cast<const AnswerRows&>();
   constexpr auto kBytes = static_cast<py::ssize_t>(sizeof(std::int64_t));
   return view(answers.cell[0], {static_cast<py::ssize_t>(answers.count), answers.dimension},
@@ -80,7 +80,7 @@ void bind_first_hit(py::module_& module) {
                              })
       .def_property_readonly("lattice", column_of(&AnswerRows::lattice))
       .def_property_readonly("atom", column_of(&AnswerRows::atom))
-      .def_property_readonly("cell", cell)
+      .def_property_readonly("cell", cell_columns)
       .def_property_readonly("time", column_of(&AnswerRows::time))
       .def_property_readonly("large_cells", large_cells)
       .def_property_readonly("reasons", reasons)

@@ -12,7 +12,7 @@ namespace lorentz::python {
 namespace {
 
 template <class Number>
-py::array_t<Number> array_of(const std::vector<Number>& numbers) {
+py::array_t<Number> numpy_array(const std::vector<Number>& numbers) {
   return py::array_t<Number>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
 }
 
@@ -44,7 +44,8 @@ py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::strin
   report.account = flights::Account::begun(report.plan);
   fly(report.plan, jobs, report.account);
   const flights::FlightsFindings found(report);
-  return py::make_tuple(report.json(), array_of(found.edges), array_of(found.counts), array_of(found.beyond));
+  return py::make_tuple(report.json(), numpy_array(found.edges), numpy_array(found.counts),
+                        numpy_array(found.beyond));
 }
 
 // For each law: its name, the limit in which it holds, and its survival at these times.

@@ -142,10 +142,11 @@ void write_page(const std::string& path, const std::string& json) {
   file.commit();
 }
 
-py::tuple judge(const py::object& function, const std::string& engine, const std::string& command, bool quick,
-                std::optional<double> time, std::optional<std::size_t> questions, std::uint64_t seed,
-                unsigned jobs, double ulps, bool times, const std::optional<std::string>& html,
-                const std::string& precision, std::optional<double> time_tolerance) {
+py::tuple judge_function(const py::object& function, const std::string& engine, const std::string& command,
+                         bool quick, std::optional<double> time, std::optional<std::size_t> questions,
+                         std::uint64_t seed, unsigned jobs, double ulps, bool times,
+                         const std::optional<std::string>& html, const std::string& precision,
+                         std::optional<double> time_tolerance) {
   lorentz::judge::JudgeOrder order;
   order.command = command, order.quick = quick, order.time = time, order.questions = questions;
   order.seed = seed, order.jobs = jobs, order.ulps = ulps, order.times = times,
@@ -173,9 +174,10 @@ py::tuple judge(const py::object& function, const std::string& engine, const std
 }  // namespace
 
 void bind_judge(py::module_& module) {
-  module.def("judge", judge, py::arg("function"), py::arg("engine"), py::arg("command"), py::arg("quick"),
-             py::arg("time"), py::arg("questions"), py::arg("seed"), py::arg("jobs"), py::arg("ulps"),
-             py::arg("times"), py::arg("html"), py::arg("precision"), py::arg("time_tolerance"));
+  module.def("judge", judge_function, py::arg("function"), py::arg("engine"), py::arg("command"),
+             py::arg("quick"), py::arg("time"), py::arg("questions"), py::arg("seed"), py::arg("jobs"),
+             py::arg("ulps"), py::arg("times"), py::arg("html"), py::arg("precision"),
+             py::arg("time_tolerance"));
   module.attr("HAS_PAGE") = report::has_page();
 }
 

@@ -222,7 +222,7 @@ py::array shown(const std::vector<Number>& numbers, std::vector<std::size_t> sha
 enum class ArrayShape { particles, collisions, vectors };
 
 template <class Number>
-auto array_of(std::vector<Number> Paths::*member, ArrayShape shape) {
+auto view_of(std::vector<Number> Paths::*member, ArrayShape shape) {
   return [=](const py::object& self) {
     const auto& paths = self.cast<const Paths&>();
     std::vector<std::size_t> lengths{paths.particles};
@@ -238,14 +238,14 @@ void bind_paths(py::module_& module) {
   py::class_<Paths, std::shared_ptr<Paths>>(module, "Paths", "Memory of lorentz.Paths.")
       .def("__len__", [](const Paths& paths) { return paths.particles; })
       .def_readonly("dimension", &Paths::dimension)
-      .def_property_readonly("count", array_of(&Paths::count, ArrayShape::particles))
-      .def_property_readonly("stop_code", array_of(&Paths::stop, ArrayShape::particles))
-      .def_property_readonly("time", array_of(&Paths::time, ArrayShape::collisions))
-      .def_property_readonly("lattice", array_of(&Paths::lattice, ArrayShape::collisions))
-      .def_property_readonly("atom", array_of(&Paths::atom, ArrayShape::collisions))
-      .def_property_readonly("cell", array_of(&Paths::cell, ArrayShape::vectors))
-      .def_property_readonly("place", array_of(&Paths::place, ArrayShape::vectors))
-      .def_property_readonly("velocity", array_of(&Paths::velocity, ArrayShape::vectors));
+      .def_property_readonly("count", view_of(&Paths::count, ArrayShape::particles))
+      .def_property_readonly("stop_code", view_of(&Paths::stop, ArrayShape::particles))
+      .def_property_readonly("time", view_of(&Paths::time, ArrayShape::collisions))
+      .def_property_readonly("lattice", view_of(&Paths::lattice, ArrayShape::collisions))
+      .def_property_readonly("atom", view_of(&Paths::atom, ArrayShape::collisions))
+      .def_property_readonly("cell", view_of(&Paths::cell, ArrayShape::vectors))
+      .def_property_readonly("place", view_of(&Paths::place, ArrayShape::vectors))
+      .def_property_readonly("velocity", view_of(&Paths::velocity, ArrayShape::vectors));
   module.def(
       "follow",
       [](const PyScene& scene, Numbers x, Numbers v, const py::object& from, std::size_t collisions,

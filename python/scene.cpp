@@ -18,7 +18,7 @@ py::object fraction_class() {
   return py::module_::import("fractions").attr("Fraction");
 }
 
-py::tuple to_python(const RationalVec& a, int dimension) {
+py::tuple rational_tuple(const RationalVec& a, int dimension) {
   py::tuple tuple(dimension);
   for (int i = 0; i < dimension; ++i) tuple[i] = python::to_python(a[i]);
   return tuple;
@@ -26,12 +26,12 @@ py::tuple to_python(const RationalVec& a, int dimension) {
 
 py::dict atom_dict(const RationalAtom& atom, int dimension) {
   py::dict dict;
-  dict["position"] = to_python(atom.position, dimension);
+  dict["position"] = rational_tuple(atom.position, dimension);
   if (atom.is_ball()) {
     dict["radius"] = python::to_python(atom.radius);
   } else {
     py::list semiaxes;
-    for (const RationalVec& axis : atom.semiaxes) semiaxes.append(to_python(axis, dimension));
+    for (const RationalVec& axis : atom.semiaxes) semiaxes.append(rational_tuple(axis, dimension));
     dict["semiaxes"] = semiaxes;
   }
   return dict;
@@ -42,7 +42,7 @@ py::dict scene_dict(const PyScene& scene) {
   for (const RationalLattice& lattice : scene.exact().lattices) {
     py::list vectors, atoms;
     for (int i = 0; i < scene.dimension() - lattice.missing; ++i)
-      vectors.append(to_python(lattice.vectors[i], scene.dimension()));
+      vectors.append(rational_tuple(lattice.vectors[i], scene.dimension()));
     for (const RationalAtom& atom : lattice.atoms) atoms.append(atom_dict(atom, scene.dimension()));
     lattices.append(py::dict(py::arg("vectors") = vectors, py::arg("atoms") = atoms));
   }
