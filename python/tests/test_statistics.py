@@ -72,8 +72,8 @@ def test_scans():
     assert [row["radius"] for row in lorentz.scan(lorentz.mean_free_path, ["honeycomb", "rock-salt"])] == [0.23, None]
     assert lorentz.scan(lorentz.mean_free_path, "square", 0.2) == lorentz.scan(lorentz.mean_free_path, "square", [0.2])
     marked = lorentz.scan(lorentz.lyapunov, "square", [0.2, 0.6], collisions=1000, on_error="mark")
-    assert "exponent_1" in marked[0] and "radii below half" in marked[1]["error"]
-    with pytest.raises(lorentz.Error, match="radii below half"):
+    assert "exponent_1" in marked[0] and "radii up to half" in marked[1]["error"]
+    with pytest.raises(lorentz.Error, match="radii up to half"):
         lorentz.scan(lorentz.lyapunov, "square", [0.2, 0.6], collisions=1000)
 
 
