@@ -6,6 +6,7 @@
 #include <arb.h>
 #else  // from FLINT 3 on
 #include <flint/arb.h>
+#include <flint/fmpq.h>
 #endif
 
 #include <array>

@@ -106,7 +106,11 @@ Arrival Itinerary::follow(const Start& start, const Journey& journey, const OnCo
 }
 
 std::string itinerary_libraries() {
+#if __FLINT_RELEASE >= 30000  // Arb is a part of it
+  return std::string("FLINT ") + FLINT_VERSION;
+#else
   return std::string("Arb ") + arb_version + ", FLINT " + FLINT_VERSION;
+#endif
 }
 
 }  // namespace lorentz::oracle
