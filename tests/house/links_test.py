@@ -1,6 +1,6 @@
 """What the documents point to is there: links to files and to headings, and the paths of trust.md.
 
-usage: links_test.py SOURCE [LEAST]; at least so many documents are there (20)
+usage: links_test.py SOURCE [LEAST]; it also fails if there are fewer than LEAST documents (default: 20)
 """
 
 import re
