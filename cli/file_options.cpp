@@ -81,17 +81,6 @@ std::vector<NamedFile> files_of(const Command& command) {
   return files;
 }
 
-// What a file that an option is to replace begins with, white space aside; empty for no file and for devices.
-std::string beginning_of(const std::string& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return "";
-  std::ifstream in(path, std::ios::binary);
-  std::string start(64, '\0');
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(in.gcount()));
-  return start.substr(std::min(start.size(), start.find_first_not_of("\xef\xbb\xbf \t\r\n")));
-}
-
 // An option replaces files of its own kind only, so that a slip of the finger loses no run and no queries.
 void refuse_other_kinds(const NamedFile& output) {
   if (!output.is_output || output.by == "--store") return;
@@ -119,6 +108,16 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+std::string beginning_of(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return "";
+  std::ifstream in(path, std::ios::binary);
+  std::string start(4096, '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  return start.substr(std::min(start.size(), start.find_first_not_of("\xef\xbb\xbf \t\r\n")));
+}
 
 void check_files(const Command& command) {
   const std::vector<NamedFile> files = files_of(command);

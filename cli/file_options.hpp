@@ -1,6 +1,8 @@
 // Checks that no file to be written is also named by another option.
 #pragma once
 
+#include <string>
+
 #include "cli/command.hpp"
 
 namespace lorentz::cli {
@@ -11,5 +13,9 @@ namespace lorentz::cli {
 /// of a scene, standard input) count as the same file. The files among the words of an engine's command count as
 /// read. Devices and pipes may be named several times.
 void check_files(const Command& command);
+
+/// The first 4096 bytes of a file that is to be replaced, without white space in front. Empty if there is no such
+/// file, and for devices.
+std::string beginning_of(const std::string& path);
 
 }  // namespace lorentz::cli

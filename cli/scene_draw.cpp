@@ -1,16 +1,14 @@
 // lorentz scene draw: the picture of a scene, with flights and open channels.
 #include "cli/scene_draw.hpp"
 
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/geometry.hpp>
 #include <lorentz/horizon.hpp>
 #include "cli/exit_status.hpp"
+#include "cli/file_options.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
@@ -38,16 +36,8 @@ struct SceneDrawOptions {
 // Whether the file exists and is not an SVG, so that overwriting it would lose other data. An empty file does
 // not count.
 bool is_other_than_svg(const std::string& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return false;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw FileError(file + ": " + std::strerror(errno));
-  std::string start(4096, '\0');
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(in.gcount()));
-  if (start.empty()) return false;
-  const auto first = start.find_first_not_of("\xef\xbb\xbf \t\r\n");
-  return first == std::string::npos || start[first] != '<' || start.find("<svg") == std::string::npos;
+  const std::string start = beginning_of(file);
+  return !start.empty() && (start[0] != '<' || start.find("<svg") == std::string::npos);
 }
 
 // No program opens a file x.png that contains an SVG.
