@@ -2,10 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <deque>
 #include <filesystem>
-#include <iostream>
 
 #include <lorentz/exchange.hpp>
 #include "cli/completion.hpp"
@@ -14,10 +12,8 @@
 #include "cli/manual.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
-#include "cli/versions.hpp"
 #include "files/signals.hpp"
 #include "src/exchange/nearest_name.hpp"
-#include "src/problem/write_error.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -144,10 +140,7 @@ const Action& parse(CLI::App& app, const Command& program, const NumbersGiven& n
   return command.act;
 }
 
-std::string& called() {
-  static std::string line;
-  return line;
-}
+std::string called;  // the shell line
 
 // Supports `lorentz help golden make` as another form of `lorentz golden make --help`.
 void help_as_option(int argc, char** argv) {
@@ -196,23 +189,6 @@ int parse_and_act(CLI::App& app, const Command& program, const NumbersGiven& num
   }
 }
 
-}  // namespace
-
-const std::string& command_line() {
-  return called();
-}
-
-void finish_output() {
-  static bool is_lost = false;  // reported only once
-  if (is_lost) return;
-  std::cout.flush();
-  const bool flushed = std::fflush(stdout) == 0;
-  is_lost = !flushed || std::ferror(stdout) || !std::cout;
-  if (is_lost) throw write_error("standard output", errno);
-}
-
-namespace {
-
 // Adds the help option in front of each command's own rows.
 void add_help(Command& command) {
   command.options.insert(command.options.begin(), {"-h,--help", {}, "", "Print this help message and exit"});
@@ -241,14 +217,14 @@ Command program() {
 
 }  // namespace
 
-std::string parser_library() {
-  return std::string("CLI11 ") + CLI11_VERSION;
+const std::string& command_line() {
+  return called;
 }
 
 int run(int argc, char** argv) {
   end_in_order();
-  called() = "lorentz";
-  for (int i = 1; i < argc; ++i) called() += ' ' + shell_quoted(argv[i]);
+  called = "lorentz";
+  for (int i = 1; i < argc; ++i) called += ' ' + shell_quoted(argv[i]);
   const Command commands = program();
   CLI::App app{commands.description};
   app.name(commands.name);

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "cases/families/target.hpp"
-#include "cli/golden.hpp"
 #include "files/scene_file.hpp"
 #include "golden/sets.hpp"
 #include "question/engines.hpp"

@@ -7,7 +7,6 @@
 #include "cli/app.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/output.hpp"
-#include "cli/versions.hpp"
 #include "fitness/examination.hpp"
 #include "report/manifest.hpp"
 #include "src/exchange/json_writer.hpp"

@@ -5,17 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/command.hpp"
 #include "fuzz/campaign/store.hpp"
 #include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
-
-/// lorentz fuzz list, show, merge; and export.
-Command fuzz_list_command();
-Command fuzz_show_command();
-Command fuzz_merge_command();
-Command fuzz_export_command();
 
 /// The result of a campaign: its manifest, the tally of each target, and its findings.
 struct FuzzReport {

@@ -3,6 +3,7 @@
 #include <map>
 
 #include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"
 #include "cli/fuzz_options.hpp"

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
 #include "cli/case_report.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"

@@ -3,9 +3,9 @@
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
+#include "cli/app.hpp"
 #include "cli/case_report.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/golden.hpp"
 #include "cli/output.hpp"
 #include "golden/find_sets.hpp"
 #include "golden/reader.hpp"

@@ -2,8 +2,8 @@
 #include <set>
 
 #include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
 #include "cli/exit_status.hpp"
-#include "cli/golden.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
 #include "golden/find_sets.hpp"

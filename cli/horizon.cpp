@@ -4,7 +4,7 @@
 #include "cli/exit_status.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
-#include "cli/search_progress.hpp"
+#include "cli/terminal.hpp"
 #include "files/scene_file.hpp"
 #include "report/horizon_report.hpp"
 

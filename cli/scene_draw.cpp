@@ -1,7 +1,6 @@
 // lorentz scene draw: the picture of a scene, with flights and open channels.
-#include "cli/scene_draw.hpp"
+#include "cli/app.hpp"
 
-#include <charconv>
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
@@ -12,7 +11,7 @@
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
-#include "cli/search_progress.hpp"
+#include "cli/terminal.hpp"
 #include "files/scene_file.hpp"
 #include "files/whole_file.hpp"
 #include "pictures/scene_drawing.hpp"
@@ -186,13 +185,10 @@ int draw(const SceneDrawOptions& options) {
   if (most > 0) drawing_options.ways = ways_of(*scene, most);
   const Drawing drawing = draw_scene(*scene, drawing_options, flights);
   for (const std::string& remark : drawing.remarks) say("{}", remark);
-  if (options.output == "-") {
+  if (options.output == "-")
     print(drawing.svg);
-  } else {
-    WholeFile file(options.output);
-    file.write(drawing.svg);
-    file.commit();
-  }
+  else
+    write_whole(options.output, drawing.svg);
   return bad ? kBadInput : kDone;
 }
 
