@@ -5,6 +5,7 @@
 #include <string>
 
 #include <lorentz/scene.hpp>
+#include "files/unknown_keys.hpp"
 #include "question/engines.hpp"
 
 namespace lorentz::cli {
@@ -18,7 +19,7 @@ struct ColumnOrder {
   Scene scene{};
   std::optional<double> max_time{};
   int jobs = 1;
-  bool strict = false;
+  UnknownKeys unknown = UnknownKeys::warned;
 };
 
 /// Answers all rows on standard output. Returns an ExitStatus. Throws InputError, FileError.

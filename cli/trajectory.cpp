@@ -1,5 +1,4 @@
 // lorentz trajectory: certified itineraries from the starts of a stream, and engines compared with them.
-#include <cmath>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
@@ -103,7 +102,7 @@ std::string in_table(const Id& id) {
 class StartReport {
  public:
   StartReport(Output& out, const TrajectoryOptions& options) : out_(out), options_(options) {
-    if (options.csv) csv_ = std::make_unique<WholeFile>(*options.csv);
+    if (options.csv) csv_.emplace(*options.csv);
   }
 
   void begin(const Id& id, const Components& count) {
@@ -158,19 +157,12 @@ class StartReport {
  private:
   Output& out_;
   const TrajectoryOptions& options_;
-  std::unique_ptr<WholeFile> csv_;
+  std::optional<WholeFile> csv_;
   Id id_;
   Components components_ = 0;
   int columns_ = 0;
   std::uint64_t number_ = 0;
 };
-
-void append_error(std::string& out, const Id& id, const std::string& message) {
-  json::append(out, [&](json::Members& line) {
-    line.add("id", json::Raw{id}, "outcome", "error", "message", message);
-  });
-  out += '\n';
-}
 
 // The picture of the first start: its path, and the engine's path from the point where they separate.
 class Picture {
@@ -209,16 +201,15 @@ struct TrajectoryRun {
   Precision precision;
   StartReport& report;
   std::optional<Picture> picture;
-  bool drawn = false, failed = false;
+  bool failed = false;
 };
 
 void follow(TrajectoryRun& run, const Id& id, const RationalScene& scene, const Start& start) {
   std::unique_ptr<Rival> rival;
   if (run.engine) rival = std::make_unique<Rival>(*run.engine, run.precision, scene, start, terminal());
   Picture* picture = nullptr;
-  if (run.options.svg && !run.drawn) {
+  if (run.options.svg && !run.picture) {
     if (scene.dimension != 2) throw InputError("--svg: draws paths in two dimensions");
-    run.drawn = true;
     picture = &run.picture.emplace();
     picture->begin(scene, start);
   }
@@ -238,11 +229,10 @@ void follow(TrajectoryRun& run, const Id& id, const RationalScene& scene, const 
   run.report.end(arrival, rival.get());
   run.failed |= rival && rival->failed();
   if (picture) picture->end(arrival, rival.get(), run.options.engine.value_or(""));
-  if (arrival.end == JourneyEnd::undecided) {
+  if (arrival.end == JourneyEnd::undecided)
     say("start {}: undecided at collision {} with {} bits (--max-bits allows more; a line that touches an "
         "obstacle, or two obstacles that are entered at once, no precision decides)",
         id, arrival.collisions + 1, arrival.bits);
-  }
 }
 
 int act(const TrajectoryOptions& options) {
@@ -259,14 +249,15 @@ int act(const TrajectoryOptions& options) {
   const Interrupt interrupt;
   bool refused = false;
   for (StartItem item; !Interrupt::came() && stream.next(item);) {
-    if (item.kind == StreamItem::Kind::bad) append_error(output.buffer(), item.id, item.message);
+    if (item.kind == StreamItem::Kind::bad)
+      append_answer_line(output.buffer(), item.id, Answer::error(item.message), 0);
     if (item.kind != StreamItem::Kind::query) continue;
     try {
       follow(run, item.id, *stream.scene(), item.start);
     } catch (const InputError& error) {
       refused = true;
       say("{}: start {}: {}", stream.lines().name(), item.id, error.what());
-      append_error(output.buffer(), item.id, error.what());
+      append_answer_line(output.buffer(), item.id, Answer::error(error.what()), 0);
     }
   }
   try {
