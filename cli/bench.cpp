@@ -1,8 +1,6 @@
 // lorentz bench: speed and error for all combinations of engines, scenes, radii and difficulties.
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"

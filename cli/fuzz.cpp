@@ -2,6 +2,7 @@
 #include "cli/fuzz.hpp"
 
 #include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/fuzz_options.hpp"
 #include "cli/fuzz_progress.hpp"
@@ -130,8 +131,7 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan,
   for (const fuzz::TargetTally& tally : report.tallies) cases += tally.cases, indices += tally.next;
   if (cases == 0 && indices > 0 && !plan.scope.is_all()) {
     say("no case was asked: none of the first indices has a scene for --dimension and --scenes; take a "
-        "larger "
-        "--count");
+        "larger --count");
     return kBadInput;
   }
   const int status = exit_status(report, options.times, failed);

@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include <lorentz/exchange.hpp>
-#include <lorentz/margin.hpp>
 #include "cli/numbers.hpp"
 #include "files/messages.hpp"
 #include "question/answerer.hpp"

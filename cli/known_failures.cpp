@@ -11,6 +11,42 @@
 #include "files/text_file.hpp"
 
 namespace lorentz::cli {
+namespace {
+
+std::string in_xml(const std::string& text) {
+  std::string out;
+  for (const char c : text)
+    out += c == '&'                                           ? "&amp;"
+           : c == '<'                                         ? "&lt;"
+           : c == '>'                                         ? "&gt;"
+           : c == '"'                                         ? "&quot;"
+           : static_cast<unsigned char>(c) < ' ' && c != '\n' ? "?"
+                                                              : std::string(1, c);
+  return out;
+}
+
+std::string baseline_text(const std::map<RecordKey, std::string>& failures) {
+  std::string text = "# Known failures: the set, the record's id, the verdict.\n";
+  for (const auto& [record, verdict] : failures)
+    text += fmt::format("{} {} {}\n", record.first, record.second, verdict);
+  return text;
+}
+
+// The set's name as one word of a line.
+std::string word_of(std::string set) {
+  for (char& c : set)
+    if (std::isspace(static_cast<unsigned char>(c)) || c == '#') c = '-';
+  return set.empty() ? "-" : set;
+}
+
+// Prints the first lines, and the number of further lines.
+void say_first(const std::vector<std::string>& lines) {
+  constexpr std::size_t kMost = 10;
+  for (std::size_t i = 0; i < std::min(lines.size(), kMost); ++i) say("{}", lines[i]);
+  if (lines.size() > kMost) say("and {} more", lines.size() - kMost);
+}
+
+}  // namespace
 
 KnownFailures::KnownFailures(const std::string& text, const std::string& name) {
   std::istringstream lines(text);
@@ -39,22 +75,6 @@ void KnownFailures::end(const std::string& set) {
   for (auto record = known_.lower_bound({set, ""}); record != known_.end() && record->first == set; ++record)
     if (!asked_.contains(*record)) stale_.push_back(*record);
 }
-
-namespace {
-
-std::string in_xml(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '&'                                           ? "&amp;"
-           : c == '<'                                         ? "&lt;"
-           : c == '>'                                         ? "&gt;"
-           : c == '"'                                         ? "&quot;"
-           : static_cast<unsigned char>(c) < ' ' && c != '\n' ? "?"
-                                                              : std::string(1, c);
-  return out;
-}
-
-}  // namespace
 
 void JUnit::add(const RecordKey& record, const std::optional<std::string>& failure) {
   Suite& suite = suites_[record.first];
@@ -115,31 +135,6 @@ std::optional<std::string> failure_of(const oracle::Judgement& judgement, bool t
       return times && judgement.wrong_time ? std::optional("wrong-time") : std::nullopt;
   }
 }
-
-namespace {
-
-std::string baseline_text(const std::map<RecordKey, std::string>& failures) {
-  std::string text = "# Known failures: the set, the record's id, the verdict.\n";
-  for (const auto& [record, verdict] : failures)
-    text += fmt::format("{} {} {}\n", record.first, record.second, verdict);
-  return text;
-}
-
-// The set's name as one word of a line.
-std::string word_of(std::string set) {
-  for (char& c : set)
-    if (std::isspace(static_cast<unsigned char>(c)) || c == '#') c = '-';
-  return set.empty() ? "-" : set;
-}
-
-// Prints the first lines, and the number of further lines.
-void say_first(const std::vector<std::string>& lines) {
-  constexpr std::size_t kMost = 10;
-  for (std::size_t i = 0; i < std::min(lines.size(), kMost); ++i) say("{}", lines[i]);
-  if (lines.size() > kMost) say("and {} more", lines.size() - kMost);
-}
-
-}  // namespace
 
 FailureLedger::FailureLedger(const FailureFiles& files, std::optional<KnownFailures> known)
     : known_(std::move(known)), baseline_file_(files.write_baseline), junit_file_(files.junit) {

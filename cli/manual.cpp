@@ -184,9 +184,7 @@ std::string page_of(const ManualPage& page) {
 }
 
 void write_pages(const ManualPage& page, const std::filesystem::path& folder) {
-  WholeFile file((folder / (page.name() + ".1")).string());
-  file.write(page_of(page));
-  file.commit();
+  write_whole((folder / (page.name() + ".1")).string(), page_of(page));
   for (const Command& command : page.command.commands) write_pages(page.of(command), folder);
 }
 
