@@ -6,12 +6,10 @@
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
-#include "cli/completion.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/file_options.hpp"
-#include "cli/manual.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
+#include "cli/services.hpp"
 #include "files/signals.hpp"
 #include "src/exchange/nearest_name.hpp"
 
@@ -37,7 +35,7 @@ CLI::Option* add_option(CLI::App& app, const Option& option, NumbersGiven& numbe
       [&](auto target) -> CLI::Option* {
         using To = std::remove_pointer_t<decltype(target)>;
         if constexpr (std::is_same_v<To, std::monostate>)
-          return app.get_option("--" + option.long_names().at(0));
+          return app.get_option(option.name());
         else if constexpr (std::is_same_v<To, bool>)
           return app.add_flag(option.names, *target, option.help);
         else if constexpr (std::is_pointer_v<decltype(target)>)
@@ -97,7 +95,7 @@ Called subcommand_of(CLI::App& app, const Command& command, const std::string& b
 std::string unknown_options(const CLI::App& app, const Command& command) {
   std::vector<std::string> names;
   for (const Option& option : command.options)
-    for (const std::string& name : option.long_names()) names.push_back("--" + name);
+    for (const std::string& name : option.long_names()) names.push_back(name);
   std::string text;
   for (const std::string& word : app.remaining(true))
     if (word.starts_with('-'))

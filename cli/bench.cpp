@@ -4,7 +4,6 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"

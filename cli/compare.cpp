@@ -7,7 +7,6 @@
 #include "cli/compare_questions.hpp"
 #include "cli/compare_table.hpp"
 #include "cli/disagreement_file.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/logged_answers.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"

@@ -5,7 +5,6 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/disagreement_file.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
 #include "question/examine.hpp"

@@ -3,13 +3,10 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
-#include "cli/first_hit_columns.hpp"
-#include "cli/first_hit_proofs.hpp"
+#include "cli/first_hit.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/terminal.hpp"
-#include "files/messages.hpp"
 #include "files/scene_file.hpp"
 #include "question/answerer.hpp"
 #include "question/engines.hpp"

@@ -1,7 +1,6 @@
-#include "cli/first_hit_columns.hpp"
+#include "cli/first_hit.hpp"
 
 #include <lorentz/exchange.hpp>
-#include "cli/exit_status.hpp"
 #include "cli/output.hpp"
 #include "files/messages.hpp"
 #include "question/column_engine.hpp"

@@ -5,7 +5,6 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
@@ -69,11 +68,6 @@ std::vector<FlightsReport> tasks_of(const FlightsOptions& options) {
   return tasks;
 }
 
-flights::PictureStyle style_of(const FlightsOptions& options) {
-  const PictureSize size = picture_size(options.size);
-  return {options.title, size.width, size.height.value_or(size.width * 3 / 4)};
-}
-
 flights::FlightBounds bounds_of(const FlightsOptions& options) {
   flights::FlightBounds bounds;
   bounds.jobs = static_cast<unsigned>(options.jobs);
@@ -99,28 +93,24 @@ void add_store(const runs::PieceStore& store, const std::string& file, const Fli
     say("{}: {} of {} blocks are done", file, account.done.size() - before, plan.blocks());
 }
 
-// Is due at once, and then every few seconds.
-class StoreClock {
- public:
-  bool is_due() {
+// A function that is true at once, and then every few seconds.
+auto store_clock() {
+  return [next = std::chrono::steady_clock::now()]() mutable {
     const auto now = std::chrono::steady_clock::now();
-    if (now < next_) return false;
-    next_ = now + kBetweenStores;
+    if (now < next) return false;
+    next = now + kBetweenStores;
     return true;
-  }
-
- private:
-  std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now();
-};
+  };
+}
 
 // For the ranks other than 0: flies their share and reports it to rank 0.
 void fly_share(const FlightsPlan& plan, flights::FlightBounds bounds, flights::Ranks& ranks) {
   Account known, own = Account::begun(plan);
   ranks.share(known);
   bounds.done = known.done;
-  StoreClock clock;
+  auto is_due = store_clock();
   flights::run(plan, bounds, own, [&](const Account& account) {
-    if (clock.is_due()) ranks.report(account, false);
+    if (is_due()) ranks.report(account, false);
   });
   ranks.report(own, true);
 }
@@ -137,10 +127,10 @@ void fly(FlightsReport& task, const flights::FlightBounds& bounds, const Flights
   const auto start = std::chrono::steady_clock::now();
   {
     Progress progress("flying", plan.count, 1);
-    StoreClock clock;
+    auto is_due = store_clock();
     flights::run(plan, bounds, task.account, [&](const Account& account) {
       progress.at(std::min(account.done.size() * flights::kBlock, plan.count));
-      if (clock.is_due() && store.is_file()) store.set((ranks ? ranks->sum(account, false) : account).text());
+      if (is_due() && store.is_file()) store.set((ranks ? ranks->sum(account, false) : account).text());
     });
   }
   if (ranks) task.account = ranks->sum(task.account, true);
@@ -153,7 +143,8 @@ void fly(FlightsReport& task, const flights::FlightBounds& bounds, const Flights
 // tasks without results are left out.
 int fly_all(std::vector<FlightsReport> tasks, const flights::FlightBounds& bounds,
             const FlightsOptions& options, flights::Ranks* ranks) {
-  const flights::PictureStyle style = style_of(options);
+  const PictureSize size = picture_size(options.size);
+  const flights::PictureStyle style{options.title, size.width, size.height.value_or(size.width * 3 / 4)};
   RequestedFile csv(options.csv), svg(options.svg), density(options.density_svg), html(options.html);
   std::vector<FlightsReport> reports;
   const auto fly_each = [&] {
@@ -231,8 +222,7 @@ Command flights_command() {
            "only the blocks of flights I modulo N, into --store; --add joins them"},
           {"--csv", &options->csv, "FILE",
            "the histograms, and theory, to a file; of several scenes or radii one table, with both in its "
-           "first "
-           "columns",
+           "first columns",
            kOutput},
           {"--svg", &options->svg, "FILE",
            "the picture: P(free path > t), theory drawn in; several scenes and radii in one", kOutput},

@@ -4,9 +4,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"
-#include "cli/fuzz_options.hpp"
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "cli/set_output.hpp"

@@ -1,5 +1,5 @@
 // The options of lorentz fuzz and their meaning.
-#include "cli/fuzz_options.hpp"
+#include "cli/fuzz.hpp"
 
 #include <algorithm>
 #include <charconv>

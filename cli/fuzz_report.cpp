@@ -5,7 +5,6 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/fuzz.hpp"
-#include "cli/fuzz_options.hpp"
 #include "files/messages.hpp"
 #include "question/engines.hpp"
 #include "report/claim_words.hpp"

@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
-#include "cli/exit_status.hpp"
 #include "cli/output.hpp"
 #include "cli/set_output.hpp"
 #include "golden/find_sets.hpp"

@@ -1,6 +1,5 @@
 // lorentz golden add: adds records of further queries to a set.
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"

@@ -8,7 +8,6 @@
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"
 #include "cli/compare_table.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/known_failures.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
@@ -56,25 +55,20 @@ struct SetTally {
   std::size_t not_asked() const { return given_up_before + of_other_numbers; }
 };
 
-// The first records of a set, filtered by the beginning of the id.
+// Those of the first records of a set whose id begins so and that consist of the engine's numbers. Counts the
+// records of other numbers.
 Source records_of(const Source& records, const std::optional<std::string>& id, std::uint64_t first,
-                  Progress& progress) {
-  return [records, id, first, &progress, read = std::uint64_t{0}]() mutable -> std::optional<Question> {
+                  Progress& progress, std::size_t& of_other_numbers) {
+  return [=, &progress, &of_other_numbers, read = std::uint64_t{0}]() mutable -> std::optional<Question> {
     while (read < first) {
       std::optional<Question> question = records();
       progress.at(++read);
-      if (!question || !id || question->where.starts_with(*id)) return question;
+      if (!question) break;
+      if (id && !question->where.starts_with(*id)) continue;
+      if (question->place->has_numbers_for(question->query)) return question;
+      ++of_other_numbers;
     }
     return std::nullopt;
-  };
-}
-
-// The records that consist of the engine's numbers; the others are counted.
-Source in_its_numbers(Source records, std::size_t& others) {
-  return [records = std::move(records), &others]() -> std::optional<Question> {
-    std::optional<Question> question = records();
-    for (; question && !question->place->has_numbers_for(question->query); question = records()) ++others;
-    return question;
   };
 }
 
@@ -157,8 +151,7 @@ class EngineCheck {
     tally.notes = header.tags;
     Progress progress(engine_, header.count);
     const Source records =
-        in_its_numbers(records_of(golden::questions_of(reader, claim), options_.id, first, progress),
-                       tally.of_other_numbers);
+        records_of(golden::questions_of(reader, claim), options_.id, first, progress, tally.of_other_numbers);
     const double ulps = options_.ulps.value_or(oracle::kDefaultUlps);
     for (std::vector<Question> part; !(part = some_of(records, kTogether)).empty();)
       examine(part, answerers_, ulps, [&](const Judged& judged) { take(judged, path, tally); });
@@ -208,9 +201,6 @@ std::vector<std::string> cells_of(const std::string& set, const std::string& tag
   return cells;
 }
 
-const std::vector<std::string> kColumns{"set",   "tag",        "records",   "agree",       "ill-posed",
-                                        "wrong", "wrong time", "undecided", "unsupported", "error"};
-
 void add_counts(json::Members& object, const Tally& t) {
   object.add("records", t.queries, "agree", t.agree, "ill_posed", t.ill_posed, "wrong", t.wrong, "wrong_time",
              t.wrong_time, "other_quantity", t.other_quantity, "undecided", t.undecided, "unsupported",
@@ -247,25 +237,22 @@ std::string json_of(const std::string& engine, const Claim& claim, const std::ve
   });
 }
 
-// The tally of all sets together.
-Tally total_of(const std::vector<SetTally>& tallies) {
-  Tally total;
-  for (const SetTally& set : tallies) total.add(set.all);
-  return total;
-}
-
 void show(const std::string& engine, const Claim& claim, const std::vector<SetTally>& tallies,
           const std::vector<std::string>& failures, std::size_t not_asked) {
-  report::Table table(kColumns);
+  report::Table table({"set", "tag", "records", "agree", "ill-posed", "wrong", "wrong time", "undecided",
+                       "unsupported", "error"});
   for (const SetTally& set : tallies) {
     table.add(cells_of(set.label, "all", set.all));
     for (const auto& [tag, tally] : set.by_tag) table.add(cells_of("", tag, tally));
   }
   if (not_asked > 0) table.add(cells_of(fmt::format("{} sets not asked", not_asked), "", {}));
-  Tally total = total_of(tallies);
-  table.add(cells_of("total", "", total));
+  Tally total;
   std::size_t of_other_numbers = 0;
-  for (const SetTally& set : tallies) of_other_numbers += set.of_other_numbers;
+  for (const SetTally& set : tallies) {
+    total.add(set.all);
+    of_other_numbers += set.of_other_numbers;
+  }
+  table.add(cells_of("total", "", total));
   print(fmt::format("{}{}\n\n{}\n", engine, report::words_of(claim), table.text()));
   if (of_other_numbers > 0)
     print(fmt::format("{} records were not asked: their numbers are of another precision\n\n",
@@ -337,11 +324,6 @@ std::string faults_page(const std::string& engine, const std::vector<SetTally>& 
   return page + "```\n";
 }
 
-int status_of(const EngineCheck& check, const std::vector<SetTally>& tallies) {
-  if (std::ranges::any_of(tallies, [](const SetTally& set) { return set.failed; })) return kFailed;
-  return check.new_failures() > 0 ? kDisagreement : kDone;
-}
-
 int act(CheckOptions options) {
   const std::vector<EngineInfo> engines = engines_named(options.engines);
   if (engines.empty()) throw InputError("--engine: name one (" + names_for_help() + ")");
@@ -371,7 +353,8 @@ int act(CheckOptions options) {
         say("{}: given up in {}: {} records were not asked", engine, its.all.name, its.given_up_before);
     }
     examination.finish();
-    status = std::max(status, status_of(examination, tallies));
+    const bool failed = std::ranges::any_of(tallies, &SetTally::failed);
+    status = std::max<int>(status, failed ? kFailed : examination.new_failures() > 0 ? kDisagreement : kDone);
     if (options.json)
       print(json_of(engine, claim, tallies, files.size() - tallies.size()));
     else if (!options.markdown)

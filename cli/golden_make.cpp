@@ -6,7 +6,6 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "golden/find_sets.hpp"

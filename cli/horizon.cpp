@@ -1,7 +1,6 @@
 // lorentz horizon: the infinite channels that a scene leaves open.
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/exit_status.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "files/scene_file.hpp"

@@ -4,7 +4,6 @@
 #include <lorentz/exchange.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
 #include "files/data_folder.hpp"

@@ -2,11 +2,11 @@
 #include "cli/app.hpp"
 
 #include <filesystem>
+#include <sstream>
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/geometry.hpp>
 #include <lorentz/horizon.hpp>
-#include "cli/exit_status.hpp"
 #include "cli/file_options.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
@@ -82,32 +82,22 @@ std::vector<DrawnFlight> flights_of(QueryStream& stream, std::optional<Scene>& s
   return flights;
 }
 
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts{""};
-  for (const char c : text)
-    if (c == at)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  return parts;
-}
-
 std::optional<std::array<double, 4>> window_of(const SceneDrawOptions& options) {
   if (!options.window) return std::nullopt;
-  const std::vector<std::string> parts = split(*options.window, ',');
-  std::array<double, 4> window{};
-  bool good = parts.size() == 4;
-  for (std::size_t i = 0; good && i < 4; ++i) try {
-      window[i] = parse_number(parts[i]);
-    } catch (const InputError&) {
-      good = false;
-    }
-  if (!good || !(window[0] < window[2]) || !(window[1] < window[3]))
+  std::vector<double> numbers;
+  std::istringstream parts(*options.window);
+  try {
+    for (std::string part; std::getline(parts, part, ',');) numbers.push_back(parse_number(part));
+  } catch (const InputError&) {
+    numbers.clear();
+  }
+  if (numbers.size() != 4 || options.window->ends_with(',') || !(numbers[0] < numbers[2]) ||
+      !(numbers[1] < numbers[3]))
     throw InputError(fmt::format("--window: {} is not X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1",
                                  json_quoted(*options.window)));
-  if (!(window[2] - window[0] < 1e300) || !(window[3] - window[1] < 1e300))
+  if (!(numbers[2] - numbers[0] < 1e300) || !(numbers[3] - numbers[1] < 1e300))
     throw InputError("--window: is too large");
-  return window;
+  return std::array{numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
 std::string indices_of(const std::array<Integer, 3>& indices, int dimension) {

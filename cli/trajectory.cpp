@@ -2,7 +2,6 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
@@ -164,35 +163,19 @@ class StartReport {
   std::uint64_t number_ = 0;
 };
 
-// The picture of the first start: its path, and the engine's path from the point where they separate.
-class Picture {
- public:
-  void begin(const RationalScene& scene, const Start& start) {
-    drawing_.scene = oracle::nearest(scene);
-    drawing_.path.push_back(oracle::nearest(start).x);
-  }
-  void collision(const CertifiedCollision& c) {
-    ++drawing_.collisions;
-    drawing_.path.push_back(survival::place_of(drawing_.scene, c));
-  }
-
-  void end(const Arrival& arrival, Rival* rival, const std::string& engine) {
-    if (arrival.end == JourneyEnd::time && arrival.x.size() == 2)
-      drawing_.path.push_back({*nearest_decimal(arrival.x[0]), *nearest_decimal(arrival.x[1]), 0});
-    if (arrival.end == JourneyEnd::never && arrival.v.size() == 2)
-      drawing_.escape = {*nearest_decimal(arrival.v[0]), *nearest_decimal(arrival.v[1]), 0};
-    if (!rival || !rival->diverged()) return;
-    rival->go_on(arrival.collisions);
-    drawing_.other = rival->path();
-    drawing_.parting = *rival->diverged();
-    drawing_.other_name = engine;
-  }
-
-  std::string svg() const { return pictures::draw_path(drawing_); }
-
- private:
-  pictures::PathDrawing drawing_;
-};
+// Adds the end of the path, and the engine's path from the point where they separate.
+void end_drawing(pictures::PathDrawing& drawing, const Arrival& arrival, Rival* rival,
+                 const std::string& engine) {
+  if (arrival.end == JourneyEnd::time && arrival.x.size() == 2)
+    drawing.path.push_back({*nearest_decimal(arrival.x[0]), *nearest_decimal(arrival.x[1]), 0});
+  if (arrival.end == JourneyEnd::never && arrival.v.size() == 2)
+    drawing.escape = {*nearest_decimal(arrival.v[0]), *nearest_decimal(arrival.v[1]), 0};
+  if (!rival || !rival->diverged()) return;
+  rival->go_on(arrival.collisions);
+  drawing.other = rival->path();
+  drawing.parting = *rival->diverged();
+  drawing.other_name = engine;
+}
 
 struct TrajectoryRun {
   const TrajectoryOptions& options;
@@ -200,25 +183,29 @@ struct TrajectoryRun {
   const Journey& journey;
   Precision precision;
   StartReport& report;
-  std::optional<Picture> picture;
+  std::optional<pictures::PathDrawing> picture;  // of the first start
   bool failed = false;
 };
 
 void follow(TrajectoryRun& run, const Id& id, const RationalScene& scene, const Start& start) {
   std::unique_ptr<Rival> rival;
   if (run.engine) rival = std::make_unique<Rival>(*run.engine, run.precision, scene, start, terminal());
-  Picture* picture = nullptr;
+  pictures::PathDrawing* picture = nullptr;
   if (run.options.svg && !run.picture) {
     if (scene.dimension != 2) throw InputError("--svg: draws paths in two dimensions");
     picture = &run.picture.emplace();
-    picture->begin(scene, start);
+    picture->scene = oracle::nearest(scene);
+    picture->path.push_back(oracle::nearest(start).x);
   }
   run.report.begin(id, oracle::nearest(scene));
   const Arrival arrival =
       Itinerary(scene).follow(start, run.journey, [&](const CertifiedCollision& collision) {
         if (rival) rival->meet(collision);
         run.report.collision(collision, rival.get());
-        if (picture) picture->collision(collision);
+        if (picture) {
+          ++picture->collisions;
+          picture->path.push_back(survival::place_of(picture->scene, collision));
+        }
         return true;
       });
   if (Interrupt::came()) return;  // an interrupt is not the end of a trajectory
@@ -228,7 +215,7 @@ void follow(TrajectoryRun& run, const Id& id, const RationalScene& scene, const 
                                           : std::nullopt);
   run.report.end(arrival, rival.get());
   run.failed |= rival && rival->failed();
-  if (picture) picture->end(arrival, rival.get(), run.options.engine.value_or(""));
+  if (picture) end_drawing(*picture, arrival, rival.get(), run.options.engine.value_or(""));
   if (arrival.end == JourneyEnd::undecided)
     say("start {}: undecided at collision {} with {} bits (--max-bits allows more; a line that touches an "
         "obstacle, or two obstacles that are entered at once, no precision decides)",
@@ -266,7 +253,7 @@ int act(const TrajectoryOptions& options) {
     if (!Interrupt::came()) throw;
   }
   report.commit();
-  if (run.picture) svg.write([&] { return run.picture->svg(); });
+  if (run.picture) svg.write([&] { return pictures::draw_path(*run.picture); });
   if (Interrupt::came()) {
     say("{}: the last start has no end", Interrupt::what());
     return kFailed;
