@@ -55,8 +55,8 @@ struct SetTally {
   std::size_t not_asked() const { return given_up_before + of_other_numbers; }
 };
 
-// Those of the first records of a set whose id begins so and that consist of the engine's numbers. Counts the
-// records of other numbers.
+// The first records of a set, filtered by the beginning of the id. Those that do not consist of the engine's
+// numbers are left out and counted.
 Source records_of(const Source& records, const std::optional<std::string>& id, std::uint64_t first,
                   Progress& progress, std::size_t& of_other_numbers) {
   return [=, &progress, &of_other_numbers, read = std::uint64_t{0}]() mutable -> std::optional<Question> {

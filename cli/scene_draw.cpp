@@ -32,19 +32,16 @@ struct SceneDrawOptions {
   bool no_legend = false;
 };
 
-// Whether the file exists and is not an SVG, so that overwriting it would lose other data. An empty file does
-// not count.
-bool is_other_than_svg(const std::string& file) {
-  const std::string start = beginning_of(file);
-  return !start.empty() && (start[0] != '<' || start.find("<svg") == std::string::npos);
-}
-
-// No program opens a file x.png that contains an SVG.
+// No program opens a file x.png that contains an SVG. Overwriting a file that is not an SVG would lose other
+// data; an empty file does not count.
 void refuse_other_formats(const std::string& file) {
   const std::string extension = std::filesystem::path(file).extension();
   for (const char* other : {".png", ".jpg", ".jpeg", ".gif", ".pdf", ".eps", ".ps"})
     if (extension == other)
       throw InputError(file + ": pictures are drawn as SVG; name the file so, and convert it (rsvg-convert)");
+  const std::string start = file == "-" ? "" : beginning_of(file);
+  if (!start.empty() && (start[0] != '<' || start.find("<svg") == std::string::npos))
+    throw InputError(file + ": is not an SVG, and is left as it is; remove it, or name another file");
 }
 
 // The flights of a query stream, up to the first query in a different scene from that of the first query.
@@ -157,9 +154,6 @@ int draw(const SceneDrawOptions& options) {
   drawing_options.width = size.width, drawing_options.height = size.height.value_or(0);
   const std::size_t most = options.channels.value_or(0);
   refuse_other_formats(options.output);
-  if (options.output != "-" && is_other_than_svg(options.output))
-    throw InputError(options.output +
-                     ": is not an SVG, and is left as it is; remove it, or name another file");
   std::optional<Scene> scene;
   if (options.scene) scene = load_scene(*options.scene, options.radius);
   std::vector<DrawnFlight> flights;
