@@ -4,20 +4,16 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <optional>
 
-#include "question/engines.hpp"
 #include "src/exchange/json_writer.hpp"
 #include "src/problem/safe_text.hpp"
 
 namespace lorentz::question {
 namespace {
 
-constexpr std::size_t kWrittenAtOnce = std::size_t{1}
-                                       << 16;      // queries are written out in pieces of this size
+constexpr std::size_t kWrittenAtOnce = 65536;      // queries are written out in pieces of this size
 constexpr std::size_t kAskedBetweenSteps = 256;    // because a step costs a few microseconds
 constexpr double kPatience = 0.5;                  // seconds
 constexpr double kBetweenLooks = 0.1;              // seconds between calls of AnswererOptions::enough
@@ -35,7 +31,7 @@ struct CommandEngine::Run {
   std::string to_write;
   std::size_t given = 0;        // queries, in all
   std::size_t outstanding = 0;  // given and without an answer: the first `outstanding` of open_
-  std::size_t answers = 0, answers_before_end = 0;
+  std::size_t answers_before_end = 0;
   std::shared_ptr<const Scene> scene;
   std::uint64_t first_of_scene = 0;  // number of the first query after the last scene line
   bool greeting = false;             // it has one query only, to see whether it answers with more to come
@@ -51,9 +47,8 @@ struct CommandEngine::Run {
 };
 
 CommandEngine::CommandEngine(std::string command, const AnswererOptions& options)
-    : command_(std::move(command)),
-      options_(options),
-      complaints_("cmd:" + command_, options.listener),
+    : ExternalAnswerer("cmd", command, options),
+      command_(std::move(command)),
       patience_(std::min(kPatience, options.timeout / 4)),
       first_patience_(patience_) {
   reader_.on_unknown_key([this](const std::string& key) { see_unknown_key(key); });
@@ -80,7 +75,7 @@ void CommandEngine::append_line(std::string& out, const Id& id, const OpenQuery&
 
 void CommandEngine::add(OpenQuery asked) {
   open_.push_back(std::move(asked));
-  if (given_up_in_) give_up();
+  if (given_up()) give_up();
   if (open_.empty()) return;
   const std::size_t not_given = open_.size() - (run_ ? run_->outstanding : 0);
   if (not_given % kAskedBetweenSteps == 0) step(Wait::no);
@@ -93,7 +88,7 @@ void CommandEngine::drain() {
 
 void CommandEngine::finish() {
   while (run_ || !open_.empty()) step(Wait::for_good);
-  complaints_.finish();
+  finish_complaints();
 }
 
 bool CommandEngine::idle(int descriptor) {
@@ -130,9 +125,8 @@ void CommandEngine::start() {
 void CommandEngine::abandon() {
   const bool owes = run_ && run_->outstanding > 0;
   if (owes && !ever_answered_)
-    complain(fmt::format("gave no answer in {:.3g} s, which was all the time there is",
-                         Seconds(Clock::now() - run_->started).count()),
-             &open_.front());
+    complain_of(&open_.front(), fmt::format("gave no answer in {:.3g} s, which was all the time there is",
+                                            Seconds(Clock::now() - run_->started).count()));
   if (run_) end_of(*run_, owes ? kGrace * 0 : kGrace);
   run_.reset();
   first_number_ += open_.size();
@@ -302,7 +296,7 @@ bool CommandEngine::take_own_time(const LineReader::Line& line) {
 // Takes a line that answers nothing. The next answer shows whether it stands in the place of an answer.
 void CommandEngine::take_no_answer(const std::string& what) {
   run_->instead = what;
-  complain(what, run_->outstanding > 0 ? &open_.front() : nullptr);
+  complain_of(run_->outstanding > 0 ? &open_.front() : nullptr, what);
 }
 
 void CommandEngine::take_answer(const Id& id, Answer& answer, std::size_t components) {
@@ -345,7 +339,7 @@ void CommandEngine::take_unasked(std::uint64_t number) {
   const OpenQuery* asked = back <= recent_.size() ? &recent_[recent_.size() - back] : nullptr;
   const bool late = asked && asked->passed_over;
   run_->instead = late ? "answered an earlier query, too late" : "answered an earlier query again";
-  complain(late ? "answered this query after a later one" : "answered this query again", asked);
+  complain_of(asked, late ? "answered this query after a later one" : "answered this query again");
 }
 
 // The first query gets no answer, because an answer to a later one came.
@@ -355,11 +349,10 @@ void CommandEngine::pass_over() {
   const Origin origin = run.instead.empty() ? Origin::fault : Origin::bad_line;
   if (!run.instead.empty()) what += "; before that it " + run.instead;
   run.instead.clear();
-  complain(what, &open_.front());
+  complain_of(&open_.front(), what);
   open_.front().passed_over = true;
   --run.outstanding;
-  Answer answer = Answer::error("cmd " + what);
-  deliver_first(answer, origin);
+  deliver_first({error(what), origin});
 }
 
 std::string CommandEngine::flaw_of_answer(const Answer& answer, std::size_t components) const {
@@ -377,7 +370,6 @@ std::string CommandEngine::flaw_of_answer(const Answer& answer, std::size_t comp
 void CommandEngine::answer_first(Answer& answer, Origin origin) {
   Run& run = *run_;
   --run.outstanding;
-  ++run.answers;
   if (!run.ending) ++run.answers_before_end;
   run.last_answer = run.last_move = Clock::now();
   if (!run.first_answer) {
@@ -385,27 +377,25 @@ void CommandEngine::answer_first(Answer& answer, Origin origin) {
     slowest_start_ = std::max(slowest_start_, Seconds(*run.first_answer - run.started));
   }
   run.instead.clear();
-  failures_in_row_ = 0;
-  ever_answered_ = true;
+  note_answer();
   if (run.outstanding == 0 && !run.ending) manner_ = Manner::line_by_line;
   if (manner_ == Manner::line_by_line) run.greeting = false;
-  if (options_.request.max_time) answer = limited(std::move(answer), *options_.request.max_time);
-  if (options_.request.detail) add_detail(open_.front().query, *open_.front().scene, answer);
-  deliver_first(answer, origin);
+  complete(answer, open_.front().query, *open_.front().scene);
+  deliver_first({std::move(answer), origin});
 }
 
 void CommandEngine::answer_first_with_error(const std::string& what) {
-  complain(what, &open_.front());
-  Answer answer = Answer::error("cmd " + what);
+  complain_of(&open_.front(), what);
+  Answer answer = error(what);
   answer_first(answer, Origin::bad_line);
 }
 
-void CommandEngine::deliver_first(Answer& answer, Origin origin) {
+void CommandEngine::deliver_first(Reply reply) {
   recent_.push_back(std::move(open_.front()));
   if (recent_.size() > kRecent) recent_.pop_front();
   open_.pop_front();
   ++first_number_;
-  deliver({std::move(answer), origin});
+  deliver(reply);
 }
 
 // ---- its end
@@ -440,7 +430,7 @@ void CommandEngine::run_is_over() {
     return run_failed(fmt::format("died ({}) on this query", ending.text()));
   }
   if (!run->ending)
-    complain(fmt::format("ended ({}) before it was told to", ending.text()), nullptr);
+    complain(fmt::format("ended ({}) before it was told to", ending.text()));
   else if (ending.how == Ending::How::still_ran)
     tell("did not end when its input did, and was killed");
   else if (!ending.is_good())
@@ -453,7 +443,7 @@ void CommandEngine::run_is_over() {
 void CommandEngine::learn_from_run() {
   const Run& run = *run_;
   if (limit_ != kNoLimit) limit_ = limit_ < kWindow ? 2 * limit_ : kNoLimit;
-  if (!run.told_for_silence || manner_ != Manner::unknown || !run.first_answer) return;
+  if (!run.told_for_silence || manner_ != Manner::unknown) return;
   // It may only be slow to start. It gets that time once; after that silence counts.
   const double longest = std::max(options_.timeout, options_.start_timeout);
   first_patience_ = std::max(first_patience_,
@@ -469,19 +459,16 @@ void CommandEngine::run_failed(const std::string& what) {
   const std::size_t unanswered = run->outstanding;
   if (manner_ != Manner::line_by_line && unanswered > 1) {
     limit_ = limit_ == kNoLimit ? 1 : unanswered / 2;
-    return complain(fmt::format("{}, or on one of the {} after it; they are asked again, fewer at a time",
-                                what, unanswered - 1),
-                    &open_.front());
+    return complain_of(&open_.front(),
+                       fmt::format("{}, or on one of the {} after it; they are asked again, fewer at a time",
+                                   what, unanswered - 1));
   }
   const std::string all = run->instead.empty() ? what : what + "; before that it " + run->instead;
-  complain(all, &open_.front());
+  complain_of(&open_.front(), all);
   open_.front().passed_over = true;
-  Answer answer = Answer::error("cmd " + all);
-  deliver_first(answer, run->instead.empty() ? Origin::fault : Origin::bad_line);
+  deliver_first({error(all), run->instead.empty() ? Origin::fault : Origin::bad_line});
   if (limit_ != kNoLimit) limit_ = 1;
-  if (++failures_in_row_ < AnswererOptions::kMostFailuresInRow) return;
-  tell(fmt::format("is given up after {} failures in a row without an answer",
-                   AnswererOptions::kMostFailuresInRow));
+  if (!note_failure()) return;
   given_up_in_ = recent_.back().scene;
   give_up();
 }
@@ -490,35 +477,17 @@ void CommandEngine::run_failed(const std::string& what) {
 // gets one more start if the program ever answered.
 void CommandEngine::give_up() {
   while (!open_.empty()) {
-    if (open_.front().scene != given_up_in_ && ever_answered_) {
-      given_up_in_.reset();
-      failures_in_row_ = AnswererOptions::kMostFailuresInRow - 1;
-      return;
-    }
-    Answer answer =
-        Answer::error(fmt::format("cmd was given up after {} failures in a row; this query was not asked",
-                                  AnswererOptions::kMostFailuresInRow));
-    deliver_first(answer, Origin::not_asked);
+    if (open_.front().scene != given_up_in_ && ever_answered_) return allow_one_more_start();
+    deliver_first(not_asked());
   }
 }
 
-void CommandEngine::try_again() {
-  if (!given_up() || is_hopeless()) return;
-  given_up_in_.reset();
-  failures_in_row_ = 0;
-}
-
-void CommandEngine::tell(const std::string& what) const {
-  complaints_.tell(what);
-}
-
 // Reports what went wrong, with a stream that reproduces it.
-void CommandEngine::complain(const std::string& what, const OpenQuery* asked) {
-  failed_ = true;
-  if (!asked) return complaints_.add(what);
+void CommandEngine::complain_of(const OpenQuery* asked, const std::string& what) {
+  if (!asked) return complain(what);
   std::string line;
   append_line(line, asked->id, *asked);
-  complaints_.add(what, *asked->scene, line);
+  complain(what, *asked->scene, line);
 }
 
 }  // namespace lorentz::question

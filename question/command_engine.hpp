@@ -12,8 +12,7 @@
 #include <string>
 
 #include <lorentz/exchange.hpp>
-#include "question/answerer.hpp"
-#include "question/engine_complaints.hpp"
+#include "question/external_answerer.hpp"
 #include "question/process.hpp"
 
 namespace lorentz::question {
@@ -27,7 +26,7 @@ namespace lorentz::question {
 /// line by line, the query at fault is the first without an answer. If it holds answers back, some of them
 /// were lost with it. Then the next start gets only one query, the one after that two, ...; the input of each
 /// is closed at once, and the query at fault is the one on which the program fails alone.
-class CommandEngine final : public Answerer {
+class CommandEngine final : public ExternalAnswerer {
  public:
   /// The largest number of queries in flight.
   static constexpr std::size_t kWindow = 4096;
@@ -39,14 +38,8 @@ class CommandEngine final : public Answerer {
   void drain() override;
   void finish() override;
   bool idle(int descriptor) override;
-  bool failed() const override { return failed_; }
-  bool given_up() const override { return given_up_in_ != nullptr; }
-  bool is_hopeless() const override { return given_up() && !ever_answered_; }
-  void try_again() override;
-  std::optional<OwnTime> own_time() const override { return own_time_; }
   std::string take_last_words() override;
   std::optional<double> processor_seconds() const override;
-  std::uint64_t batch_size() const override { return 256; }
 
  private:
   void enter(const Scene& scene) override;
@@ -84,7 +77,6 @@ class CommandEngine final : public Answerer {
   };
   void step(Wait wait, int other_descriptor = -1);
   void start();
-  bool is_enough() const { return options_.enough && options_.enough(); }
   void abandon();
   void encode();
   void wait_for_pipes(Wait wait, int other_descriptor);
@@ -107,19 +99,16 @@ class CommandEngine final : public Answerer {
   std::string flaw_of_answer(const Answer& answer, std::size_t components) const;
   void answer_first(Answer& answer, Origin origin = Origin::engine);
   void answer_first_with_error(const std::string& what);
-  void deliver_first(Answer& answer, Origin origin);
+  void deliver_first(Reply reply);
 
   Ending end_of(Run& run, std::chrono::milliseconds grace);
   void run_is_over();
   void learn_from_run();
   void run_failed(const std::string& what);
   void give_up();
-  void tell(const std::string& what) const;
-  void complain(const std::string& what, const OpenQuery* asked);
+  void complain_of(const OpenQuery* asked, const std::string& what);
 
   std::string command_;
-  AnswererOptions options_;
-  EngineComplaints complaints_;
   ExchangeReader reader_;
   std::shared_ptr<const Scene> scene_;
   std::deque<OpenQuery> open_;      // queries without an answer, in order
@@ -135,10 +124,7 @@ class CommandEngine final : public Answerer {
   std::string last_words_;        // of former runs
   int silent_runs_ = 0;           // whose last answers came only after the end of their input
   std::size_t limit_ = kNoLimit;  // queries for the next run, during the search for the one at fault
-  int failures_in_row_ = 0;
-  bool failed_ = false, ever_answered_ = false;
-  std::optional<OwnTime> own_time_;           // of all runs that reported it
-  std::shared_ptr<const Scene> given_up_in_;  // null unless it is given up
+  std::shared_ptr<const Scene> given_up_in_;  // the scene in which it was last given up
 
   std::set<std::string> unknown_keys_;  // that were reported
 };

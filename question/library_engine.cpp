@@ -25,10 +25,9 @@ bool has_narrow_cell(const ObstacleId& obstacle) {
 }  // namespace
 
 LibraryEngine::LibraryEngine(std::string file, const AnswererOptions& options)
-    : file_(std::move(file)),
-      options_(options),
-      complaints_("lib:" + file_, options.listener),
-      block_(kFirstBlock) {}
+    : ExternalAnswerer("lib", file, options), file_(std::move(file)), block_(kFirstBlock) {
+  own_time_.emplace();
+}
 
 // ---- queries
 
@@ -36,9 +35,7 @@ void LibraryEngine::enter(const Scene&) {
   drain();
   is_prepared_ = false;
   why_not_.reset();
-  if (!given_up_ || !ever_answered_) return;
-  given_up_ = false;  // the failures may have been due to the scene: one more start
-  failures_in_row_ = AnswererOptions::kMostFailuresInRow - 1;
+  allow_one_more_start();
 }
 
 void LibraryEngine::ask(const Id& id, const Query& query) {
@@ -51,21 +48,13 @@ void LibraryEngine::ask(const Id& id, const Query& query) {
   if (waiting_.size() >= SharedQueries::kMost) drain();
 }
 
-void LibraryEngine::ask_text(const Id& id, const std::string& question) {
-  drain();
-  Answerer::ask_text(id, question);
-}
-
-bool LibraryEngine::idle(int) {
-  drain();
-  return false;
-}
-
 void LibraryEngine::drain() {
   while (!waiting_.empty()) {
     if (is_enough()) return abandon();
-    if (given_up_) return give_up_all();
-    answer_some();
+    if (given_up())
+      while (!waiting_.empty()) deliver_first(not_asked());
+    else
+      answer_some();
   }
 }
 
@@ -74,18 +63,12 @@ void LibraryEngine::finish() {
   if (process_) {
     const Ending ending = process_->end();
     if (ending.how == Ending::How::still_ran)
-      complaints_.tell("did not end when it was told to, and was killed");
+      tell("did not end when it was told to, and was killed");
     else if (!ending.is_good())
-      complaints_.tell(fmt::format("ended with {} after its last answer", ending.text()));
+      tell(fmt::format("ended with {} after its last answer", ending.text()));
   }
   process_.reset();
-  complaints_.finish();
-}
-
-void LibraryEngine::try_again() {
-  if (!given_up_ || is_hopeless()) return;
-  given_up_ = false;
-  failures_in_row_ = 0;
+  finish_complaints();
 }
 
 HostPatience LibraryEngine::patience() const {
@@ -106,7 +89,7 @@ void LibraryEngine::answer_some() {
   if (why_not_) {
     const std::string why = why_not_->empty() ? "" : ": " + printable(*why_not_);
     while (!waiting_.empty())
-      deliver_first(Answer::unsupported_because("lib does not support this scene" + why), Origin::engine);
+      deliver_first({Answer::unsupported_because("lib does not support this scene" + why)});
     return;
   }
   const std::size_t rows = next_block();
@@ -116,8 +99,8 @@ void LibraryEngine::answer_some() {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   if (reply.fate == HostReply::Fate::enough) return abandon();
   const bool is_answered = reply.is(HostReport::Kind::answered);
-  own_time_.seconds += is_answered ? reply.report.seconds : took.count();
-  own_time_.queries += static_cast<double>(rows);
+  own_time_->seconds += is_answered ? reply.report.seconds : took.count();
+  own_time_->queries += static_cast<double>(rows);
   if (!is_answered) return failed_on(rows, reply.text);
   take_answers(rows);
   const double most = std::min(kMostBlockSeconds, options_.timeout / 8);
@@ -175,23 +158,21 @@ void LibraryEngine::write_row(std::size_t row, const Query& query) {
 
 void LibraryEngine::take_answers(std::size_t rows) {
   is_fresh_ = false;
-  ever_answered_ = true;
-  failures_in_row_ = 0;
+  note_answer();
   if (suspect_ == delivered_) {
-    complain(suspicion_ + " where it was asked more than this query, and answers it alone");
+    complain_of_first(suspicion_ + " where it was asked more than this query, and answers it alone");
     suspect_.reset();
   }
   for (std::size_t row = 0; row < rows; ++row) {
     Answer answer;
     const std::string flaw = read_row(row, answer);
     if (!flaw.empty()) {
-      complain(flaw);
-      deliver_first(Answer::error("lib " + flaw), Origin::fault);
+      complain_of_first(flaw);
+      deliver_first({error(flaw), Origin::fault});
       continue;
     }
-    if (options_.request.max_time) answer = limited(std::move(answer), *options_.request.max_time);
-    if (options_.request.detail) add_detail(waiting_.front().query, scene(), answer);
-    deliver_first(std::move(answer), Origin::engine);
+    complete(answer, waiting_.front().query, scene());
+    deliver_first({std::move(answer)});
   }
 }
 
@@ -265,7 +246,7 @@ void LibraryEngine::failed_on(std::size_t rows, const std::string& what) {
 
 // All rows were answered before it failed, so it is not clear which one is at fault.
 void LibraryEngine::ask_again_in_halves(std::size_t rows) {
-  complain(
+  complain_of_first(
       fmt::format("{} on this query, or on one of the {} after it; they are asked again, fewer at a time",
                   suspicion_, rows - 1));
   block_ = rows / 2;
@@ -275,43 +256,31 @@ void LibraryEngine::blame_first(const std::string& what) {
   process_.reset();
   suspect_.reset();
   block_ = kFirstBlock;
-  complain(what);
-  deliver_first(Answer::error("lib " + what), Origin::fault);
-  if (++failures_in_row_ < AnswererOptions::kMostFailuresInRow) return;
-  complaints_.tell(fmt::format("is given up after {} failures in a row without an answer",
-                               AnswererOptions::kMostFailuresInRow));
-  given_up_ = true;
-}
-
-void LibraryEngine::give_up_all() {
-  while (!waiting_.empty())
-    deliver_first(
-        Answer::error(fmt::format("lib was given up after {} failures in a row; this query was not asked",
-                                  AnswererOptions::kMostFailuresInRow)),
-        Origin::not_asked);
+  complain_of_first(what);
+  deliver_first({error(what), Origin::fault});
+  note_failure();
 }
 
 // Open queries get no answer. Being too slow for the available time is not a fault, unless the library never
 // gave any answer.
 void LibraryEngine::abandon() {
-  if (process_ && !ever_answered_) complain("gave no answer in all the time there was");
+  if (process_ && !ever_answered_) complain_of_first("gave no answer in all the time there was");
   process_.reset();
   suspect_.reset();
   delivered_ += waiting_.size();
   waiting_.clear();
 }
 
-void LibraryEngine::complain(const std::string& what) {
-  failed_ = true;
+void LibraryEngine::complain_of_first(const std::string& what) {
   std::string line;
   append_query_line(line, waiting_.front().id, waiting_.front().query, scene());
-  complaints_.add(what, scene(), line);
+  complain(what, scene(), line);
 }
 
-void LibraryEngine::deliver_first(Answer answer, Origin origin) {
+void LibraryEngine::deliver_first(Reply reply) {
   waiting_.pop_front();
   ++delivered_;
-  deliver({std::move(answer), origin});
+  deliver(reply);
 }
 
 }  // namespace lorentz::question

@@ -7,8 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "question/answerer.hpp"
-#include "question/engine_complaints.hpp"
+#include "question/external_answerer.hpp"
 #include "question/library_process.hpp"
 
 namespace lorentz::question {
@@ -19,21 +18,13 @@ namespace lorentz::question {
 /// A library that dies or falls silent is loaded again. The query at fault is the one on which it fails
 /// alone, as the first after loading. The first row without an answer is tried this way, after the rows
 /// before it.
-class LibraryEngine final : public Answerer {
+class LibraryEngine final : public ExternalAnswerer {
  public:
   LibraryEngine(std::string file, const AnswererOptions& options);
 
   void ask(const Id& id, const Query& query) override;
-  void ask_text(const Id& id, const std::string& question) override;
   void drain() override;
   void finish() override;
-  bool idle(int descriptor) override;
-  bool failed() const override { return failed_; }
-  bool given_up() const override { return given_up_; }
-  bool is_hopeless() const override { return given_up_ && !ever_answered_; }
-  void try_again() override;
-  std::uint64_t batch_size() const override { return 256; }
-  std::optional<OwnTime> own_time() const override { return own_time_; }
 
  private:
   struct Waiting {
@@ -42,7 +33,6 @@ class LibraryEngine final : public Answerer {
   };
 
   void enter(const Scene& scene) override;
-  bool is_enough() const { return options_.enough && options_.enough(); }
   HostPatience patience() const;
   HostPatience loading_patience() const;
 
@@ -58,14 +48,11 @@ class LibraryEngine final : public Answerer {
   void failed_on(std::size_t rows, const std::string& what);
   void ask_again_in_halves(std::size_t rows);
   void blame_first(const std::string& what);
-  void give_up_all();
   void abandon();
-  void complain(const std::string& what);
-  void deliver_first(Answer answer, Origin origin);
+  void complain_of_first(const std::string& what);
+  void deliver_first(Reply reply);
 
   const std::string file_;
-  const AnswererOptions options_;
-  EngineComplaints complaints_;
   std::deque<Waiting> waiting_;  // queries without an answer, in order
   std::uint64_t delivered_ = 0;
 
@@ -77,9 +64,6 @@ class LibraryEngine final : public Answerer {
   std::size_t block_;                     // rows of the next block
   std::optional<std::uint64_t> suspect_;  // the query with this number is asked alone
   std::string suspicion_;                 // what happened when it was not alone
-  int failures_in_row_ = 0;
-  bool failed_ = false, ever_answered_ = false, given_up_ = false;
-  OwnTime own_time_;
 };
 
 }  // namespace lorentz::question
