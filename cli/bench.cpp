@@ -76,9 +76,9 @@ BenchPlan plan_of(BenchOptions options) {
   options.claim.ask(plan.engines);
   plan.seed = options.seed;
   plan.count = options.count;
-  plan.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
+  plan.answerer.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
   plan.claim = options.claim.claim();
-  plan.listener = terminal();
+  plan.answerer.listener = terminal();
   return plan;
 }
 

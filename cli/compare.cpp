@@ -281,9 +281,9 @@ void race_all(const CompareOptions& options, const std::vector<Question>& questi
       engines.push_back(*one.engine), tallies.push_back(&one.tally);
       race_options.running.push_back(one.answerers[0].get());
     }
-  race_options.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
-  race_options.listener = terminal();
-  race_options.strict = options.strict;
+  race_options.answerer.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
+  race_options.answerer.listener = terminal();
+  race_options.answerer.strict = options.strict;
   const std::vector<Speed> speeds = race(questions, engines, race_options);
   for (std::size_t i = 0; i < speeds.size(); ++i) {
     tallies[i]->speed = speeds[i];

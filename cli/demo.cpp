@@ -62,7 +62,7 @@ class DemoReport {
     answer_exactly(questions, Truth::oracle, terminal());
     const std::vector<EngineInfo> engines = engines_named({"classical", kPublished, "oracle"});
     RaceOptions options;
-    options.listener = terminal();
+    options.answerer.listener = terminal();
     const std::vector<Speed> speeds = race(questions, engines, options);
     for (std::size_t i = 0; i < engines.size(); ++i) {
       const Tally t = tally_of(engines[i], questions);

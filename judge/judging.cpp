@@ -262,13 +262,12 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
   if (chosen.empty()) return;
   const std::size_t count = affordable(report, kRounds, seconds);
   const Countdown until(kTooLong * (seconds + report.start_up) + terms.answerer.timeout);
-  question::RaceOptions options{kRounds, terms.answerer.timeout, terms.answerer.listener};
-  options.start_timeout = terms.answerer.start_timeout;
-  options.enough = [&] { return terms.stop || until.left() == 0; };
+  question::RaceOptions options{kRounds, terms.answerer};
+  options.answerer.enough = [&] { return terms.stop || until.left() == 0; };
   const std::vector<question::Speed> speeds =
       question::race(questions_to_race_in(chosen, report.seed, count),
                      {report.engine, question::engine_named("reduction")}, options);
-  const bool is_cut = report.engine.runs_apart() && options.enough();
+  const bool is_cut = report.engine.runs_apart() && options.answerer.enough();
   if (speeds[0].failed || is_cut) return;
   report.ns_per_query = speeds[0].ns_per_query;
   report.own_ns = speeds[0].own_ns;

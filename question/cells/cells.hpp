@@ -22,9 +22,8 @@ struct BenchGroup {
 struct BenchPlan {
   std::vector<EngineInfo> engines;
   std::uint64_t count = 0, seed = 0;
-  double timeout = 0;  ///< of other programs
-  Claim claim = {};    ///< all are judged by it; scenes and queries are rounded to its precision
-  Listener listener = {};
+  Claim claim = {};  ///< all are judged by it; scenes and queries are rounded to its precision
+  AnswererOptions answerer = {};
 };
 
 /// A number as reports print it.
