@@ -1,7 +1,6 @@
 #include "golden/seen.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include <lorentz/certified.hpp>
 #include <lorentz/collision.hpp>

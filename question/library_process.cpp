@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
 #include <lorentz/errors.hpp>
 #include "question/answerer.hpp"
@@ -26,36 +25,30 @@ constexpr double kLookSeconds = 0.1;  // between checks of the clock and the ans
 constexpr std::chrono::milliseconds kTimeToEnd{1000};
 constexpr std::size_t kBothSizes = sizeof(SharedQueries) + sizeof(SharedAnswers);
 
+FileError no_memory() {
+  return FileError(std::string("no memory for a library: ") + std::strerror(errno));
+}
+
 // A file without a name. Its descriptor lies above those that a child has.
-class NamelessFile {
- public:
-  explicit NamelessFile(const char* name) {
-    const int descriptor = memfd_create(name, MFD_CLOEXEC);
-    descriptor_ = fcntl(descriptor, F_DUPFD_CLOEXEC, 10);
-    if (descriptor_ < 0) throw FileError(std::string("no memory for a library: ") + std::strerror(errno));
-    close(descriptor);
-  }
-  NamelessFile(const NamelessFile&) = delete;
-  NamelessFile& operator=(const NamelessFile&) = delete;
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_ = -1;
-};
-
-int file_of(std::string_view bytes) {
-  const NamelessFile file("lorentz_library_host");
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(file.descriptor(), bytes.data(), bytes.size());
-    if (count <= 0) throw FileError(std::string("no memory for a library: ") + std::strerror(errno));
-    bytes.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return file.descriptor();
+int nameless_file(const char* name) {
+  const int descriptor = memfd_create(name, MFD_CLOEXEC);
+  const int above = fcntl(descriptor, F_DUPFD_CLOEXEC, 10);
+  if (above < 0) throw no_memory();
+  close(descriptor);
+  return above;
 }
 
 // The program that loads libraries, as a file. It exists until this program ends.
 const std::string& host_file() {
-  static const std::string path = fmt::format("/proc/self/fd/{}", file_of(library_host_program()));
+  static const std::string path = [] {
+    const int file = nameless_file("lorentz_library_host");
+    for (std::string_view bytes = library_host_program(); !bytes.empty();) {
+      const ssize_t count = ::write(file, bytes.data(), bytes.size());
+      if (count <= 0) throw no_memory();
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return fmt::format("/proc/self/fd/{}", file);
+  }();
   return path;
 }
 
@@ -122,14 +115,14 @@ std::string died(const Ending& ending) {
 
 // The memory that both processes share.
 struct LibraryProcess::Memory {
-  Memory() : file("lorentz_library_rows") {
-    if (ftruncate(file.descriptor(), kBothSizes) == 0)
-      at = mmap(nullptr, kBothSizes, PROT_READ | PROT_WRITE, MAP_SHARED, file.descriptor(), 0);
-    if (at == MAP_FAILED) throw FileError(std::string("no memory for a library: ") + std::strerror(errno));
+  Memory() {
+    if (ftruncate(file, kBothSizes) == 0)
+      at = mmap(nullptr, kBothSizes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    if (at == MAP_FAILED) throw no_memory();
   }
-  ~Memory() { close(file.descriptor()); }
+  ~Memory() { close(file); }
 
-  const NamelessFile file;
+  const int file = nameless_file("lorentz_library_rows");
   void* at = MAP_FAILED;
 };
 
@@ -138,8 +131,8 @@ LibraryProcess::LibraryProcess(const std::string& file) : LibraryProcess(file, M
 LibraryProcess::LibraryProcess(const std::string& file, const Memory& memory)
     : queries_(static_cast<SharedQueries*>(memory.at)),
       answers_(reinterpret_cast<SharedAnswers*>(static_cast<char*>(memory.at) + sizeof(SharedQueries))),
-      process_(Executable{
-          "lib:" + file, host_file(), {"lorentz_library_host", path_of(file)}, memory.file.descriptor()}) {}
+      process_(Executable{"lib:" + file, host_file(), {"lorentz_library_host", path_of(file)}, memory.file}) {
+}
 
 LibraryProcess::~LibraryProcess() {
   munmap(queries_, kBothSizes);

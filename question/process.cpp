@@ -18,6 +18,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <thread>
 
 #include <lorentz/errors.hpp>
@@ -93,15 +94,6 @@ void replace_group(pid_t old_group, pid_t new_group) {
   }
 }
 
-}  // namespace
-
-void kill_programs() {
-  for (const auto& slot : live_groups)
-    if (const pid_t group = slot.load()) kill(-group, SIGKILL);
-}
-
-namespace {
-
 // A program in a group of its own does not get the terminal's Ctrl-C. Therefore these signals first kill the
 // groups, and then do here what they would have done. `former` is what they did before: their default, or a
 // handler that ends the program, too.
@@ -121,16 +113,15 @@ bool ends_the_program(const struct sigaction& action) {
 }
 
 void handle_signals_once() {
-  static const bool done = [] {
+  static std::once_flag once;
+  std::call_once(once, [] {
     for (std::size_t i = 0; i < kEndings.size(); ++i) {
       struct sigaction ours {};
       if (sigaction(kEndings[i], nullptr, &former[i]) != 0 || !ends_the_program(former[i])) continue;
       ours.sa_handler = kill_groups_and_die;
       sigaction(kEndings[i], &ours, nullptr);
     }
-    return true;
-  }();
-  (void)done;
+  });
 }
 
 // The descriptors lie above those of standard input, output and error, even if this program was started
@@ -197,6 +188,11 @@ int spawn(const Executable& program, const Pipe& in, const Pipe& out, const Pipe
 }
 
 }  // namespace
+
+void kill_programs() {
+  for (const auto& slot : live_groups)
+    if (const pid_t group = slot.load()) kill(-group, SIGKILL);
+}
 
 Process::Process(const std::string& command)
     : Process(Executable{"cmd:" + command, "/bin/sh", {"sh", "-c", command}}) {}
