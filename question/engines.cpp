@@ -14,6 +14,7 @@
 #include "question/batch_answerer.hpp"
 #include "question/command_engine.hpp"
 #include "question/library_engine.hpp"
+#include "question/library_process.hpp"
 #include "question/precisions/precisions.hpp"
 #include "src/exchange/nearest_name.hpp"
 
@@ -169,9 +170,7 @@ EngineInfo command_named(const std::string& name) {
   if (command.find_first_not_of(" \t\n") == std::string::npos)
     throw InputError("cmd: needs the command that runs the engine behind it");
   EngineInfo engine{name, {}, EngineInfo::Kind::command};
-  engine.answerer = [command](const AnswererOptions& options) {
-    return std::make_unique<CommandEngine>(command, options);
-  };
+  engine.answerer = [command](const AnswererOptions& options) { return command_engine(command, options); };
   engine.introduce = [name, command] {
     return read_of(name, [&] { return introduction_of_command(command); });
   };
@@ -183,9 +182,7 @@ EngineInfo library_named(const std::string& name) {
   if (file.empty()) throw InputError("lib: needs the path of a shared library behind it");
   const std::string claim = claim_line_of_library(file);  // also checks that it can be loaded
   EngineInfo engine{name, {}, EngineInfo::Kind::library};
-  engine.answerer = [file](const AnswererOptions& options) {
-    return std::make_unique<LibraryEngine>(file, options);
-  };
+  engine.answerer = [file](const AnswererOptions& options) { return library_engine(file, options); };
   engine.introduce = [name, claim] { return read_of(name, [&] { return introduction_in(claim); }); };
   return engine;
 }
