@@ -16,7 +16,7 @@
 #include "cli/progress.hpp"
 #include "cli/set_output.hpp"
 #include "cli/terminal.hpp"
-#include "files/text_file.hpp"
+#include "files/whole_file.hpp"
 #include "golden/production.hpp"
 #include "judge/baseline.hpp"
 #include "judge/judging.hpp"

@@ -8,7 +8,6 @@
 
 #include <lorentz/errors.hpp>
 #include "cli/output.hpp"
-#include "files/text_file.hpp"
 
 namespace lorentz::cli {
 

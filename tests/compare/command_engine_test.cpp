@@ -303,6 +303,36 @@ done
   CHECK_FALSE(program->failed());
 }
 
+TEST_CASE("Runs that are told the end during a search do not count as silent", "[compare][command_engine]") {
+  // Its first start holds an answer back and dies at the second query; the others answer line by line.
+  const Folder folder;
+  const std::string script = folder.write("recovers.sh", R"(echo >>"$1"
+starts=$(wc -l <"$1")
+while read -r line; do
+  case $line in *scene*) continue ;; esac
+  id=${line#*:} && id=${id%%,*}
+  [ "$starts" -gt 1 ] && echo "{\"id\":$id,\"outcome\":\"never\"}" && continue
+  [ -n "$held" ] && exit 3
+  held=$id
+done
+)");
+  const auto program =
+      lorentz::question::engine_named("cmd:exec sh " + script + " " + folder.file("starts")).answerer({});
+  const auto ask = [&](int count) {
+    for (const lorentz::Answer& answer : asked(*program, lorentz::unit_scene(2, 0.25), count))
+      CHECK(answer.outcome == lorentz::Outcome::never);
+    return lines(folder.read("starts"));
+  };
+  // The second start gets one query and the third two, which ends the search for the one at fault.
+  CHECK(ask(3) == 3);
+  // Had these two been taken for silent ones, each query would be followed by the end and by a new start. As it
+  // is, there is one for the first 4 queries, and one for the others, unless both do not answer for 0.5 s.
+  constexpr std::size_t kQueriesAfter = 11;
+  std::size_t starts = 0;
+  for (std::size_t i = 0; i < kQueriesAfter; ++i) starts = ask(1);
+  CHECK(starts < 3 + kQueriesAfter);
+}
+
 TEST_CASE("How a program ended, in words", "[compare][command_engine]") {
   using lorentz::question::Ending;
   const auto exit = [](int code) { return Ending{Ending::How::exited, code}.text(); };
