@@ -23,8 +23,7 @@ constexpr std::size_t kFirstBlock = 1;     // a query that fails alone is at fau
 constexpr double kMostBlockSeconds = 0.5;  // soon enough for users who wait, and for the timeout
 
 bool has_narrow_cell(const ObstacleId& obstacle) {
-  return std::all_of(obstacle.cell.begin(), obstacle.cell.end(),
-                     [](const Integer& n) { return n.fits_int64(); });
+  return std::ranges::all_of(obstacle.cell, &Integer::fits_int64);
 }
 
 // Queries are gathered and asked in blocks, small ones first. Every query gets one answer, in order. If the

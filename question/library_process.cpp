@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include <filesystem>
 
 #include <lorentz/errors.hpp>
+#include <lorentz/geometry.hpp>
 #include "question/answerer.hpp"
 #include "question/library_host/program_bytes.hpp"
 #include "src/problem/safe_text.hpp"
@@ -57,14 +59,10 @@ std::string path_of(const std::string& file) {
   return file.find('/') == std::string::npos ? "./" + file : file;
 }
 
-template <class Number>
-void append(std::string& bytes, const Number* numbers, std::size_t count) {
-  bytes.append(reinterpret_cast<const char*>(numbers), count * sizeof(Number));
-}
-
-template <class Number>
-void append(std::string& bytes, const std::vector<Number>& numbers) {
-  append(bytes, numbers.data(), numbers.size());
+template <class Numbers>
+void append(std::string& bytes, const Numbers& numbers) {
+  bytes.append(reinterpret_cast<const char*>(std::data(numbers)),
+               std::size(numbers) * sizeof *std::data(numbers));
 }
 
 void append(std::vector<double>& numbers, const Vec& vector, int dimension) {
@@ -83,17 +81,14 @@ std::string bytes_of(const Scene& scene, int threads) {
       lattice_of.push_back(number);
       append(positions, atom.position, d);
       radii.push_back(atom.is_ball() ? atom.radius : 0);
-      for (int i = 0; i < d; ++i) {
-        Vec axis{};
-        axis[i] = atom.radius;
-        append(shapes, atom.is_ball() ? axis : atom.semiaxes[i], d);
-      }
+      const std::array<Vec, 3> semiaxes = semiaxes_of(atom, d);
+      for (int i = 0; i < d; ++i) append(shapes, semiaxes[i], d);
     }
   }
   const std::int32_t head[] = {d, static_cast<std::int32_t>(ranks.size()),
                                static_cast<std::int32_t>(radii.size()), threads};
   std::string bytes;
-  append(bytes, head, 4);
+  append(bytes, head);
   append(bytes, ranks), append(bytes, vectors), append(bytes, lattice_of);
   append(bytes, positions), append(bytes, radii), append(bytes, shapes);
   return bytes;
@@ -101,9 +96,7 @@ std::string bytes_of(const Scene& scene, int threads) {
 
 std::string bytes_of(HostOrder::Kind kind, std::size_t size) {
   const HostOrder order{kind, static_cast<std::int64_t>(size)};
-  std::string bytes;
-  append(bytes, &order, 1);
-  return bytes;
+  return {reinterpret_cast<const char*>(&order), sizeof order};
 }
 
 std::string died(const Ending& ending) {

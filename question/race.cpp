@@ -192,8 +192,7 @@ class Entrant {
     speed.failed = failed();
     if (own_ && own_->own_time()) speed.own_ns = own_->own_time()->ns_per_query();
     if (questions_.empty() || rounds_.empty()) return speed;
-    std::sort(rounds_.begin(), rounds_.end(),
-              [](const Round& a, const Round& b) { return a.ns_per_query() < b.ns_per_query(); });
+    std::ranges::sort(rounds_, {}, &Round::ns_per_query);
     const Round& middle = rounds_[rounds_.size() / 2];
     speed.ns_per_query = middle.ns_per_query();
     if (middle.processor_ns && middle.asked)
