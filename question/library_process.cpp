@@ -60,7 +60,7 @@ std::string path_of(const std::string& file) {
 }
 
 template <class Numbers>
-void append(std::string& bytes, const Numbers& numbers) {
+void append_all(std::string& bytes, const Numbers& numbers) {
   bytes.append(reinterpret_cast<const char*>(std::data(numbers)),
                std::size(numbers) * sizeof *std::data(numbers));
 }
@@ -88,9 +88,9 @@ std::string bytes_of(const Scene& scene, int threads) {
   const std::int32_t head[] = {d, static_cast<std::int32_t>(ranks.size()),
                                static_cast<std::int32_t>(radii.size()), threads};
   std::string bytes;
-  append(bytes, head);
-  append(bytes, ranks), append(bytes, vectors), append(bytes, lattice_of);
-  append(bytes, positions), append(bytes, radii), append(bytes, shapes);
+  append_all(bytes, head);
+  append_all(bytes, ranks), append_all(bytes, vectors), append_all(bytes, lattice_of);
+  append_all(bytes, positions), append_all(bytes, radii), append_all(bytes, shapes);
   return bytes;
 }
 

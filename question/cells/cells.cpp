@@ -13,15 +13,10 @@
 #include "question/radii.hpp"
 #include "report/claim_words.hpp"
 #include "report/query_text.hpp"
+#include "src/exchange/json_writer.hpp"
 #include "starts/free_starts.hpp"
 
 namespace lorentz::question {
-
-std::string text_of(double number) {
-  std::string text;
-  append_number(text, number);
-  return text;
-}
 
 namespace {
 
@@ -104,8 +99,7 @@ class Errors {
                                                                        : 0;
     const double size = rank > 1 ? judgement.departs : ulps;
     if (rank < rank_ || (rank == rank_ && !(size > size_)) || rank == 0) return;
-    rank_ = rank, size_ = size, question_ = question;
-    worst_ = judgement;
+    rank_ = rank, size_ = size, question_ = question, worst_ = judgement;
   }
 
   const std::vector<double>& in_conditions() const { return in_conditions_; }
@@ -131,7 +125,7 @@ class Errors {
     if (place.claim() == Claim())
       return fmt::format("echo '{}' | lorentz compare --scene {}{} --queries - --engine ", query,
                          shell_quoted(group.scene),
-                         group.radius ? " --radius " + text_of(*group.radius) : "");
+                         group.radius ? " --radius " + json::text_of(*group.radius) : "");
     std::string scene;
     append_scene_line(scene, place.scene());
     return fmt::format("echo '{}{}' | lorentz compare --queries -{} --engine ", scene, query,

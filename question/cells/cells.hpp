@@ -26,9 +26,6 @@ struct BenchPlan {
   AnswererOptions answerer = {};
 };
 
-/// A number as reports print it.
-std::string text_of(double number);
-
 /// Fewer queries than this say nothing.
 inline constexpr std::size_t kFewestQueries = 32;
 
