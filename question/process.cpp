@@ -67,19 +67,13 @@ bool LineBuffer::next(LineReader::Line& line) {
 }
 
 std::string Ending::text() const {
-  switch (how) {
-    case How::exited:
-      // The status by which the shell reports how its command ended.
-      if (code == 127) return "exit 127, no such command";
-      if (code > 128 && code <= 128 + SIGRTMAX)
-        return fmt::format("exit {}, signal {}, {}", code, code - 128, strsignal(code - 128));
-      return fmt::format("exit {}", code);
-    case How::signalled:
-      return fmt::format("signal {}, {}", code, strsignal(code));
-    case How::still_ran:
-      break;
-  }
-  return "still running";
+  if (how == How::still_ran) return "still running";
+  if (how == How::signalled) return fmt::format("signal {}, {}", code, strsignal(code));
+  // The status by which the shell reports how its command ended.
+  if (code == 127) return "exit 127, no such command";
+  if (code > 128 && code <= 128 + SIGRTMAX)
+    return fmt::format("exit {}, signal {}, {}", code, code - 128, strsignal(code - 128));
+  return fmt::format("exit {}", code);
 }
 
 namespace {
