@@ -214,23 +214,22 @@ bool GivenQuestions::add(SetQuestion question) {
 }
 
 Header header_of(const Order& order) {
+  Header header;
   if (order.given) {
-    Header header = order.given->header;
-    header.count = order.count;
+    header = order.given->header;
     if (order.given->look) header.tags.insert(header.tags.end(), seen_tags().begin(), seen_tags().end());
-    header.tags.emplace_back(kNeedsJudge, kNeedsJudgeNote);
-    return header;
+  } else {
+    const Set& set = *order.set;
+    header = {.name = set.name,
+              .description = set.description,
+              .version = LORENTZ_VERSION,
+              .precision = set.precision};
+    const bool is_wide = set.precision == NumberFormat::binary64;
+    header.generator = fmt::format("lorentz golden make --set {}{} --count {} --seed {}", set.family,
+                                   is_wide ? "" : " --precision binary32", order.count, order.seed);
+    for (const cases::Tag& tag : set.tags) header.tags.emplace_back(tag.name, tag.note);
   }
-  const Set& set = *order.set;
-  Header header{.name = set.name,
-                .description = set.description,
-                .version = LORENTZ_VERSION,
-                .count = order.count,
-                .precision = set.precision};
-  const bool is_wide = set.precision == NumberFormat::binary64;
-  header.generator = fmt::format("lorentz golden make --set {}{} --count {} --seed {}", set.family,
-                                 is_wide ? "" : " --precision binary32", order.count, order.seed);
-  for (const cases::Tag& tag : set.tags) header.tags.emplace_back(tag.name, tag.note);
+  header.count = order.count;
   header.tags.emplace_back(kNeedsJudge, kNeedsJudgeNote);
   return header;
 }

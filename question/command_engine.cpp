@@ -362,7 +362,7 @@ class CommandEngine final : public ExternalAnswerer {
     run.nameless.reset();
     const std::string flaw = flaw_of_answer(answer, components);
     if (flaw.empty())
-      answer_first(answer);
+      answer_first(std::move(answer));
     else
       answer_first_with_error(flaw);
   }
@@ -374,14 +374,10 @@ class CommandEngine final : public ExternalAnswerer {
     if (first_number_ == run_->first_of_scene)
       run_->nameless = std::move(answer);
     else
-      answer_first(answer);
+      answer_first(std::move(answer));
   }
 
-  void settle_nameless() {
-    Answer answer = std::move(*run_->nameless);
-    run_->nameless.reset();
-    answer_first(answer);
-  }
+  void settle_nameless() { answer_first(*std::exchange(run_->nameless, std::nullopt)); }
 
   // Takes an answer to an earlier query, which is settled already.
   void take_unasked(std::uint64_t number) {
@@ -413,7 +409,7 @@ class CommandEngine final : public ExternalAnswerer {
     return {};
   }
 
-  void answer_first(Answer& answer, Origin origin = Origin::engine) {
+  void answer_first(Answer answer, Origin origin = Origin::engine) {
     Run& run = *run_;
     --run.outstanding;
     if (!run.ending) ++run.answers_before_end;
@@ -432,8 +428,7 @@ class CommandEngine final : public ExternalAnswerer {
 
   void answer_first_with_error(const std::string& what) {
     complain_of(&open_.front(), what);
-    Answer answer = error(what);
-    answer_first(answer, Origin::bad_line);
+    answer_first(error(what), Origin::bad_line);
   }
 
   void deliver_first(Reply reply) {
