@@ -99,7 +99,8 @@ class Errors {
                                                                        : 0;
     const double size = rank > 1 ? judgement.departs : ulps;
     if (rank < rank_ || (rank == rank_ && !(size > size_)) || rank == 0) return;
-    rank_ = rank, size_ = size, question_ = question, worst_ = judgement;
+    rank_ = rank, size_ = size, question_ = question;
+    worst_ = judgement;
   }
 
   const std::vector<double>& in_conditions() const { return in_conditions_; }
