@@ -44,17 +44,17 @@ TEST_CASE("A tally's errors of times: the largest, the mean, and what a share of
           "[compare][examine]") {
   Tally tally;
   CHECK(tally.mean_ulp() == 0);
-  CHECK(quantile(tally.ulps, 0.5) == 0);
+  CHECK(question::quantile(tally.ulps, 0.5) == 0);
   for (const double ulps : {3, 10, 1, 2, 9, 4, 8, 5, 7, 6})
     tally.count({.verdict = Verdict::agree, .ulps = ulps});
   tally.count({Verdict::agree});  // without a time
   CHECK(tally.timed_hits == 10);
   CHECK(tally.max_ulp() == 10);
   CHECK(tally.mean_ulp() == 5.5);
-  CHECK(quantile(tally.ulps, 0) == 1);
-  CHECK(quantile(tally.ulps, 0.3) == 4);    // the nearest to 2.7 steps up from the first
-  CHECK(quantile(tally.ulps, 0.99) == 10);  // to 8.91
-  CHECK(quantile(tally.ulps, 1) == 10);
+  CHECK(question::quantile(tally.ulps, 0) == 1);
+  CHECK(question::quantile(tally.ulps, 0.3) == 4);    // the nearest to 2.7 steps up from the first
+  CHECK(question::quantile(tally.ulps, 0.99) == 10);  // to 8.91
+  CHECK(question::quantile(tally.ulps, 1) == 10);
 }
 
 TEST_CASE("Exact answers are the same from the oracle and from certified, scenes mixed",
