@@ -7,7 +7,6 @@
 #include "files/whole_file.hpp"
 #include "pictures/finding_drawing.hpp"
 #include "report/claim_words.hpp"
-#include "report/finding_json.hpp"
 #include "report/manifest.hpp"
 #include "report/page.hpp"
 #include "report/query_text.hpp"

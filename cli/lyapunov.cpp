@@ -2,7 +2,7 @@
 #include "cli/app.hpp"
 #include "cli/chaos_options.hpp"
 #include "cli/output.hpp"
-#include "report/finding_json.hpp"
+#include "report/query_text.hpp"
 #include "statistics/chaos/lyapunov_report.hpp"
 
 namespace lorentz::cli {

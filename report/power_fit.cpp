@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "report/beta_quantile.hpp"
+#include "report/share.hpp"
 
 namespace lorentz::report {
 namespace {
