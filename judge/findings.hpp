@@ -81,6 +81,8 @@ class Findings {
   std::vector<Finding> all(const Asked& asked) const;
 
  private:
+  void add(const std::pair<Severity, Cause>& key, const Finding& other);
+
   std::map<std::pair<Severity, Cause>, Finding> findings_;
   std::vector<Features> right_;
 };

@@ -5,16 +5,16 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 
 #include <lorentz/exchange.hpp>
 #include "files/messages.hpp"
-#include "judge/repetition.hpp"
-#include "judge/verdict_text.hpp"
+#include "judge/simplest.hpp"
 #include "pictures/finding_drawing.hpp"
 #include "report/claim_words.hpp"
-#include "report/finding_json.hpp"
 #include "report/manifest.hpp"
 #include "report/primitive.hpp"
+#include "report/query_text.hpp"
 #include "report/reason.hpp"
 #include "report/table.hpp"
 #include "src/exchange/exchange_write.hpp"
@@ -312,8 +312,6 @@ void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& r
              t.speed.ns_per_query > 0 ? json::finite(t.speed.ns_per_query) : std::nullopt);
 }
 
-constexpr Measure kOtherMeasures[] = {Measure::distance, Measure::flight, Measure::start, Measure::radius};
-
 }  // namespace
 
 std::string JudgeReport::text() const {
@@ -341,8 +339,8 @@ std::string JudgeReport::json() const {
   for (const FlownScene& scene : flown) paths.push_back(scene.curve(engine.name));
   return json::line_of([&](json::Members& page) {
     page.add("format", 1, "kind", "judge", "title", engine.name + ", judged", "manifest",
-             report::manifest_of(seed, command), "engine", engine.name, "library", library_text(*this),
-             "verdict", verdict(), "line", line());
+             report::manifest_of(seed, command), "engine", engine.name, "library", library(), "verdict",
+             verdict(), "line", line());
     report::add_claim(page, claim);
     page.add("summary", [this](json::Members& object) {
       const ThreeLines its = summary();
@@ -363,8 +361,8 @@ std::string JudgeReport::json() const {
                add_finding(one, finding, *this);
              }));
     page.add("calls", curves[0], "curves",
-             json::objects(kOtherMeasures, [this](json::Members& one, Measure measure) {
-               one.add("by", name_of(measure), "decades", curves[static_cast<std::size_t>(measure)]);
+             json::objects(std::span(kMeasures).subspan(1), [this](json::Members& one, const auto& measure) {
+               one.add("by", measure, "decades", curves[&measure - kMeasures.data()]);
              }));
     page.add("free_paths", paths);
   });

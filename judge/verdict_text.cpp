@@ -1,12 +1,11 @@
 // The verdict on an engine, in three lines and in one.
-#include "judge/verdict_text.hpp"
+#include "judge/judge_report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "judge/judge_report.hpp"
 #include "report/claim_words.hpp"
 #include "report/manifest.hpp"
 #include "report/reason.hpp"
@@ -20,9 +19,9 @@ std::string two_digits(double a) {
   return a < 9.95 || a >= 1e6 ? fmt::format("{:.2g}", a) : fmt::format("{:.0f}", a);
 }
 
-std::optional<std::string> library_text(const JudgeReport& report) {
-  if (!report.introduction || report.introduction->name.empty()) return std::nullopt;
-  const question::Introduction& its = *report.introduction;
+std::optional<std::string> JudgeReport::library() const {
+  if (!introduction || introduction->name.empty()) return std::nullopt;
+  const question::Introduction& its = *introduction;
   return printable(its.name) + (its.version.empty() ? "" : " ") + printable(its.version);
 }
 
@@ -172,7 +171,7 @@ std::string nonsense_text(const JudgeReport& report) {
 // ---- Three lines
 
 std::string name_text(const JudgeReport& report) {
-  const auto library = library_text(report);
+  const auto library = report.library();
   return library ? fmt::format("{} ({})", *library, report.engine.name) : report.engine.name;
 }
 
