@@ -8,7 +8,6 @@
 #include "statistics/flights/report.hpp"
 #include "statistics/theory/fit.hpp"
 #include "statistics/theory/laws.hpp"
-#include "statistics/theory/tail_constant.hpp"
 
 namespace lorentz::flights {
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "statistics/flights/account.hpp"
-#include "statistics/flights/plan.hpp"
 
 namespace lorentz::flights {
 

@@ -1,5 +1,5 @@
 // What theory says of scenes: against closed forms, counting, and the oracle's channels.
-#include "statistics/theory/corridor_sum.hpp"
+#include "statistics/theory/small_obstacles.hpp"
 #include "statistics/theory/incommensurate.hpp"
 #include "statistics/theory/laws.hpp"
 #include "statistics/theory/limit_law.hpp"
