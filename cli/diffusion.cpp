@@ -3,7 +3,7 @@
 #include "cli/chaos_options.hpp"
 #include "cli/output.hpp"
 #include "report/query_text.hpp"
-#include "statistics/chaos/diffusion_report.hpp"
+#include "statistics/chaos/diffusion.hpp"
 
 namespace lorentz::cli {
 namespace {

@@ -1,12 +1,11 @@
-#include "judge/circumstance.hpp"
-
+// Features of questions, and what distinguishes the questions on which an engine fails.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "judge/diagnosis.hpp"
+#include "judge/findings.hpp"
 #include "question/radii.hpp"
 #include "src/exchange/exchange_number.hpp"
 
@@ -123,29 +122,30 @@ std::vector<Predicate> plain_predicates() {
 
 // A limit on a quantity: the least power of ten above all failing questions, the greatest power of ten that
 // they reach, or the greatest power of two, for lengths in radii, if it is far, because nothing cancels nearby.
-enum class Bound { below, from, from_afar };
+enum class LimitSide { below, from, from_afar };
 struct Limit {
   double Features::*quantity;
-  Bound bound;
+  LimitSide bound;
   const char* text;  // with the limit, or with the exponent of two
 };
 constexpr Limit kLimits[] = {
-    {&Features::depth, Bound::below, "where the line enters the obstacle by less than {:g} of its radii"},
-    {&Features::radius, Bound::below, "at radii below {:g} lattice vectors"},
-    {&Features::radius, Bound::from, "at radii of {:g} lattice vectors or more"},
-    {&Features::flight, Bound::from, "after flights of {:g} lattice vectors or more"},
-    {&Features::flight, Bound::below, "on flights shorter than {:g} lattice vectors"},
-    {&Features::start, Bound::from, "from starts {:g} lattice vectors or more from the origin"},
-    {&Features::cell, Bound::from, "in far cells, with numbers of {:g} or more"},
-    {&Features::distance, Bound::from_afar, "from starts 2^{:g} radii or more from the obstacle in question"},
-    {&Features::flight_in_radii, Bound::from_afar, "after flights of 2^{:g} radii or more"},
-    {&Features::speed, Bound::below, "at velocities shorter than {:g}"},
-    {&Features::speed, Bound::from, "at velocities of length {:g} or more"}};
+    {&Features::depth, LimitSide::below, "where the line enters the obstacle by less than {:g} of its radii"},
+    {&Features::radius, LimitSide::below, "at radii below {:g} lattice vectors"},
+    {&Features::radius, LimitSide::from, "at radii of {:g} lattice vectors or more"},
+    {&Features::flight, LimitSide::from, "after flights of {:g} lattice vectors or more"},
+    {&Features::flight, LimitSide::below, "on flights shorter than {:g} lattice vectors"},
+    {&Features::start, LimitSide::from, "from starts {:g} lattice vectors or more from the origin"},
+    {&Features::cell, LimitSide::from, "in far cells, with numbers of {:g} or more"},
+    {&Features::distance, LimitSide::from_afar,
+     "from starts 2^{:g} radii or more from the obstacle in question"},
+    {&Features::flight_in_radii, LimitSide::from_afar, "after flights of 2^{:g} radii or more"},
+    {&Features::speed, LimitSide::below, "at velocities shorter than {:g}"},
+    {&Features::speed, LimitSide::from, "at velocities of length {:g} or more"}};
 
 // The exponent of the limit, for the largest or the smallest of the failing questions.
-double exponent_of(Bound bound, double extreme) {
-  if (bound == Bound::from_afar) return std::ilogb(extreme);
-  return std::floor(std::log10(extreme)) + (bound == Bound::below ? 1 : 0);
+double exponent_of(LimitSide bound, double extreme) {
+  if (bound == LimitSide::from_afar) return std::ilogb(extreme);
+  return std::floor(std::log10(extreme)) + (bound == LimitSide::below ? 1 : 0);
 }
 
 // Nothing if a failing question lacks the quantity, or if the limit says nothing: that a line enters by less
@@ -153,7 +153,7 @@ double exponent_of(Bound bound, double extreme) {
 std::optional<Predicate> predicate_for(const Limit& its, const std::vector<Features>& failing) {
   constexpr double kFar = 10;
   const auto quantity = its.quantity;
-  const bool is_below = its.bound == Bound::below, is_far = its.bound == Bound::from_afar,
+  const bool is_below = its.bound == LimitSide::below, is_far = its.bound == LimitSide::from_afar,
              is_of_depth = quantity == &Features::depth;
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const Features& f : failing) {

@@ -72,30 +72,33 @@ Fault of_another_answer(const Question& question, const Answer& given,
 
 // How a sentence about a cause ends: by less than which power of ten of its radii an obstacle is entered or
 // missed, by up to which part of them, or by how many radii along the ray a time is off.
-enum class Extent { none, below, part, along };
+enum class SentenceEnd { none, below, part, along };
 
 struct CauseWords {
   std::string_view name, title, sentence;
-  Extent extent = Extent::none;
+  SentenceEnd end = SentenceEnd::none;
   std::string_view how = "";  ///< before the part
 };
 constexpr CauseWords kCauseWords[]{
     {"passed-over-grazing", "names a later obstacle than one it grazes",
-     "passes over obstacles that the line enters", Extent::below},
+     "passes over obstacles that the line enters", SentenceEnd::below},
     {"passed-over", "passes through an obstacle",
-     "passes over the obstacle that is hit first, and names a later one", Extent::part, "entered"},
-    {"never-for-grazing", "misses what it grazes", "says never of lines that enter obstacles", Extent::below},
-    {"never-for-hit", "misses what it hits", "says never where an obstacle is hit", Extent::part, "entered"},
+     "passes over the obstacle that is hit first, and names a later one", SentenceEnd::part, "entered"},
+    {"never-for-grazing", "misses what it grazes", "says never of lines that enter obstacles",
+     SentenceEnd::below},
+    {"never-for-hit", "misses what it hits", "says never where an obstacle is hit", SentenceEnd::part,
+     "entered"},
     {"false-hit-grazing", "hits what it misses by a hair", "hits obstacles that the line misses",
-     Extent::below},
-    {"false-hit", "hits what it misses", "hits an obstacle that the line misses", Extent::part, "missed"},
+     SentenceEnd::below},
+    {"false-hit", "hits what it misses", "hits an obstacle that the line misses", SentenceEnd::part,
+     "missed"},
     {"behind", "hits what lies behind the start", "hits an obstacle that lies behind the start"},
     {"leaving", "hits the obstacle that it leaves",
      "hits the obstacle that the particle leaves (from), which is to be ignored"},
     {"inside-unseen", "starts inside unseen", "does not see that the start lies inside an obstacle",
-     Extent::part, "inside"},
+     SentenceEnd::part, "inside"},
     {"inside-not-so", "says inside, and starts outside",
-     "says inside of an obstacle that the start lies outside of", Extent::part, "outside"},
+     "says inside of an obstacle that the start lies outside of", SentenceEnd::part, "outside"},
     {"inside-another", "starts inside several, and names another",
      "names one of several obstacles that contain the start, but not the first in the order (lattice, atom, "
      "cell)"},
@@ -105,10 +108,11 @@ constexpr CauseWords kCauseWords[]{
     {"no-obstacle", "names an obstacle that does not exist",
      "names an obstacle that the scene does not have"},
     {"not-the-time", "another quantity as the time",
-     "gives, for the right obstacle, something else than the time at which it is entered", Extent::along},
+     "gives, for the right obstacle, something else than the time at which it is entered",
+     SentenceEnd::along},
     {"wrong-time", "wrong time",
      "gives times of the right obstacle that are off by more than rounding of the inputs explains",
-     Extent::along},
+     SentenceEnd::along},
     {"refused", "refuses a valid question", "calls a valid question an error"},
     {"no-answer", "died or silent", "gives no answer: it dies, falls silent, or leaves the question out"},
     {"bad-line", "bad lines", "writes lines that are not answers"},
@@ -177,13 +181,13 @@ std::string_view name_of(Severity severity) {
 std::string sentence_of(Cause cause, std::optional<double> by_radii) {
   const CauseWords& its = words_for(cause);
   std::string text(its.sentence);
-  if (its.extent == Extent::below)
+  if (its.end == SentenceEnd::below)
     text += by_radii && *by_radii > 0 ? fmt::format(" by less than {:g} of their radii",
                                                     std::pow(10, std::floor(std::log10(*by_radii)) + 1))
                                       : " at one point only";
-  if (its.extent == Extent::part && by_radii)
+  if (its.end == SentenceEnd::part && by_radii)
     text += fmt::format(" ({} by up to {:.3g} of its radii)", its.how, *by_radii);
-  if (its.extent == Extent::along && by_radii && std::isfinite(*by_radii))
+  if (its.end == SentenceEnd::along && by_radii && std::isfinite(*by_radii))
     text += fmt::format(", by up to {:.3g} radii along the ray", *by_radii);
   return text;
 }

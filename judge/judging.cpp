@@ -214,14 +214,12 @@ void simplify(std::vector<Finding>& findings, Examination& examination, const Te
 
 // The square and cubic lattice at r = 0.1, if the engine answered there; else the first place where it did.
 std::vector<const NamedPlace*> places_to_race_in(const std::vector<NamedPlace>& places) {
-  std::vector<const NamedPlace*> chosen;
+  std::vector<const NamedPlace*> answered, chosen;
   for (const NamedPlace& place : places)
-    if ((place.name == "square, r = 0.1" || place.name == "cubic, r = 0.1") && place.place->was_answered() &&
-        !place.place->is_beyond_engine())
-      chosen.push_back(&place);
-  for (const NamedPlace& place : places)
-    if (chosen.empty() && place.place->was_answered() && !place.place->is_beyond_engine())
-      chosen.push_back(&place);
+    if (place.place->was_answered() && !place.place->is_beyond_engine()) answered.push_back(&place);
+  for (const NamedPlace* place : answered)
+    if (place->name == "square, r = 0.1" || place->name == "cubic, r = 0.1") chosen.push_back(place);
+  if (chosen.empty() && !answered.empty()) chosen.push_back(answered.front());
   return chosen;
 }
 

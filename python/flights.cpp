@@ -5,7 +5,7 @@
 #include <lorentz/exchange.hpp>
 #include "python/engine.hpp"
 #include "starts/free_starts.hpp"
-#include "statistics/flights/findings.hpp"
+#include "statistics/flights/report.hpp"
 #include "statistics/flights/run.hpp"
 
 namespace lorentz::python {

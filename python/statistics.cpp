@@ -1,8 +1,8 @@
 // Statistics of trajectories: Lyapunov exponents, diffusion, and how long computed trajectories stay right.
 #include "python/engine.hpp"
 #include "python/signals.hpp"
-#include "statistics/chaos/diffusion_report.hpp"
-#include "statistics/chaos/lyapunov_report.hpp"
+#include "statistics/chaos/diffusion.hpp"
+#include "statistics/chaos/lyapunov.hpp"
 #include "statistics/survival/survival.hpp"
 
 namespace lorentz::python {
