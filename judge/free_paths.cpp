@@ -19,11 +19,6 @@ struct Where {
 constexpr Where kWhere[] = {{"square", 0.1}, {"square", 0.01}, {"cubic", 0.1}};
 constexpr std::size_t kFlights = 30'000;  // in all
 
-double farthest_in(const FlownScene& scene) {
-  const auto farthest = scene.paths.farthest_apart();
-  return farthest ? farthest->apart() : 0;
-}
-
 // How far a particle gets according to an answer; nothing if the answer does not say.
 std::optional<double> path_of(const Answer& answer) {
   if (answer.outcome == Outcome::hit) return answer.time;
@@ -130,13 +125,15 @@ std::vector<FlownScene> fly_free_paths(Examination& examination, std::uint64_t s
 }
 
 std::string free_path_fault(const std::vector<FlownScene>& scenes) {
-  const auto worst = std::max_element(
-      scenes.begin(), scenes.end(),
-      [](const FlownScene& a, const FlownScene& b) { return farthest_in(a) < farthest_in(b); });
-  if (worst == scenes.end() || farthest_in(*worst) == 0) return "";
-  const auto farthest = worst->paths.farthest_apart();
+  std::optional<PathPoint> farthest;
+  std::string where;
+  for (const FlownScene& scene : scenes)
+    if (const auto point = scene.paths.farthest_apart();
+        point && (!farthest || point->apart() > farthest->apart()))
+      farthest = point, where = scene.name();
+  if (!farthest) return "";
   return fmt::format("P(free path > {:.3g}) {:.3g} where {:.3g} is exact ({})", farthest->t,
-                     farthest->survival, farthest->exact, worst->name());
+                     farthest->survival, farthest->exact, where);
 }
 
 }  // namespace lorentz::judge

@@ -152,16 +152,12 @@ std::optional<double> best_power(const BinnedTail& tail) {
   return zero_of(slope, high / 2, high);
 }
 
-std::size_t bins_from(std::size_t first, std::span<const double> edges) {
-  return first < edges.size() ? edges.size() - 1 - first : 0;
-}
-
 }  // namespace
 
 std::optional<TailExponent> tail_exponent_from(std::size_t first, std::span<const double> edges,
                                                std::span<const std::uint64_t> counts) {
   check_bins(edges, counts);
-  if (bins_from(first, edges) < kLeastBins) return std::nullopt;
+  if (first >= edges.size() || edges.size() - 1 - first < kLeastBins) return std::nullopt;
   BinnedTail tail;
   for (std::size_t i = first; i < edges.size(); ++i)
     tail.add(std::log(edges[i] / edges[first]), static_cast<double>(counts[i + 1]));
