@@ -50,6 +50,15 @@ std::vector<std::optional<Sums>> for_each_group(
     const Work& work, const std::function<Sums(std::uint64_t)>& act,
     const std::function<bool(std::uint64_t, const Sums&)>& is_possible);
 
+/// The remark for an incomplete result; empty if it is complete.
+std::string remark_on_end(bool is_whole);
+
+/// The items [first, last) of `count` that belong to a group.
+struct GroupShare {
+  std::uint64_t first, last;
+};
+GroupShare share_of(std::uint64_t group, std::uint64_t count);
+
 /// A number and its standard error.
 struct Estimate {
   double value = 0, error = 0;
@@ -75,14 +84,5 @@ inline Estimate estimate_of_ratio(const std::vector<double>& above, const std::v
   for (std::size_t k = 0; k < above.size(); ++k) parts.push_back((above[k] - ratio * below[k]) / mean);
   return {ratio, estimate_of(parts).error};
 }
-
-/// The remark for an incomplete result; empty if it is complete.
-std::string remark_on_end(bool is_whole);
-
-/// The items [first, last) of `count` that belong to a group.
-struct GroupShare {
-  std::uint64_t first, last;
-};
-GroupShare share_of(std::uint64_t group, std::uint64_t count);
 
 }  // namespace lorentz::chaos
