@@ -1,25 +1,5 @@
 // One vector of queries from start to end, in lanes, as in src/engines/reduction/scene_flight.hpp and
 // flight_kernel.hpp. Private to the batch engine.
-#if defined(LORENTZ_BATCH_BLOCK_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_BLOCK_INL_HPP
-#undef LORENTZ_BATCH_BLOCK_INL_HPP
-#else
-#define LORENTZ_BATCH_BLOCK_INL_HPP
-#endif
-
-#include <cstring>
-
-#include "src/engines/batch/late-inl.hpp"
-#include "src/engines/batch/search_2d-inl.hpp"
-#include "src/engines/batch/search_3d-inl.hpp"
-#include "src/engines/batch/sparse-inl.hpp"
-#include "src/engines/batch/stretch.hpp"
-#include "src/engines/batch/turn-inl.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
 
 enum class Lattices { crystals, sparse, none };
 
@@ -402,10 +382,3 @@ inline void fly_any(const PreparedScene& scene, Stretch& stretch) {
   if (scene.atoms.size() == 1 && scene.atoms[0].unit) return fly_stretch<D, true, kBall>(scene, stretch);
   return fly_stretch<D, false, kBall>(scene, stretch);
 }
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

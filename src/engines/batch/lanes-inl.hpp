@@ -8,24 +8,6 @@
 // The engine for one flight (src/engines/reduction) and this one share code: the files *-inl.hpp there. Code
 // that exists only in this folder does, lane by lane, the operations of a single flight, one by one and in
 // their order. So the bounds of bounds.hpp hold, and both give the same bits. A branch there is a mask here.
-#if defined(LORENTZ_BATCH_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_LANES_INL_HPP
-#undef LORENTZ_BATCH_LANES_INL_HPP
-#else
-#define LORENTZ_BATCH_LANES_INL_HPP
-#endif
-
-#include <type_traits>
-
-#include <lorentz/engine_base.hpp>
-#include "src/engines/batch/twin-inl.hpp"
-#include "src/engines/reduction/bounds.hpp"
-#include "src/engines/reduction/bravais.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
 
 HWY_INLINE V none() {
   return all(0);
@@ -157,10 +139,3 @@ struct Lanes {
     leave(m);
   }
 };
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

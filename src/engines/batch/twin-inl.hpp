@@ -1,18 +1,5 @@
 // Two vectors as one, so that the processor works on one while the other waits for a division or a mask.
 // Included once for each set of instructions. Private to the batch engine.
-#if defined(LORENTZ_BATCH_TWIN_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_TWIN_INL_HPP
-#undef LORENTZ_BATCH_TWIN_INL_HPP
-#else
-#define LORENTZ_BATCH_TWIN_INL_HPP
-#endif
-
-#include "src/engines/batch/native-inl.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
 
 struct V {
   N a, b;
@@ -114,10 +101,3 @@ HWY_INLINE std::size_t store_some(V x, M m, double* to) {
   const std::size_t count = store_some(x.a, m.a, to);
   return count + store_some(x.b, m.b, to + count);
 }
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif
