@@ -5,11 +5,6 @@
 namespace lorentz {
 namespace {
 
-template <class Real>
-Point<Real> exact_point(const Vec& a) {
-  return joined<Real>(a, Vec{});
-}
-
 // dual_of, for both kinds of numbers.
 template <class Real>
 std::array<Point<Real>, 3> inverse_of(const std::array<Point<Real>, 3>& axes) {
@@ -25,8 +20,7 @@ MeetingShape<Real> shape_of(const Atom& atom, int dimension) {
   shape.ball = atom.is_ball();
   shape.radius = Real(atom.radius);
   if (shape.ball) return shape;
-  for (int i = 0; i < 3; ++i)
-    shape.axes[i] = exact_point<Real>(i < dimension ? atom.semiaxes[i] : Vec{0, 0, 1});
+  for (int i = 0; i < 3; ++i) shape.axes[i] = joined<Real>(i < dimension ? atom.semiaxes[i] : Vec{0, 0, 1});
   shape.dual = inverse_of<Real>(shape.axes);
   for (int i = 0; i < dimension; ++i) shape.inverse_size += length(high_part(shape.dual[i]));
   return shape;
@@ -89,9 +83,9 @@ Motion<Real>::Motion(const Scene& scene) : places_(scene), one_lattice_(scene.la
   for (const Lattice& lattice : scene.lattices) {
     MotionRows& rows = lattices_.emplace_back();
     for (int i = 0; i < 3; ++i)
-      rows.vectors[i] = exact_point<Real>(i < scene.dimension ? lattice.vectors[i] : Vec{});
+      rows.vectors[i] = joined<Real>(i < scene.dimension ? lattice.vectors[i] : Vec{});
     for (const Atom& atom : lattice.atoms)
-      rows.obstacles.push_back({exact_point<Real>(atom.position), shape_of<Real>(atom, scene.dimension)});
+      rows.obstacles.push_back({joined<Real>(atom.position), shape_of<Real>(atom, scene.dimension)});
   }
 }
 
@@ -163,13 +157,34 @@ Stop Motion<Real>::meet(Particle& particle, const Inquiry& asked, const Named& n
 }
 
 template <class Real>
-Stop Motion<Real>::fly_on(Particle& particle, double until, Stop otherwise) const {
-  if (!(until < HUGE_VAL)) return otherwise;
-  move<Real>(particle, until);
-  return Stop::time;
+Stop Motion<Real>::end(Particle& particle, const Inquiry& asked, Outcome outcome, const Named& named,
+                       double until, Collision& collision) const {
+  switch (outcome) {
+    case Outcome::hit:
+      return meet(particle, asked, named, until, collision);
+    case Outcome::never:
+    case Outcome::later:
+      if (!(until < HUGE_VAL)) return outcome == Outcome::never ? Stop::never : Stop::later;
+      move<Real>(particle, until);
+      return Stop::time;
+    case Outcome::inside:
+      return Stop::inside;
+    case Outcome::undecided:
+      return Stop::undecided;
+    default:
+      return Stop::error;
+  }
 }
 
 template class Motion<double>;
 template class Motion<Wide>;
+
+AnyMotion::AnyMotion(const Scene& scene, Precision precision)
+    : variant(precision == Precision::binary64 ? variant(std::in_place_index<0>, scene)
+                                               : variant(std::in_place_index<1>, scene)) {}
+
+const Places& AnyMotion::places() const {
+  return std::visit([](const auto& one) -> const Places& { return one.places(); }, *this);
+}
 
 }  // namespace lorentz

@@ -2,6 +2,7 @@
 // that an engine names. Private to src/trajectory.
 #pragma once
 
+#include <variant>
 #include <vector>
 
 #include <lorentz/trajectory.hpp>
@@ -58,14 +59,10 @@ class Motion {
 
   Inquiry asked(const Particle& particle) const;
 
-  /// Makes the collision with the named obstacle. If that comes after the time `until`, moves the particle to
-  /// its position at `until` instead.
-  Stop meet(Particle& particle, const Inquiry& asked, const Named& named, double until,
-            Collision& collision) const;
-
-  /// Where nothing is met: moves the particle to the time `until`, or returns `otherwise` if `until` is
-  /// infinite.
-  Stop fly_on(Particle& particle, double until, Stop otherwise) const;
+  /// Ends the flight as the engine says: makes the collision with the named obstacle, or, if nothing is met
+  /// until then, moves the particle to its position at the time `until`.
+  Stop end(Particle& particle, const Inquiry& asked, Outcome outcome, const Named& named, double until,
+           Collision& collision) const;
 
  private:
   struct Obstacle {
@@ -77,6 +74,8 @@ class Motion {
     std::vector<Obstacle> obstacles;
   };
 
+  Stop meet(Particle& particle, const Inquiry& asked, const Named& named, double until,
+            Collision& collision) const;
   bool see(const Particle& particle, const Named& named, Point<Real>& w,
            std::array<std::int64_t, 3>& cell) const;
   Point<Real> step_at_home(const Particle& particle, const Named& named) const;
@@ -89,5 +88,11 @@ class Motion {
 
 extern template class Motion<double>;
 extern template class Motion<Wide>;
+
+/// Motion with states in the numbers of a precision.
+struct AnyMotion : std::variant<Motion<double>, Motion<Wide>> {
+  AnyMotion(const Scene& scene, Precision precision);
+  const Places& places() const;
+};
 
 }  // namespace lorentz

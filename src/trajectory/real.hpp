@@ -45,7 +45,7 @@ inline Wide wide(std::int64_t n) {
 }
 
 template <class Real>
-Point<Real> joined(const Vec& high, const Vec& low) {
+Point<Real> joined(const Vec& high, const Vec& low = {}) {
   return {joined<Real>(high[0], low[0]), joined<Real>(high[1], low[1]), joined<Real>(high[2], low[2])};
 }
 
@@ -56,6 +56,10 @@ Vec high_part(const Point<Real>& a) {
 template <class Real>
 Vec low_part(const Point<Real>& a) {
   return {low_part(a[0]), low_part(a[1]), low_part(a[2])};
+}
+
+inline Vec rounded(const Point<Wide>& a) {
+  return {a[0].value(), a[1].value(), a[2].value()};
 }
 
 template <class Real>
