@@ -5,16 +5,11 @@
 #include <variant>
 #include <vector>
 
+#include <lorentz/flight.hpp>
 #include <lorentz/trajectory.hpp>
 #include "src/trajectory/meeting.hpp"
 
 namespace lorentz {
-
-/// An obstacle as an engine names it. Its cell is in the frame in which the query was asked.
-struct Named {
-  std::int32_t lattice, atom;
-  std::array<std::int64_t, 3> cell;
-};
 
 /// The start of a flight as the engine is asked about it, and the cell of the obstacle that the particle
 /// leaves.
@@ -59,9 +54,10 @@ class Motion {
 
   Inquiry asked(const Particle& particle) const;
 
-  /// Ends the flight as the engine says: makes the collision with the named obstacle, or, if nothing is met
-  /// until then, moves the particle to its position at the time `until`.
-  Stop end(Particle& particle, const Inquiry& asked, Outcome outcome, const Named& named, double until,
+  /// Ends the flight as the engine says: makes the collision with the obstacle, whose cell is in the frame in
+  /// which the query was asked; or, if nothing is met until then, moves the particle to its position at the
+  /// time `until`.
+  Stop end(Particle& particle, const Inquiry& asked, const Flight& flight, double until,
            Collision& collision) const;
 
  private:
@@ -74,12 +70,12 @@ class Motion {
     std::vector<Obstacle> obstacles;
   };
 
-  Stop meet(Particle& particle, const Inquiry& asked, const Named& named, double until,
+  Stop meet(Particle& particle, const Inquiry& asked, const Flight& named, double until,
             Collision& collision) const;
-  bool see(const Particle& particle, const Named& named, Point<Real>& w,
+  bool see(const Particle& particle, const Flight& named, Point<Real>& w,
            std::array<std::int64_t, 3>& cell) const;
-  Point<Real> step_at_home(const Particle& particle, const Named& named) const;
-  Point<Real> step_in_scene(const Particle& particle, const Named& named) const;
+  Point<Real> step_at_home(const Particle& particle, const Flight& named) const;
+  Point<Real> step_in_scene(const Particle& particle, const Flight& named) const;
 
   Places places_;
   bool one_lattice_;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include <lorentz/vec.hpp>
 #include "src/engines/base/double_double.hpp"
@@ -15,14 +16,11 @@ template <class Real>
 using Point = std::array<Real, 3>;
 
 template <class Real>
-Real joined(double high, double low);
-template <>
-inline double joined<double>(double high, double) {
-  return high;
-}
-template <>
-inline Wide joined<Wide>(double high, double low) {
-  return Wide::sum(high, low);
+Real joined(double high, double low) {
+  if constexpr (std::is_same_v<Real, Wide>)
+    return Wide::sum(high, low);
+  else
+    return high;
 }
 
 inline double high_part(double x) {

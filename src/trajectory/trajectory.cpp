@@ -28,13 +28,6 @@ void set(const Particle& particle, const Inquiry& asked, Query& query) {
   for (int i = 0; i < 3; ++i) query.from->cell[i] = asked.cell[i];
 }
 
-// What the engine answered about a flight.
-struct Heard {
-  Outcome outcome = Outcome::error;
-  Named named{};
-  bool overflow = false;
-};
-
 // A negative index becomes a very large one, which is not in the scene, either.
 bool has(const Scene& scene, const ObstacleId& obstacle) {
   const auto lattice = static_cast<std::size_t>(obstacle.lattice),
@@ -42,19 +35,21 @@ bool has(const Scene& scene, const ObstacleId& obstacle) {
   return lattice < scene.lattices.size() && atom < scene.lattices[lattice].atoms.size();
 }
 
-Heard heard(const Flight& flight) {
-  return {flight.outcome, {flight.lattice, flight.atom, flight.cell}, false};
-}
-
-Heard heard(const Answer& answer, const Scene& scene) {
-  Heard all{answer.outcome, {answer.obstacle.lattice, answer.obstacle.atom, {}}, false};
-  if (answer.outcome != Outcome::hit) return all;
-  if (!has(scene, answer.obstacle)) return {};
-  for (int i = 0; i < 3; ++i) {
-    all.overflow |= !answer.obstacle.cell[i].fits_int64();
-    all.named.cell[i] = answer.obstacle.cell[i].int64();
+// The answer as a flight, an error if there is no such obstacle; false if its cell is beyond 64 bits.
+bool set(const Answer& answer, const Scene& scene, Flight& flight) {
+  flight.outcome = answer.outcome;
+  if (answer.outcome != Outcome::hit) return true;
+  if (!has(scene, answer.obstacle)) {
+    flight.outcome = Outcome::error;
+    return true;
   }
-  return all;
+  flight.lattice = answer.obstacle.lattice, flight.atom = answer.obstacle.atom;
+  bool fits = true;
+  for (int i = 0; i < 3; ++i) {
+    fits &= answer.obstacle.cell[i].fits_int64();
+    flight.cell[i] = answer.obstacle.cell[i].int64();
+  }
+  return fits;
 }
 
 }  // namespace
@@ -95,15 +90,14 @@ Stop Trajectory::advance(const Motion& motion, double until) {
   Query& query = inside_->query;
   Answer& answer = inside_->answer;
   set(particle_, asked, query);
-  Heard of_flight;
+  Flight flight;
   if (inside_->reduction) {
-    of_flight = heard(inside_->reduction->fly(query, flight_limit(particle_, until)));
+    flight = inside_->reduction->fly(query, flight_limit(particle_, until));
   } else {
     inside_->ask(query, flight_limit(particle_, until), answer);
-    of_flight = heard(answer, motion.places().scene());
+    if (!set(answer, motion.places().scene(), flight)) return Stop::overflow;
   }
-  if (of_flight.overflow) return Stop::overflow;
-  const Stop stop = motion.end(particle_, asked, of_flight.outcome, of_flight.named, until, collision_);
+  const Stop stop = motion.end(particle_, asked, flight, until, collision_);
   if (stop == Stop::error)
     message_ =
         answer.outcome == Outcome::error ? answer.message : "the engine named an atom that is not there";

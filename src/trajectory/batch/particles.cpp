@@ -14,7 +14,7 @@ struct Particles::Inside {
   AnyMotion motion;
   Column<Inquiry> asked;
   std::array<Column<double>, 3> x, v;
-  Column<double> max_time, time;
+  Column<double> max_time;
   Column<std::int32_t> from_lattice, from_atom, lattice, atom;
   std::array<Column<std::int64_t>, 3> from_cell, cell;
   Column<Outcome> outcome;
@@ -24,6 +24,12 @@ struct Particles::Inside {
 
   void ask(const Particle& particle, std::size_t k, double until);
   void fly(std::size_t count, bool limited);
+  Flight flight(std::size_t k) const {
+    return {.outcome = outcome[k],
+            .lattice = lattice[k],
+            .atom = atom[k],
+            .cell = {cell[0][k], cell[1][k], cell[2][k]}};
+  }
 };
 
 void Particles::Inside::ask(const Particle& particle, std::size_t k, double until) {
@@ -88,10 +94,7 @@ std::size_t Particles::fly(std::size_t begin, double until) {
         inside.fly(count, until < HUGE_VAL);
         for (std::size_t k = 0; k < count; ++k) {
           const std::size_t i = going_[begin + k];
-          const auto& [i0, i1, i2] = inside.cell;
-          const Named named{inside.lattice[k], inside.atom[k], {i0[k], i1[k], i2[k]}};
-          stops_[i] =
-              motion.end(particles_[i], inside.asked[k], inside.outcome[k], named, until, collisions_[k]);
+          stops_[i] = motion.end(particles_[i], inside.asked[k], inside.flight(k), until, collisions_[k]);
         }
       },
       inside.motion);
