@@ -71,7 +71,10 @@ class Block {
     LaneEntry<D, kBall> best;
     V best_atom = none();
     for (std::size_t a = 0; a < scene_.atoms.size(); ++a) {
-      set_direction(a, velocity, to);
+      if constexpr (kFewer)
+        to.set(scene_.atoms[a], velocity);
+      else
+        set_direction(a, velocity, to);
       AtomStart made;
       StartOrReference start = start_of(a, made);
       Leaving<D> leaving;
@@ -109,16 +112,8 @@ class Block {
     }
   }
 
+  // In a crystal.
   HWY_INLINE void set_direction(std::size_t a, const V (&velocity)[D], typename Search::Direction& to) {
-    const Bravais& lattice = scene_.atoms[a];
-    if constexpr (kFewer)
-      return to.set(lattice, velocity);
-    else
-      set_direction_in_crystal(a, velocity, to);
-  }
-
-  HWY_INLINE void set_direction_in_crystal(std::size_t a, const V (&velocity)[D],
-                                           typename Search::Direction& to) {
     const Bravais& lattice = scene_.atoms[a];
     if (a > 0) {
       const Bravais& before = scene_.atoms[a - 1];
