@@ -1,5 +1,5 @@
-// Short bases of a 3D lattice as seen along the velocities, in lanes, as in
-// src/engines/reduction/reduce_3d.hpp, basis_3d.hpp and direction_3d.hpp. Private to the batch engine.
+// Short bases of a 3D lattice as seen along the velocities, in lanes, as in src/engines/reduction/reduce_3d.hpp.
+// Private to the batch engine.
 
 using Arm3 = ArmOf3<LaneFma>;
 using Basis3 = BasisOf3<LaneFma>;
@@ -104,12 +104,6 @@ HWY_INLINE M reduce_basis(const Frame& frame, Basis3& basis, M wanted) {
   reduction.copy_to(basis);
   return is_short;
 }
-
-#define LORENTZ_INLINE HWY_INLINE
-#include "src/engines/reduction/direction_3d-inl.hpp"
-
-#include "src/engines/reduction/window_3d-inl.hpp"
-#undef LORENTZ_INLINE
 
 template <bool kUnit, bool kBall>
 using Direction3 = DirectionOf3<LaneFma, kUnit, kBall>;

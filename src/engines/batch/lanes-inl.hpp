@@ -52,15 +52,12 @@ HWY_INLINE V operator/(double a, V b) {
 HWY_INLINE V NegIf(M m, V a) {
   return Xor(a, where(m, all(-0.0)));
 }
-HWY_INLINE V largest(V a, V b, V c) {
-  return Max(Max(a, b), c);
-}
 HWY_INLINE void exchange(M m, V& a, V& b) {
   const V before = a;
   a = select(m, b, a), b = select(m, before, b);
 }
 
-/// AxesOf of src/engines/reduction/frame_3d.hpp, in lanes.
+/// AxesOf of src/engines/reduction/one_flight.hpp, in lanes.
 template <class, bool kTurned>
 class AxesOf {
  public:
@@ -103,23 +100,11 @@ struct LaneFma {
 #define LORENTZ_INLINE HWY_INLINE
 #define LORENTZ_RARE HWY_INLINE
 #define LORENTZ_NOINLINE HWY_NOINLINE
-// Each file needs those before it.
 #include "src/engines/base/double_double-inl.hpp"
 
 #include "src/engines/reduction/formulas-inl.hpp"
 
-#include "src/engines/reduction/stable_meeting-inl.hpp"
-
-#include "src/engines/reduction/offset-inl.hpp"
-
-#include "src/engines/reduction/basis_3d-inl.hpp"
-#include "src/engines/reduction/direction_2d-inl.hpp"
-#include "src/engines/reduction/entry_time-inl.hpp"
-
-#include "src/engines/reduction/frame_3d-inl.hpp"
-#include "src/engines/reduction/one_obstacle-inl.hpp"
-#include "src/engines/reduction/search_2d-inl.hpp"
-#include "src/engines/reduction/sparse_rows-inl.hpp"
+#include "src/engines/reduction/shared-inl.hpp"
 #undef LORENTZ_NOINLINE
 #undef LORENTZ_RARE
 #undef LORENTZ_INLINE

@@ -1,5 +1,5 @@
 // The search for the first obstacles in 3D, in lanes, as in src/engines/reduction/search_3d.hpp,
-// planes_3d.hpp, lines_3d.hpp and candidates_3d.hpp. Private to the batch engine.
+// lines_3d.hpp and candidates_3d.hpp. Private to the batch engine.
 
 using Point3 = PointOf3<LaneFma>;
 
@@ -97,9 +97,7 @@ class Search3 {
 
   /// Searches in the active lanes.
   HWY_INLINE void run(Lanes& lanes) {
-    found.s = infinite();
-    found.s_error = found.slack = found.slack_error = none();
-    for (V& n : found.n) n = none();
+    found.clear();
     found.v2 = to_.v2;
     if constexpr (!kBall)
       for (int k = 0; k < 3; ++k) found.along[k] = to_.along[k];

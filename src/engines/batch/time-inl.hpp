@@ -1,11 +1,18 @@
-// When the obstacles found are entered, in lanes, as in src/engines/reduction/entry_time.hpp and
-// stable_meeting.hpp. Private to the batch engine.
+// When the obstacles found are entered, in lanes, as in src/engines/reduction/entry_time.hpp. Private to the
+// batch engine.
 
 /// The results of a search from which the time is computed, and the obstacle's cell relative to the home
 /// cell, in the short basis.
 template <int D, bool kBall>
 struct LaneEntry : Entry<LaneFma, D, kBall> {
   V n[D];
+
+  /// Nothing is found.
+  HWY_INLINE void clear() {
+    for (V& cell : n) cell = none();
+    this->s = infinite();
+    this->s_error = this->slack = this->slack_error = none();
+  }
 
   HWY_INLINE void take(M m, const LaneEntry& other) {
     for (int k = 0; k < D; ++k) n[k] = select(m, other.n[k], n[k]);

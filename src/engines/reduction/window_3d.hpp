@@ -2,15 +2,9 @@
 // that numbers are small; for one flight. Private to the reduction engine.
 #pragma once
 
-#include "src/engines/reduction/direction_3d.hpp"
+#include "src/engines/reduction/reduce_3d.hpp"
 
 namespace lorentz {
-
-#define LORENTZ_INLINE inline
-#include "src/engines/reduction/window_3d-inl.hpp"
-#undef LORENTZ_INLINE
-
-using Point3 = PointOf3<SplitProduct>;
 
 /// Can one count from low to high by ones?
 inline bool are_countable(double low, double high) {

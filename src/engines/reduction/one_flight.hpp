@@ -1,9 +1,14 @@
-// Coordinates of a 3D lattice as seen along a velocity, for one flight. Private to the reduction engine.
+// The code that both fast engines share, for one flight: a number is a double, a mask a bool. Private to the
+// reduction engine.
 #pragma once
 
-#include "src/engines/reduction/basis_3d.hpp"
+#include <type_traits>
+
+#include <lorentz/engine_base.hpp>
+#include "src/engines/base/double_double.hpp"
+#include "src/engines/reduction/bounds.hpp"
+#include "src/engines/reduction/bravais.hpp"
 #include "src/engines/reduction/formulas.hpp"
-#include "src/engines/reduction/offset.hpp"
 
 namespace lorentz {
 
@@ -32,10 +37,18 @@ class AxesOf {
 };
 
 #define LORENTZ_INLINE inline
-#include "src/engines/reduction/frame_3d-inl.hpp"
+#define LORENTZ_NOINLINE [[gnu::noinline]]
+#define LORENTZ_RARE [[gnu::noinline]]
+#include "src/engines/reduction/shared-inl.hpp"
+#undef LORENTZ_RARE
+#undef LORENTZ_NOINLINE
 #undef LORENTZ_INLINE
 
+using Arm3 = ArmOf3<SplitProduct>;
+using Basis3 = BasisOf3<SplitProduct>;
+using Point3 = PointOf3<SplitProduct>;
+
 template <bool kUnit, bool kBall>
-using Frame3 = FrameOf3<SplitProduct, kUnit, kBall>;
+using Direction3 = DirectionOf3<SplitProduct, kUnit, kBall>;
 
 }  // namespace lorentz
