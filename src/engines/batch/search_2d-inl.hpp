@@ -45,8 +45,9 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
     n_ = Ceil(nu - reach);
     last_ = nu + reach;
     m_ = none();
-    found.clear();
-    found.across = none();
+    found.s = infinite();
+    found.s_error = found.slack = found.slack_error = found.across = none();
+    found.n[0] = found.n[1] = none();
     found.v2 = to_.v2;
     if constexpr (!kBall)
       found.euclidean_v2 = to_.shape.euclidean_v2, found.v2_error = all(2 * to_.rho_error());

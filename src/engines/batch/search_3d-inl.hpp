@@ -97,7 +97,9 @@ class Search3 {
 
   /// Searches in the active lanes.
   HWY_INLINE void run(Lanes& lanes) {
-    found.clear();
+    found.s = infinite();
+    found.s_error = found.slack = found.slack_error = none();
+    for (V& n : found.n) n = none();
     found.v2 = to_.v2;
     if constexpr (!kBall)
       for (int k = 0; k < 3; ++k) found.along[k] = to_.along[k];

@@ -36,8 +36,10 @@ class SparseSearch {
   /// Searches in the active lanes.
   HWY_INLINE void run(Lanes& lanes) {
     stage2 = no_lane();
-    found.clear();
     found.v2 = to_.v2;
+    for (V& n : found.n) n = none();
+    found.s = infinite();
+    found.s_error = found.slack = found.slack_error = none();
     if (kSingle || balls_.rank == 0) {
       look(found.n, start_.d, start_.error, lanes.active, lanes);
     } else {

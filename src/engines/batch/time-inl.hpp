@@ -7,13 +7,6 @@ template <int D, bool kBall>
 struct LaneEntry : Entry<LaneFma, D, kBall> {
   V n[D];
 
-  /// Nothing is found.
-  HWY_INLINE void clear() {
-    for (V& cell : n) cell = none();
-    this->s = infinite();
-    this->s_error = this->slack = this->slack_error = none();
-  }
-
   HWY_INLINE void take(M m, const LaneEntry& other) {
     for (int k = 0; k < D; ++k) n[k] = select(m, other.n[k], n[k]);
     this->s = select(m, other.s, this->s), this->s_error = select(m, other.s_error, this->s_error);
