@@ -40,7 +40,7 @@ class Search3 {
       window_.advance(none_met_, kappa_);
       if (window_.begin > s_limit || window_.begin > 2 * period()) return Outcome::never;
       if (!(window_.begin < kFarthest)) return found.give_up();
-      if (window >= 1) window_.lengthen(kLonger);
+      if (window >= 1) window_.lengthen(kLonger, true);
     }
     return found.give_up();
   }

@@ -17,7 +17,7 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall> {
   using typename Base::DD;
 
  public:
-  using Base::anchor_point, Base::basis, Base::begin, Base::to;
+  using Base::anchor_point, Base::basis, Base::begin, Base::lengthen, Base::to;
 
   const Offset<SplitProduct, 3>& offset;
   Wide anchor[3];  ///< from the home cell, in the short basis
@@ -36,9 +36,6 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall> {
     }
     return this->set_errors(n);
   }
-
-  /// Makes the window longer from here on, with a basis that suits its length.
-  void lengthen(double factor) { Base::lengthen(factor, true); }
 
   /// The same point, with its coordinates recomputed from the integers.
   Point3 recomputed(const Point3& point) const {
