@@ -35,7 +35,7 @@ class AtomStart {
     }
     Wide leaving[D];
     const bool has_from = find_from(from, leaving);
-    for (int which = 0; which < 1 << D; ++which) {
+    for (int which = 0; which <= others; ++which) {
       if ((which & others) != which) continue;
       Wide d[D];
       std::copy(offset.d, offset.d + D, d);
