@@ -115,18 +115,6 @@ ExactAtom<D> exact_atom(const typename IntegerScene<D>::Atom& atom, const Basis<
   return exact;
 }
 
-template <std::size_t D>
-typename IntegerScene<D>::Atom integer_atom(const Atom& atom, long exponent) {
-  typename IntegerScene<D>::Atom exact{scaled_vector<D>(atom.position, exponent), Z(0), std::nullopt};
-  if (atom.is_ball()) {
-    exact.radius = scaled(atom.radius, exponent);
-    return exact;
-  }
-  exact.semiaxes.emplace();
-  for (std::size_t i = 0; i < D; ++i) (*exact.semiaxes)[i] = scaled_vector<D>(atom.semiaxes[i], exponent);
-  return exact;
-}
-
 }  // namespace
 
 CommonExponent common_exponent(const Scene& scene, double other) {
@@ -147,16 +135,10 @@ CommonExponent common_exponent(const Scene& scene, double other) {
 }
 
 template <std::size_t D>
-IntegerScene<D> integer_scene(const Scene& scene) {
-  IntegerScene<D> exact;
-  exact.exponent = common_exponent(scene).get();
-  for (const Lattice& lattice : scene.lattices) {
-    auto& its = exact.lattices.emplace_back();
-    its.rank = static_cast<std::size_t>(lattice.rank(D));
-    for (std::size_t i = 0; i < its.rank; ++i)
-      its.vectors[i] = scaled_vector<D>(lattice.vectors[i], exact.exponent);
-    for (const Atom& atom : lattice.atoms) its.atoms.push_back(integer_atom<D>(atom, exact.exponent));
-  }
+IntegerScene<D> integer_scene(const Scene& scene, double other) {
+  const long exponent = common_exponent(scene, other).get();
+  auto exact = in_integers<D>(scene, [exponent](double value) { return scaled(value, exponent); });
+  exact.exponent = exponent;
   return exact;
 }
 
@@ -267,8 +249,8 @@ ZVec<D> centre_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<
   return centre;
 }
 
-template IntegerScene<2> integer_scene(const Scene&);
-template IntegerScene<3> integer_scene(const Scene&);
+template IntegerScene<2> integer_scene(const Scene&, double);
+template IntegerScene<3> integer_scene(const Scene&, double);
 template struct ExactScene<2>;
 template struct ExactScene<3>;
 template View<2> view_of(const ExactScene<2>&, int, int, const ZVec<2>&, const ExactVelocity<2>&, long);

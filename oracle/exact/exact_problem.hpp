@@ -138,8 +138,36 @@ struct IntegerScene {
   std::vector<Lattice> lattices;
 };
 
+/// A scene, or one of rational numbers, with the integer `number(x)` in place of each number x.
+template <std::size_t D, class AnyScene, class Number>
+IntegerScene<D> in_integers(const AnyScene& scene, const Number& number) {
+  const auto vector = [&](const auto& a) {
+    ZVec<D> result;
+    for (std::size_t i = 0; i < D; ++i) result[i] = number(a[i]);
+    return result;
+  };
+  IntegerScene<D> result;
+  for (const auto& lattice : scene.lattices) {
+    auto& its = result.lattices.emplace_back();
+    its.rank = D - static_cast<std::size_t>(lattice.missing);
+    for (std::size_t i = 0; i < D; ++i) its.vectors[i] = vector(lattice.vectors[i]);
+    for (const auto& atom : lattice.atoms) {
+      auto& its_atom = its.atoms.emplace_back();
+      its_atom.position = vector(atom.position);
+      if (atom.is_ball()) {
+        its_atom.radius = number(atom.radius);
+        continue;
+      }
+      its_atom.semiaxes.emplace();
+      for (std::size_t i = 0; i < D; ++i) (*its_atom.semiaxes)[i] = vector(atom.semiaxes[i]);
+    }
+  }
+  return result;
+}
+
+/// The unit is at most that of `other`, a length.
 template <std::size_t D>
-IntegerScene<D> integer_scene(const Scene& scene);
+IntegerScene<D> integer_scene(const Scene& scene, double other = 0);
 
 /// The scene with every length multiplied by 2^-exponent, and its lattices reduced.
 template <std::size_t D>

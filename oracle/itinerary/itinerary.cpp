@@ -22,14 +22,12 @@ std::string_view name_of(JourneyEnd end) {
 
 namespace {
 
-constexpr double kBitsADecimal = 3.33;
-
 // The bits for the next passage: the bits that this passage lost, extrapolated to the journey's end. (A
 // passage that stops tells what part it has done.) At least 1.5 and at most 4 times the bits of this passage.
 template <std::size_t D>
 long next_bits(const Passage<D>& passage, const Journey& journey, double part) {
   const double lost = static_cast<double>(passage.bits_lost()) / std::max(part, 1e-6);
-  const double wanted = 1.05 * lost + kBitsADecimal * journey.digits + 64;
+  const double wanted = 1.05 * lost + kBitsADigit * journey.digits + 64;
   const auto bits = static_cast<double>(passage.bits());
   return static_cast<long>(std::clamp(wanted, 1.5 * bits, 4 * bits));
 }
@@ -39,7 +37,7 @@ Arrival follow_in(const RationalScene& scene, const Start& start, const Journey&
                   const Itinerary::OnCollision& on_collision) {
   Route<D> route(scene, start, journey, on_collision);
   constexpr long kMostBits = 1L << 18;
-  const long enough = static_cast<long>(kBitsADecimal * journey.digits) + 64;
+  const long enough = static_cast<long>(kBitsADigit * journey.digits) + 64;
   const long most = journey.most_bits > 0 ? journey.most_bits : std::max(kMostBits, 2 * enough);
   for (long bits = journey.first_bits > 0 ? journey.first_bits : enough;;) {
     bits = std::min(bits, most);

@@ -31,8 +31,8 @@ class Rounded final : public RoundedItinerary::Impl {
     const auto* obstacle = std::get_if<ObstacleId>(&next);
     if (!obstacle) return std::nullopt;
     const ZVec<D> centre = sight_.centre_of(*obstacle);
-    State<D> state = state_;
-    for (std::size_t i = 0; i < D; ++i) state.y[i] = rounded(state.y[i] + Ball(centre_[i] - centre[i]));
+    State<D> state = state_.seen_from(centre_, centre);
+    for (Ball& component : state.y) component = component.middle();
     const auto collision = collide(state, sight_.form_of(*obstacle));
     if (!collision) return std::nullopt;  // to this precision it only touches the obstacle
     settle(*collision, sight_.form_of(*obstacle));

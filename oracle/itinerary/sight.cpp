@@ -52,18 +52,17 @@ ExactQuery<D> later_ray(const ExactQuery<D>& ray, const Z& theta, long bits, con
   return ExactQuery<D>(x, ray.length_exponent - bits, ray.velocity.v, ray.velocity_exponent, from);
 }
 
-// The distance of a from the span of a lattice's vectors.
-Ball beside_span(const IntegerScene<2>::Lattice& lattice, const BallVec<2>& a) {
+// The distance of a from the span of a lattice's vectors, which must be fewer than D.
+template <std::size_t D>
+Ball beside_span(const typename IntegerScene<D>::Lattice& lattice, const BallVec<D>& a) {
   if (lattice.rank == 0) return sqrt(dot(a, a));
-  const BallVec<2> b{Ball(lattice.vectors[0][0]), Ball(lattice.vectors[0][1])};
+  if constexpr (D == 3)
+    if (lattice.rank == 2) {
+      const BallVec<3> normal = balls<3>(cross(lattice.vectors[0], lattice.vectors[1]));
+      return dot(a, normal) / sqrt(dot(normal, normal));
+    }
+  const BallVec<D> b = balls<D>(lattice.vectors[0]);
   return sqrt(across_squared(a, b) / dot(b, b));
-}
-Ball beside_span(const IntegerScene<3>::Lattice& lattice, const BallVec<3>& a) {
-  if (lattice.rank == 0) return sqrt(dot(a, a));
-  const bool is_row = lattice.rank == 1;
-  const ZVec<3> exact = is_row ? lattice.vectors[0] : cross(lattice.vectors[0], lattice.vectors[1]);
-  const BallVec<3> b{Ball(exact[0]), Ball(exact[1]), Ball(exact[2])};
-  return is_row ? sqrt(across_squared(a, b) / dot(b, b)) : dot(a, b) / sqrt(dot(b, b));
 }
 
 // Every point of an obstacle is within this distance of its centre.
@@ -75,11 +74,6 @@ Bound reach_of(const typename IntegerScene<D>::Atom& atom) {
   return reach;
 }
 
-template <std::size_t D>
-bool all_zero(const ZVec<D>& a) {
-  return std::all_of(a.begin(), a.end(), [](const Z& component) { return component == 0; });
-}
-
 // Integers a and one exponent, such that a 2^exponent are the middles.
 template <std::size_t D>
 std::pair<ZVec<D>, long> exact_middles(const BallVec<D>& balls) {
@@ -87,11 +81,11 @@ std::pair<ZVec<D>, long> exact_middles(const BallVec<D>& balls) {
   long exponent = 0;
   for (std::size_t i = 0; i < D; ++i) {
     parts[i] = balls[i].exact_middle();
-    if (parts[i].integer != 0) exponent = std::min(exponent, parts[i].exponent);
+    exponent = std::min(exponent, parts[i].exponent);
   }
   ZVec<D> result;
   for (std::size_t i = 0; i < D; ++i)
-    if (parts[i].integer != 0) result[i] = shifted_left(parts[i].integer, parts[i].exponent - exponent);
+    result[i] = shifted_left(parts[i].integer, parts[i].exponent - exponent);
   return {result, exponent};
 }
 
@@ -105,7 +99,7 @@ ExactQuery<D> exact_ray(const Seen<D>& seen) {
 }
 
 template <std::size_t D>
-IntegerScene<D> resized(IntegerScene<D> scene, long level, int sign) {
+IntegerScene<D> scene_resized(IntegerScene<D> scene, long level, int sign) {
   const auto finer = [&](Z& length) { length = shifted_left(length, level); };
   const auto grown = [&](Z& length) { length = shifted_left(length, level) + sign * length; };
   scene.exponent -= level;
@@ -133,10 +127,6 @@ Bound inscribed_radius(const ExactAtom<D>& atom) {
   return (Ball(atom.radius) / sqrt(Ball(squares))).least_size();
 }
 
-}  // namespace
-
-namespace {
-
 template <std::size_t D>
 bool all_exact(const BallVec<D>& balls, const std::array<Bound, D>& errors) {
   return std::all_of(balls.begin(), balls.end(), [](const Ball& ball) { return ball.is_exact(); }) &&
@@ -153,6 +143,16 @@ bool Seen<D>::place_is_exact() const {
 template <std::size_t D>
 bool Seen<D>::is_exact() const {
   return place_is_exact() && all_exact<D>(state.v, v_error);
+}
+
+template <std::size_t D>
+State<D> Seen<D>::anywhere(const ZVec<D>& new_centre) const {
+  State<D> result = state.seen_from(centre, new_centre);
+  for (std::size_t i = 0; i < D; ++i) {
+    result.y[i] = result.y[i].widened(y_error[i]);
+    result.v[i] = result.v[i].widened(v_error[i]);
+  }
+  return result;
 }
 
 template <std::size_t D>
@@ -174,18 +174,11 @@ ZVec<D> Sight<D>::centre_of(const ObstacleId& obstacle) const {
 }
 
 template <std::size_t D>
-const ExactScene<D>& Sight<D>::grown(long level) {
-  auto place = grown_.find(level);
-  if (place == grown_.end())
-    place = grown_.emplace(level, ExactScene<D>(resized(integers_, level, +1))).first;
-  return place->second;
-}
-
-template <std::size_t D>
-const ExactScene<D>& Sight<D>::shrunk(long level) {
-  auto place = shrunk_.find(level);
-  if (place == shrunk_.end())
-    place = shrunk_.emplace(level, ExactScene<D>(resized(integers_, level, -1))).first;
+const ExactScene<D>& Sight<D>::resized(long level, int sign) {
+  auto place = resized_.find({level, sign});
+  if (place == resized_.end())
+    place =
+        resized_.emplace(std::pair(level, sign), ExactScene<D>(scene_resized(integers_, level, sign))).first;
   return place->second;
 }
 
@@ -224,10 +217,10 @@ std::variant<ObstacleId, Unseen, typename Sight<D>::Doubt> Sight<D>::next_at(con
   const Bound y_error = sum<D>(seen.y_error), v_error = sum<D>(seen.v_error);
   for (long bits = 2 * level + 16 - std::min(0L, least_radius_.exponent());;) {
     const ExactQuery<D> ray = rational_ray(seen, bits);
-    if (all_zero<D>(ray.velocity.v)) return Doubt::look_closer;
-    const auto first = first_entry(grown(level), ray);
+    if (ray.velocity.v2 == 0) return Doubt::look_closer;
+    const auto first = first_entry(resized(level, +1), ray);
     if (first.around && !(allowed < y_error + Bound(D) * Bound::power_of_two(-bits)) &&
-        smallest_around(shrunk(level), ray))
+        smallest_around(resized(level, -1), ray))
       return Unseen::around;
     if (first.around) return Doubt::look_closer;
     // The doubt, if any, that the deviation of the particle from the ray within this time leaves about the
@@ -250,13 +243,7 @@ std::variant<ObstacleId, Unseen, typename Sight<D>::Doubt> Sight<D>::next_at(con
     }
     const ObstacleId obstacle = obstacle_of(first.earliest.entry());
 
-    State<D> state = seen.state;
-    const ZVec<D> centre = centre_of(obstacle);
-    for (std::size_t i = 0; i < D; ++i) {
-      state.y[i] = (state.y[i] + Ball(seen.centre[i] - centre[i])).widened(seen.y_error[i]);
-      state.v[i] = state.v[i].widened(seen.v_error[i]);
-    }
-    const auto collision = collide(state, form_of(obstacle));
+    const auto collision = collide(seen.anywhere(centre_of(obstacle)), form_of(obstacle));
     if (!collision || !collision->flight.is_positive()) return Doubt::look_closer;
     const Bound time = collision->flight.size();
     if (!time.is_finite()) return Doubt::look_closer;
@@ -276,15 +263,12 @@ std::variant<ObstacleId, Unseen, typename Sight<D>::Doubt> Sight<D>::next_at(con
 template <std::size_t D>
 Bound Sight<D>::time_of_escape(const Seen<D>& seen) const {
   Bound latest;
-  BallVec<D> v = seen.state.v;
-  for (std::size_t i = 0; i < D; ++i) v[i] = v[i].widened(seen.v_error[i]);
   for (const auto& lattice : integers_.lattices)
     for (const auto& atom : lattice.atoms) {
-      BallVec<D> x;
-      for (std::size_t i = 0; i < D; ++i)
-        x[i] = (seen.state.y[i] + Ball(seen.centre[i] - atom.position[i])).widened(seen.y_error[i]);
-      const Bound slowest = lattice.rank < D ? beside_span(lattice, v).least_size() : Bound();
-      latest = larger(latest, (beside_span(lattice, x).size() + reach_of<D>(atom)) / slowest);
+      if (lattice.rank == D) return Bound(HUGE_VAL);
+      const State<D> state = seen.anywhere(atom.position);
+      latest = larger(latest, (beside_span<D>(lattice, state.y).size() + reach_of<D>(atom)) /
+                                  beside_span<D>(lattice, state.v).least_size());
     }
   return latest;
 }
@@ -299,7 +283,7 @@ bool Sight<D>::is_alone(long level, const ExactQuery<D>& ray, const ExactEntry<D
   const long bits = std::max(0L, level + 8 + (speed / least_radius_).exponent());
   const Z theta = std::max(Z(0), entered.lower().rounded(bits) - 1);
   const ExactQuery<D> rest = later_ray(ray, theta, bits, obstacle_of(entry));
-  const auto second = first_entry(grown(level), rest);
+  const auto second = first_entry(resized(level, +1), rest);
   if (second.around) return false;
   return !second.earliest.found() ||
          surely_less(flight, scaled(Ball(theta), -bits) + time_of(rest, second.earliest.entry()));

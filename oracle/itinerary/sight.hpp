@@ -27,11 +27,13 @@ template <std::size_t D>
 struct Seen {
   const ZVec<D>& centre;
   const State<D>& state;
-  const std::array<Bound, D>&y_error, &v_error;
+  std::array<Bound, D> y_error, v_error;
   const std::optional<ObstacleId>& from;
 
   bool is_exact() const;
   bool place_is_exact() const;
+  /// All states that are possible, relative to another centre.
+  State<D> anywhere(const ZVec<D>& new_centre) const;
 };
 
 enum class Unseen {
@@ -60,14 +62,14 @@ class Sight {
   std::variant<ObstacleId, Unseen, Doubt> next_at(const Seen<D>& seen, long level);
   Bound time_of_escape(const Seen<D>& seen) const;
   bool is_alone(long level, const ExactQuery<D>& ray, const ExactEntry<D>& entry, const Ball& flight);
-  const ExactScene<D>& grown(long level);
-  const ExactScene<D>& shrunk(long level);
+  /// The scene with all obstacles grown (sign = +1) or shrunk (-1) by a factor 1 +- 2^-level.
+  const ExactScene<D>& resized(long level, int sign);
 
   IntegerScene<D> integers_;
   ExactScene<D> exact_;
   std::vector<std::vector<Form<D>>> forms_;
   Bound least_radius_;
-  std::map<long, ExactScene<D>> grown_, shrunk_;  // by level
+  std::map<std::pair<long, int>, ExactScene<D>> resized_;  // by level and sign
 };
 
 }  // namespace lorentz::oracle
