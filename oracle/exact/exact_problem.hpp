@@ -37,6 +37,17 @@ struct LatticePoint {
 template <std::size_t D>
 using Basis = std::array<LatticePoint<D>, D>;
 
+/// Vectors as a basis, with coordinates n in themselves.
+template <std::size_t D>
+Basis<D> basis_of(const std::array<ZVec<D>, D>& vectors) {
+  Basis<D> basis;
+  for (std::size_t i = 0; i < D; ++i) {
+    basis[i].p = vectors[i];
+    basis[i].n[i] = 1;
+  }
+  return basis;
+}
+
 /// A lattice of fewer than D vectors is completed by vectors that are perpendicular to its own and to each
 /// other. Their coordinates n come after the lattice's own. A point at which one of these coordinates is not
 /// 0 is not an obstacle but a copy of one. A view makes the completing vectors so long that a flight meets no
@@ -63,6 +74,10 @@ ZVec<D> operator*(const ZMatrix<D>& map, const ZVec<D>& a) {
   for (std::size_t i = 0; i < D; ++i) image[i] = dot(map[i], a);
   return image;
 }
+
+/// det(A) A^-1, as rows, of the matrix A with these columns.
+ZMatrix<2> adjugate(const ZMatrix<2>& columns);
+ZMatrix<3> adjugate(const ZMatrix<3>& columns);
 
 template <std::size_t D>
 ZMatrix<D> transposed(const ZMatrix<D>& map) {
@@ -219,8 +234,18 @@ ZVec<D> centre_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<
 template <std::size_t D>
 Z determinant(const Basis<D>& basis);
 
+/// The rows of det(b) b^-1.
+template <std::size_t D>
+ZMatrix<D> dual_of(const Basis<D>& basis) {
+  ZMatrix<D> vectors;
+  for (std::size_t i = 0; i < D; ++i) vectors[i] = basis[i].p;
+  return adjugate(vectors);
+}
+
 /// The coordinates of p in the basis, times the determinant of the basis.
-ZVec<2> cramer(const Basis<2>& basis, const ZVec<2>& p);
-ZVec<3> cramer(const Basis<3>& basis, const ZVec<3>& p);
+template <std::size_t D>
+ZVec<D> cramer(const Basis<D>& basis, const ZVec<D>& p) {
+  return dual_of(basis) * p;
+}
 
 }  // namespace lorentz::oracle
