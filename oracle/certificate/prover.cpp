@@ -49,15 +49,6 @@ class Ends {
   long exponent_, unit_;
 };
 
-// The shortest integer vector parallel to n.
-template <std::size_t D>
-ZVec<D> primitive_vector(ZVec<D> n) {
-  Z divisor = 0;
-  for (const Z& component : n) divisor = gcd(divisor, component);
-  for (Z& component : n) component /= divisor;
-  return n;
-}
-
 // Bases of Z^d that begin with n, a vector without a common divisor. If the coordinates of n after the first
 // `rank` are 0, the first `rank` vectors are a basis of Z^rank.
 std::array<ZVec<2>, 2> completed(const ZVec<2>& n) {
@@ -183,7 +174,7 @@ class Writer {
     const ZVec<D> along = cramer(view.basis, view.velocity.v);
     if (is_copy<D>(along, view.rank))
       return add_window(view, lattice, atom, rho_above, -rho_above, std::nullopt);
-    const auto n = completed(primitive_vector<D>(along));
+    const auto n = completed(primitive(along));
     Basis<D> basis;
     for (std::size_t i = 0; i < view.rank; ++i)
       for (std::size_t k = 0; k < view.rank; ++k) basis[i].add_multiple(n[i][k], view.basis[k]);

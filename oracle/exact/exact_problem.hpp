@@ -64,6 +64,34 @@ bool is_copy(const ZVec<D>& n, std::size_t rank) {
   return false;
 }
 
+template <std::size_t D>
+ZVec<D> operator+(const ZVec<D>& a, const ZVec<D>& b) {
+  ZVec<D> sum;
+  for (std::size_t i = 0; i < D; ++i) sum[i] = a[i] + b[i];
+  return sum;
+}
+
+template <std::size_t D>
+ZVec<D> operator*(const Z& factor, const ZVec<D>& a) {
+  ZVec<D> product;
+  for (std::size_t i = 0; i < D; ++i) product[i] = factor * a[i];
+  return product;
+}
+
+template <std::size_t D>
+ZVec<D> operator-(const ZVec<D>& a, const ZVec<D>& b) {
+  return a + Z(-1) * b;
+}
+
+/// The shortest integer vector parallel to a, which is not 0.
+template <std::size_t D>
+ZVec<D> primitive(ZVec<D> a) {
+  Z divisor = 0;
+  for (const Z& component : a) divisor = gcd(divisor, component);
+  for (Z& component : a) component /= divisor;
+  return a;
+}
+
 /// A linear map, as its rows.
 template <std::size_t D>
 using ZMatrix = std::array<ZVec<D>, D>;

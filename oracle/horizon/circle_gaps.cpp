@@ -34,17 +34,14 @@ void put_in_order(std::vector<Blocked>& blocks, const Z& period) {
 // blocks before.
 template <class Visit>
 void sweep(std::vector<Blocked>& blocks, const Z& period, Visit visit) {
+  if (blocks.empty()) return;
   put_in_order(blocks, period);
-  Z reach, reach2;
-  bool any = false;
-  for (const Blocked& block : blocks) {
-    if (!any || compare_ends(block.end, block.end2, reach, reach2) > 0)
-      reach = block.end, reach2 = block.end2;
-    any = true;
-  }
+  const auto last = std::max_element(blocks.begin(), blocks.end(), [](const Blocked& a, const Blocked& b) {
+    return compare_ends(a.end, a.end2, b.end, b.end2) < 0;
+  });
   // The blocks of the period before come first. If one of them reaches further than a period, nothing is free
   // anyway, so one turn is enough.
-  reach -= period;
+  Z reach = last->end - period, reach2 = last->end2;
   for (const Blocked& block : blocks) {
     visit(reach, reach2, block);
     if (compare_ends(block.end, block.end2, reach, reach2) > 0) reach = block.end, reach2 = block.end2;
