@@ -52,7 +52,6 @@ class Bound {
     return a;
   }
   friend bool operator<(const Bound& a, const Bound& b) { return mag_cmp(a.value_, b.value_) < 0; }
-  friend Bound larger(const Bound& a, const Bound& b) { return a < b ? b : a; }
 
   bool is_zero() const { return mag_is_zero(value_); }
   bool is_finite() const { return mag_is_finite(value_); }

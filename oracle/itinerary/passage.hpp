@@ -81,8 +81,8 @@ class Passage {
     const auto largest = [](const std::array<Bound, D>& errors) {
       return *std::max_element(errors.begin(), errors.end());
     };
-    const Bound relative = larger(largest(here.y_error) / route_.sight.least_radius(),
-                                  largest(here.v_error) / largest_size(state_.v));
+    const Bound relative = std::max(largest(here.y_error) / route_.sight.least_radius(),
+                                    largest(here.v_error) / largest_size(state_.v));
     return relative.is_zero() ? 0 : std::max(0L, bits_ + relative.exponent());
   }
 
@@ -116,7 +116,7 @@ class Passage {
 
   static Bound largest_size(const BallVec<D>& a) {
     Bound largest;
-    for (const Ball& component : a) largest = larger(largest, component.size());
+    for (const Ball& component : a) largest = std::max(largest, component.size());
     return largest;
   }
 

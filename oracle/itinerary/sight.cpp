@@ -267,8 +267,8 @@ Bound Sight<D>::time_of_escape(const Seen<D>& seen) const {
     for (const auto& atom : lattice.atoms) {
       if (lattice.rank == D) return Bound(HUGE_VAL);
       const State<D> state = seen.anywhere(atom.position);
-      latest = larger(latest, (beside_span<D>(lattice, state.y).size() + reach_of<D>(atom)) /
-                                  beside_span<D>(lattice, state.v).least_size());
+      latest = std::max(latest, (beside_span<D>(lattice, state.y).size() + reach_of<D>(atom)) /
+                                    beside_span<D>(lattice, state.v).least_size());
     }
   return latest;
 }
