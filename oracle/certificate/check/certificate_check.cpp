@@ -299,7 +299,7 @@ class Coverage {
 
 class Check {
  public:
-  Check(const Scene& scene, long most_steps) : most_steps_(most_steps), dimension_(scene.dimension) {
+  Check(const Scene& scene, long most_steps) : most_steps_(most_steps) {
     CommonExponent exponent;
     for (const Lattice& lattice : scene.lattices) {
       for (const Vec& vector : lattice.vectors) see(exponent, vector);
@@ -405,9 +405,9 @@ class Check {
     if (contains_x) return claim;
     if (s <= 0) refute(name + " lies behind");
     claim.time = {s, d, view.v2};
-    const ScaledTime exact{claim.time, 0};
-    if (!answer.time || !rounds_to(exact, *answer.time)) refute(name + " is not entered at the time given");
-    if (!answer.time_decimal.empty() && !rounds_to(exact, answer.time_decimal))
+    if (!answer.time || !rounds_to(claim.time, *answer.time))
+      refute(name + " is not entered at the time given");
+    if (!answer.time_decimal.empty() && !rounds_to(claim.time, answer.time_decimal))
       refute(name + " is not entered at the time given in decimal");
     return claim;
   }
@@ -462,7 +462,6 @@ class Check {
   }
 
   long most_steps_, exponent_ = 0;
-  int dimension_;
   std::vector<std::vector<Body>> bodies_;
 };
 
