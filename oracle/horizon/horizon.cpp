@@ -47,26 +47,21 @@ bool is_inside_slab(const Slab<D>& slab, const Vec& point, long exponent) {
          sign_of(shifted_left(gap.high, shift) - level, -1, shifted_left(gap.high2, 2 * shift)) > 0;
 }
 
-// The indices of a lattice's planes, and the sign that makes the first index that is not 0 positive.
+// The indices of a lattice's planes, up to a sign.
 template <std::size_t D>
-ZVec<D> miller_indices(const ObstacleLattice<D>& lattice, const ZVec<D>& normal, int& sign) {
-  const Z period = lattice.period(normal);
-  ZVec<D> indices;
-  sign = 0;
-  for (std::size_t i = 0; i < D; ++i) {
-    indices[i] = dot(lattice.given[i], normal) / period;
-    if (sign == 0) sign = sgn(indices[i]);
-  }
-  return sign * indices;
+ZVec<D> miller_indices(const ObstacleLattice<D>& lattice, const ZVec<D>& normal) {
+  return primitive(lattice.given * normal);
+}
+
+// Makes the first component that is not 0 positive.
+template <std::size_t D>
+int sign_of_name(const ZVec<D>& name) {
+  return name < ZVec<D>{} ? -1 : 1;
 }
 
 Channel named(const ObstacleLattice<2>& lattice, const Slab<2>& slab, long exponent) {
-  int sign = 0;
-  const ZVec<2> k = miller_indices(lattice, slab.normal, sign);
-  // (-k2, k1) is perpendicular to k.
-  const int way = k[1] > 0 ? 1 : -1;
-  ZVec<2> g{Z(k[1] * way), Z(k[0] * -way)};
-  if (g[0] == 0) g[1] = 1;
+  const ZVec<2> k = miller_indices(lattice, slab.normal), across{k[1], -k[0]};
+  const ZVec<2> g = sign_of_name(across) * across;
   Channel channel;
   channel.indices = to_cell(g);
   channel.vector = rounded<2>(combination(g, lattice.given), 1, exponent);
@@ -74,9 +69,10 @@ Channel named(const ObstacleLattice<2>& lattice, const Slab<2>& slab, long expon
 }
 
 Channel named(const ObstacleLattice<3>& lattice, const Slab<3>& slab, long exponent) {
-  int sign = 0;
+  const ZVec<3> k = miller_indices(lattice, slab.normal);
+  const int sign = sign_of_name(k);
   Channel channel;
-  channel.indices = to_cell(miller_indices(lattice, slab.normal, sign));
+  channel.indices = to_cell(sign * k);
   channel.vector = rounded<3>(sign * slab.normal, lattice.period(slab.normal), -exponent);
   return channel;
 }

@@ -1,7 +1,5 @@
 #include "oracle/itinerary/sight.hpp"
 
-#include <algorithm>
-
 namespace lorentz::oracle {
 namespace {
 
@@ -127,33 +125,7 @@ Bound inscribed_radius(const ExactAtom<D>& atom) {
   return (Ball(atom.radius) / sqrt(Ball(squares))).least_size();
 }
 
-template <std::size_t D>
-bool all_exact(const BallVec<D>& balls, const std::array<Bound, D>& errors) {
-  return std::all_of(balls.begin(), balls.end(), [](const Ball& ball) { return ball.is_exact(); }) &&
-         std::all_of(errors.begin(), errors.end(), [](const Bound& bound) { return bound.is_zero(); });
-}
-
 }  // namespace
-
-template <std::size_t D>
-bool Seen<D>::place_is_exact() const {
-  return all_exact<D>(state.y, y_error);
-}
-
-template <std::size_t D>
-bool Seen<D>::is_exact() const {
-  return place_is_exact() && all_exact<D>(state.v, v_error);
-}
-
-template <std::size_t D>
-State<D> Seen<D>::anywhere(const ZVec<D>& new_centre) const {
-  State<D> result = state.seen_from(centre, new_centre);
-  for (std::size_t i = 0; i < D; ++i) {
-    result.y[i] = result.y[i].widened(y_error[i]);
-    result.v[i] = result.v[i].widened(v_error[i]);
-  }
-  return result;
-}
 
 template <std::size_t D>
 Sight<D>::Sight(IntegerScene<D> scene) : integers_(std::move(scene)), exact_(integers_) {
@@ -289,8 +261,6 @@ bool Sight<D>::is_alone(long level, const ExactQuery<D>& ray, const ExactEntry<D
          surely_less(flight, scaled(Ball(theta), -bits) + time_of(rest, second.earliest.entry()));
 }
 
-template struct Seen<2>;
-template struct Seen<3>;
 template class Sight<2>;
 template class Sight<3>;
 

@@ -13,6 +13,7 @@
 // limits m.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <variant>
 
@@ -30,10 +31,23 @@ struct Seen {
   std::array<Bound, D> y_error, v_error;
   const std::optional<ObstacleId>& from;
 
-  bool is_exact() const;
-  bool place_is_exact() const;
+  bool is_exact() const { return place_is_exact() && all_exact(state.v, v_error); }
+  bool place_is_exact() const { return all_exact(state.y, y_error); }
+
   /// All states that are possible, relative to another centre.
-  State<D> anywhere(const ZVec<D>& new_centre) const;
+  State<D> anywhere(const ZVec<D>& new_centre) const {
+    State<D> result = state.seen_from(centre, new_centre);
+    for (std::size_t i = 0; i < D; ++i) {
+      result.y[i] = result.y[i].widened(y_error[i]);
+      result.v[i] = result.v[i].widened(v_error[i]);
+    }
+    return result;
+  }
+
+ private:
+  static bool all_exact(const BallVec<D>& balls, const std::array<Bound, D>& errors) {
+    return std::ranges::all_of(balls, &Ball::is_exact) && std::ranges::all_of(errors, &Bound::is_zero);
+  }
 };
 
 enum class Unseen {
