@@ -63,14 +63,8 @@ int positive_roots(const Polynomial& p) {
 
 template <std::size_t D>
 Relation relation_of(const ZMatrix<D>& s1, const ZMatrix<D>& s2, const ZVec<D>& c) {
-  switch (positive_roots(separation<D>(s1, s2, c))) {
-    case 0:
-      return Relation::overlap;
-    case 1:
-      return Relation::touch;
-    default:
-      return Relation::apart;
-  }
+  const int roots = positive_roots(separation<D>(s1, s2, c));
+  return roots == 0 ? Relation::overlap : roots == 1 ? Relation::touch : Relation::apart;
 }
 
 template Relation relation_of(const ZMatrix<2>&, const ZMatrix<2>&, const ZVec<2>&);

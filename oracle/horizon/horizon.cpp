@@ -40,8 +40,7 @@ bool is_inside_slab(const Slab<D>& slab, const Vec& point, long exponent) {
     common.see(component);
   }
   const long fine = std::min(exponent, common.get()), shift = exponent - fine;
-  Z level = 0;
-  for (std::size_t i = 0; i < D; ++i) level += slab.normal[i] * scaled(point[i], fine);
+  const Z level = dot(slab.normal, scaled_vector<D>(point, fine));
   const Gap& gap = slab.gap;
   return sign_of(level - shifted_left(gap.low, shift), -1, shifted_left(gap.low2, 2 * shift)) > 0 &&
          sign_of(shifted_left(gap.high, shift) - level, -1, shifted_left(gap.high2, 2 * shift)) > 0;

@@ -6,18 +6,8 @@
 namespace lorentz::oracle {
 
 std::string_view name_of(JourneyEnd end) {
-  switch (end) {
-    case JourneyEnd::collisions:
-      return "collisions";
-    case JourneyEnd::time:
-      return "time";
-    case JourneyEnd::never:
-      return "never";
-    case JourneyEnd::inside:
-      return "inside";
-    default:
-      return "undecided";
-  }
+  constexpr std::string_view kNames[] = {"collisions", "time", "never", "inside", "undecided"};
+  return kNames[static_cast<std::size_t>(end)];
 }
 
 namespace {

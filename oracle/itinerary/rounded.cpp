@@ -19,7 +19,7 @@ class Rounded final : public RoundedItinerary::Impl {
     const Ball::WorkingPrecision precision(bits);
     const BallVec<D> v = velocity_of<D>(start, problem_.unit);
     for (std::size_t i = 0; i < D; ++i) {
-      state_.y[i] = rounded(Ball(problem_.x[i]));
+      state_.y[i] = (Ball(problem_.x[i]) + Ball()).middle();  // a sum is rounded
       state_.v[i] = v[i].middle();
     }
     speed2_ = dot(state_.v, state_.v).middle();
@@ -42,8 +42,6 @@ class Rounded final : public RoundedItinerary::Impl {
   }
 
  private:
-  static Ball rounded(const Ball& a) { return (a + Ball()).middle(); }
-
   // Puts the particle on the surface, at the speed of the start, as good programs do.
   void settle(const EnclosedCollision<D>& collision, const Form<D>& form) {
     const Ball onto = form.radius / sqrt(dot(collision.w, collision.w));
