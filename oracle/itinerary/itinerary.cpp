@@ -15,8 +15,8 @@ namespace {
 // The bits for the next passage: the bits that this passage lost, extrapolated to the journey's end. (A
 // passage that stops tells what part it has done.) At least 1.5 and at most 4 times the bits of this passage.
 template <std::size_t D>
-long next_bits(const Passage<D>& passage, const Journey& journey, double part) {
-  const double lost = static_cast<double>(passage.bits_lost()) / std::max(part, 1e-6);
+long next_bits(const Passage<D>& passage, const Journey& journey) {
+  const double lost = static_cast<double>(passage.bits_lost()) / std::max(passage.part_done(), 1e-6);
   const double wanted = 1.05 * lost + kBitsADigit * journey.digits + 64;
   const auto bits = static_cast<double>(passage.bits());
   return static_cast<long>(std::clamp(wanted, 1.5 * bits, 4 * bits));
@@ -35,7 +35,7 @@ Arrival follow_in(const RationalScene& scene, const Start& start, const Journey&
     const bool arrived = passage.go();
     const bool is_stopped = journey.stop && *journey.stop;
     if (arrived || bits == most || is_stopped) return passage.arrival();
-    bits = next_bits(passage, journey, passage.part_done());
+    bits = next_bits(passage, journey);
   }
 }
 
