@@ -21,8 +21,8 @@ CertificateBasis certificate_basis(const Basis<D>& basis, std::size_t rank) {
   return result;
 }
 
-// s / v^2 2^exponent as the end of a window, rounded outwards by at most a 64th of rho, however long the window
-// is: there may be many obstacles just beyond its end.
+// s / v^2 2^exponent as the end of a window, rounded outwards by at most a 64th of rho, however long the
+// window is: there may be many obstacles just beyond its end.
 WindowEnd end_of(const Z& s, bool upwards, const Z& rho, const Z& v2, long exponent) {
   const long unit = bit_length(rho) - bit_length(v2) - 8 + exponent, shift = exponent - unit;
   const Z numerator = shift >= 0 ? shifted_left(s, shift) : s;
