@@ -208,7 +208,7 @@ IntegerScene<D> in_integers(const AnyScene& scene, const Number& number) {
   return result;
 }
 
-/// The unit is at most that of `other`, a length.
+/// The unit is so small that `other`, a length, is an integer, too.
 template <std::size_t D>
 IntegerScene<D> integer_scene(const Scene& scene, double other = 0);
 

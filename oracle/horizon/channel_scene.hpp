@@ -18,7 +18,7 @@ struct Obstacle {
   ZMatrix<D> axes;
   bool ball = true;
 
-  /// As seen along the planes with this normal: half as wide as |A^T normal|.
+  /// As seen along the planes with this normal; its half-width is |A^T normal|.
   Blocked block(const ZVec<D>& normal) const;
 };
 
