@@ -63,8 +63,9 @@ class CsvAnswerReader final : public AnswerReader {
   CsvTable table_;
 };
 
-/// All columns that queries can have.
+/// All columns that queries and answers can have, in the order in which they are written.
 std::vector<std::string> csv_query_columns(int dimension);
+std::vector<std::string> csv_answer_columns(int dimension);
 
 /// Append the line of names for queries without ids and limits; and queries, one line each.
 void append_csv_query_names(std::string& out, int dimension, bool with_from);

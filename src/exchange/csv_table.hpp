@@ -8,6 +8,9 @@
 
 namespace lorentz {
 
+/// The text in quotes.
+std::string csv_quoted(std::string_view text);
+
 /// The text as a field: in quotes if it has commas, quotes or line ends.
 std::string csv_field(const std::string& text);
 
