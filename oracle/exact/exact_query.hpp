@@ -67,9 +67,12 @@ struct ExactQuery {
     return view_of<D>(scene, lattice, atom, x, velocity, length_exponent);
   }
 
+  /// Times are in units of 2 to this power.
+  long time_exponent() const { return length_exponent - velocity_exponent; }
+
   /// t = (s - sqrt(d)) / v^2 in the query's own units.
   Quadratic time_of(const ExactEntry<D>& entry) const {
-    return {entry.s, -1, entry.d, entry.v2, length_exponent - velocity_exponent};
+    return {entry.s, -1, entry.d, entry.v2, time_exponent()};
   }
 };
 

@@ -141,6 +141,12 @@ Z::Z(double value) : Z() {
   *this = whole.z();
 }
 
+Z::Z(mpf_srcptr value) : Z() {
+  Mpz whole;
+  mpz_set_f(whole, value);
+  *this = whole.z();
+}
+
 // The sum may be the same number as a, and b may be its limbs. If they are too few for the sum, new limbs
 // replace them after everything is read.
 void Z::add(Z& sum, const Z& a, const mp_limb_t* b_limbs, int b_size) {
@@ -174,16 +180,14 @@ void Z::add(Z& sum, const Z& a, const mp_limb_t* b_limbs, int b_size) {
   sum.size_ = with_sign(n, size < 0);
 }
 
-// The product must be neither a nor b.
-void Z::multiply(Z& product, const Z& a, const Z& b) {
+Z operator*(const Z& a, const Z& b) {
+  Z product;
   const std::size_t n = a.count(), m = b.count();
-  if (n == 0 || m == 0) {
-    product.size_ = 0;
-    return;
-  }
-  if (n + m > product.capacity_) product.adopt(allocate(n + m), n + m);
+  if (n == 0 || m == 0) return product;
+  if (n + m > Z::kInline) product.adopt(Z::allocate(n + m), n + m);
   product.size_ =
       with_sign(multiply_any(product.limbs_, a.limbs_, n, b.limbs_, m), (a.size_ < 0) != (b.size_ < 0));
+  return product;
 }
 
 Z& Z::add_product(const Z& a, const Z& b, int sign) {
@@ -344,18 +348,6 @@ Z operator>>(const Z& a, unsigned long bits) {
   }
   result.size_ = with_sign(without_zeros(to, size), negative);
   return negative && cut ? result -= 1 : result;
-}
-
-bool Z::fits_slong_p() const {
-  return mpz_fits_slong_p(view()) != 0;
-}
-
-long Z::get_si() const {
-  return mpz_get_si(view());
-}
-
-double Z::get_d() const {
-  return mpz_get_d(view());
 }
 
 std::string Z::get_str(int base) const {

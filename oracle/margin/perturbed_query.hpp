@@ -70,18 +70,15 @@ class PerturbedQuery {
 /// The largest change of the time at which an obstacle is entered, in the query's own units.
 template <std::size_t D>
 Real change_of_time(const PerturbedQuery<D>& perturbed, const ObstacleId& id) {
-  const Uncertain<D>& atom = perturbed.atom_of(id);
-  const Real change = largest_change(perturbed.ulps(), atom, atom.arrival(perturbed.centre_of(id)));
-  const ExactQuery<D>& query = perturbed.query();
-  return times_power_of_two(change, query.length_exponent - query.velocity_exponent);
+  return times_power_of_two(perturbed.atom_of(id).change_of_time(perturbed.centre_of(id)),
+                            perturbed.query().time_exponent());
 }
 
 /// The time at which an obstacle is entered, in the query's own units; it may be beyond binary64.
 template <std::size_t D>
 Real time_in_own_units(const PerturbedQuery<D>& perturbed, const ObstacleId& id) {
-  const ExactQuery<D>& query = perturbed.query();
   return times_power_of_two(perturbed.atom_of(id).time_of(perturbed.centre_of(id)),
-                            query.length_exponent - query.velocity_exponent);
+                            perturbed.query().time_exponent());
 }
 
 /// A scene for queries with uncertainty.
