@@ -121,7 +121,7 @@ struct BitRange {
   long lowest = std::numeric_limits<long>::max(), highest = std::numeric_limits<long>::min();
   void see(double value) {
     if (value == 0) return;
-    lowest = std::min(lowest, oracle::OddMantissa(value).exponent);
+    lowest = std::min(lowest, oracle::Dyadic(value).exponent);
     highest = std::max<long>(highest, std::ilogb(value));
   }
   void see(const Vec& a) {

@@ -122,7 +122,7 @@ struct Rewording::Impl {
     long least = kLeastExponent, most = kLargestExponent;
     for (const double component : v) {
       if (component == 0) continue;
-      least = std::max(least, kLeastExponent - oracle::OddMantissa(component).exponent);
+      least = std::max(least, kLeastExponent - oracle::Dyadic(component).exponent);
       most = std::min<long>(most, kLargestExponent - std::ilogb(component));
     }
     // least <= 0 <= most, because the components are binary64 values as they are.

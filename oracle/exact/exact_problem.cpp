@@ -16,17 +16,6 @@ Z determinant<3>(const Basis<3>& basis) {
   return dot(cross(basis[0].p, basis[1].p), basis[2].p);
 }
 
-namespace {
-
-// The rows of det(b) b^-1.
-ZMatrix<2> dual_of(const Basis<2>& b) {
-  return {ZVec<2>{b[1].p[1], -b[1].p[0]}, ZVec<2>{-b[0].p[1], b[0].p[0]}};
-}
-
-ZMatrix<3> dual_of(const Basis<3>& b) {
-  return {cross(b[1].p, b[2].p), cross(b[2].p, b[0].p), cross(b[0].p, b[1].p)};
-}
-
 ZMatrix<2> adjugate(const ZMatrix<2>& columns) {
   const auto& [a, b] = columns;
   return {ZVec<2>{b[1], -b[0]}, ZVec<2>{-a[1], a[0]}};
@@ -37,6 +26,8 @@ ZMatrix<3> adjugate(const ZMatrix<3>& columns) {
   return {cross(b, c), cross(c, a), cross(a, b)};
 }
 
+namespace {
+
 template <std::size_t D>
 Basis<D> mapped(const ZMatrix<D>& map, Basis<D> basis) {
   for (auto& b : basis) b.p = map * b.p;
@@ -44,14 +35,6 @@ Basis<D> mapped(const ZMatrix<D>& map, Basis<D> basis) {
 }
 
 }  // namespace
-
-ZVec<2> cramer(const Basis<2>& basis, const ZVec<2>& p) {
-  return dual_of(basis) * p;
-}
-
-ZVec<3> cramer(const Basis<3>& basis, const ZVec<3>& p) {
-  return dual_of(basis) * p;
-}
 
 template <>
 void complete<2>(Basis<2>& basis, std::size_t rank) {

@@ -191,8 +191,22 @@ ZVec<D> centre_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<
 template <std::size_t D>
 Z determinant(const Basis<D>& basis);
 
+/// adj(A) = det(A) A^-1 of the matrix with these columns.
+ZMatrix<2> adjugate(const ZMatrix<2>& columns);
+ZMatrix<3> adjugate(const ZMatrix<3>& columns);
+
+/// The dual basis, times the determinant of the basis.
+template <std::size_t D>
+ZMatrix<D> dual_of(const Basis<D>& basis) {
+  ZMatrix<D> columns;
+  for (std::size_t i = 0; i < D; ++i) columns[i] = basis[i].p;
+  return adjugate(columns);
+}
+
 /// The coordinates of p in the basis, times the determinant of the basis.
-ZVec<2> cramer(const Basis<2>& basis, const ZVec<2>& p);
-ZVec<3> cramer(const Basis<3>& basis, const ZVec<3>& p);
+template <std::size_t D>
+ZVec<D> cramer(const Basis<D>& basis, const ZVec<D>& p) {
+  return dual_of(basis) * p;
+}
 
 }  // namespace lorentz::oracle

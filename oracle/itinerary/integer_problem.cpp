@@ -13,7 +13,7 @@ struct Ratio {
 
 Ratio ratio_of(const Rational& number) {
   if (const double* value = std::get_if<double>(&number)) {
-    const Dyadic dyadic = to_dyadic(*value);
+    const Dyadic dyadic(*value);
     if (dyadic.exponent < 0) return {dyadic.mantissa, shifted_left(Z(1), -dyadic.exponent)};
     return {shifted_left(dyadic.mantissa, dyadic.exponent), 1};
   }
