@@ -182,11 +182,11 @@ long lengthen(ZVec<D>& w, const ZVec<D>& offset, const Z& radius) {
 }  // namespace
 
 template <std::size_t D>
-View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x,
-                const ExactVelocity<D>& velocity, long exponent) {
-  const auto& exact = scene.lattices[lattice];
+View<D> ExactScene<D>::view(int lattice, int atom, const ZVec<D>& x, const ExactVelocity<D>& velocity,
+                            long own) const {
+  const auto& exact = lattices[lattice];
   const auto& obstacle = exact.atoms[atom];
-  const long shift = scene.exponent - exponent;
+  const long shift = exponent - own;
   View<D> view;
   view.radius = shifted_left(obstacle.radius, shift);
   view.radius2 = view.radius * view.radius;
@@ -229,10 +229,9 @@ View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>
 }
 
 template <std::size_t D>
-Basis<D> lexicographic_basis(const ExactScene<D>& scene, int lattice, int atom, const View<D>& view,
-                             long exponent) {
-  const auto& exact = scene.lattices[lattice];
-  Basis<D> basis = scaled_basis<D>(exact.primitive, scene.exponent - exponent);
+Basis<D> ExactScene<D>::lexicographic_basis(int lattice, int atom, const View<D>& view, long own) const {
+  const auto& exact = lattices[lattice];
+  Basis<D> basis = scaled_basis<D>(exact.primitive, exponent - own);
   if (const auto& frame = exact.atoms[atom].frame) basis = mapped(frame->to_ball, std::move(basis));
   std::copy(view.basis.begin() + view.rank, view.basis.end(), basis.begin() + view.rank);
   std::reverse(basis.begin(), basis.begin() + view.rank);
@@ -254,10 +253,6 @@ template IntegerScene<2> integer_scene(const Scene&);
 template IntegerScene<3> integer_scene(const Scene&);
 template struct ExactScene<2>;
 template struct ExactScene<3>;
-template View<2> view_of(const ExactScene<2>&, int, int, const ZVec<2>&, const ExactVelocity<2>&, long);
-template View<3> view_of(const ExactScene<3>&, int, int, const ZVec<3>&, const ExactVelocity<3>&, long);
-template Basis<2> lexicographic_basis(const ExactScene<2>&, int, int, const View<2>&, long);
-template Basis<3> lexicographic_basis(const ExactScene<3>&, int, int, const View<3>&, long);
 template ZVec<2> centre_of(const ExactScene<2>&, int, int, const ZVec<2>&, const ZVec<2>&, long);
 template ZVec<3> centre_of(const ExactScene<3>&, int, int, const ZVec<3>&, const ZVec<3>&, long);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include <lorentz/scene.hpp>
@@ -141,16 +142,6 @@ struct IntegerScene {
 template <std::size_t D>
 IntegerScene<D> integer_scene(const Scene& scene);
 
-/// The scene with every length multiplied by 2^-exponent, and its lattices reduced.
-template <std::size_t D>
-struct ExactScene {
-  long exponent = 0;
-  std::vector<ExactLattice<D>> lattices;
-
-  explicit ExactScene(const IntegerScene<D>& scene);
-  explicit ExactScene(const Scene& scene) : ExactScene(integer_scene<D>(checked_exactly(scene))) {}
-};
-
 /// The velocity v scaled to integers, and v^2.
 template <std::size_t D>
 struct ExactVelocity {
@@ -172,16 +163,30 @@ struct View {
   Z radius2;  ///< radius^2
 };
 
-/// The view of an atom from x, all lengths multiplied by 2^-exponent (exponent at most the scene's and x's).
+/// The scene with every length multiplied by 2^-exponent, and its lattices reduced.
 template <std::size_t D>
-View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x,
-                const ExactVelocity<D>& velocity, long exponent);
+struct ExactScene {
+  long exponent = 0;
+  std::vector<ExactLattice<D>> lattices;
 
-/// The view's lattice in its own primitive vectors in reverse order: the order for lexicographically smallest
-/// answers.
-template <std::size_t D>
-Basis<D> lexicographic_basis(const ExactScene<D>& scene, int lattice, int atom, const View<D>& view,
-                             long exponent);
+  explicit ExactScene(const IntegerScene<D>& scene);
+  explicit ExactScene(const Scene& scene) : ExactScene(integer_scene<D>(checked_exactly(scene))) {}
+
+  /// The view of an atom from x, all lengths multiplied by 2^-own (own at most the scene's exponent and x's).
+  View<D> view(int lattice, int atom, const ZVec<D>& x, const ExactVelocity<D>& velocity, long own) const;
+
+  /// The view's lattice in its own primitive vectors in reverse order: the order for lexicographically
+  /// smallest answers.
+  Basis<D> lexicographic_basis(int lattice, int atom, const View<D>& view, long own) const;
+};
+
+/// A scene in the number of dimensions that it says.
+using AnyExactScene = std::variant<ExactScene<2>, ExactScene<3>>;
+
+inline AnyExactScene any_exact_scene(const Scene& scene) {
+  if (scene.dimension == 2) return ExactScene<2>(scene);
+  return ExactScene<3>(scene);
+}
 
 /// The centre of the obstacle (lattice, atom, n) relative to x, in the scene's own coordinates.
 template <std::size_t D>

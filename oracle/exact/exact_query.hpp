@@ -64,7 +64,7 @@ struct ExactQuery {
   }
 
   View<D> view(const ExactScene<D>& scene, int lattice, int atom) const {
-    return view_of<D>(scene, lattice, atom, x, velocity, length_exponent);
+    return scene.view(lattice, atom, x, velocity, length_exponent);
   }
 
   /// Times are in units of 2 to this power.

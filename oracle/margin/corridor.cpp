@@ -116,7 +116,7 @@ class CorridorSearch {
     const ExactVelocity<D> velocity{direction, dot(direction, direction)};
     for (const Uncertain<D>& atom : query_.atoms()) {
       const ExactScene<D>& scene = query_.scene();
-      View<D> view = view_of<D>(scene, atom.lattice(), atom.atom(), query.x, velocity, query.length_exponent);
+      View<D> view = scene.view(atom.lattice(), atom.atom(), query.x, velocity, query.length_exponent);
       if (G != ZVec<D>{}) {
         const auto& frame = scene.lattices[atom.lattice()].atoms[atom.atom()].frame;
         const ZVec<D> normal = frame ? mapped_normal(frame->to_ball, G) : G;

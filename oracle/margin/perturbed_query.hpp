@@ -3,7 +3,6 @@
 
 #include <deque>
 #include <string>
-#include <variant>
 
 #include <lorentz/errors.hpp>
 
@@ -85,9 +84,7 @@ Real time_in_own_units(const PerturbedQuery<D>& perturbed, const ObstacleId& id)
 class PerturbedScene {
  public:
   PerturbedScene(const Scene& scene, NumberFormat precision)
-      : scene_(scene),
-        precision_(precision),
-        exact_scene_(scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))) {}
+      : scene_(scene), precision_(precision), exact_scene_(any_exact_scene(scene)) {}
 
   const Scene& scene() const { return scene_; }
   NumberFormat precision() const { return precision_; }
@@ -105,10 +102,9 @@ class PerturbedScene {
   }
 
  private:
-  using Exact = std::variant<ExactScene<2>, ExactScene<3>>;
   Scene scene_;
   NumberFormat precision_;
-  Exact exact_scene_;
+  AnyExactScene exact_scene_;
 };
 
 }  // namespace lorentz::oracle

@@ -2,6 +2,8 @@
 // formats and the program.
 #pragma once
 
+#include <limits>
+
 #include "src/exchange/csv_table.hpp"
 
 namespace lorentz {
@@ -24,7 +26,7 @@ class CsvQueryReader final : public ColumnReader {
   /// The content of a line, before it is checked.
   struct Row {
     std::array<double, 3> x{}, v{};
-    double max_time;
+    double max_time = std::numeric_limits<double>::infinity();
     std::int32_t from_lattice = -1, from_atom = 0;
     std::array<std::int64_t, 3> from_cell{};
   };
