@@ -36,11 +36,7 @@ class Z {
   /// A finite binary64, rounded towards 0.
   explicit Z(double value);
 
-  Z(const Z& other) : limbs_(inline_), size_(other.size_) {
-    const std::size_t n = other.count();
-    if (n > kInline) adopt(allocate(n), n);
-    copy(limbs_, other.limbs_, n);
-  }
+  Z(const Z& other) : Z() { *this = other; }
   Z(Z&& other) noexcept : limbs_(inline_), size_(other.size_) { take(other); }
   Z& operator=(const Z& other) {
     if (this == &other) return *this;
@@ -53,12 +49,8 @@ class Z {
   Z& operator=(Z&& other) noexcept {
     if (this == &other) return *this;
     size_ = other.size_;
-    if (other.is_inline()) {
-      copy(limbs_, other.limbs_, other.count());
-    } else {
-      release();
-      take(other);
-    }
+    if (!other.is_inline()) release();
+    take(other);
     return *this;
   }
   ~Z() { release(); }
@@ -177,8 +169,8 @@ class Z {
     std::memcpy(to, from, kAtOnce * sizeof(mp_limb_t));
     if (n > kAtOnce) std::memcpy(to + kAtOnce, from + kAtOnce, (n - kAtOnce) * sizeof(mp_limb_t));
   }
-  // Takes over the limbs of another number of the same size: copies them, or adopts its heap array. This
-  // number's own limbs must be in place.
+  // Takes over the limbs of another number of the same size: copies them, or adopts its heap array, if this
+  // number's own limbs are in place.
   void take(Z& other) noexcept {
     if (other.is_inline()) {
       copy(limbs_, other.limbs_, other.count());

@@ -26,7 +26,6 @@ class CsvTable {
 
   LineReader& lines() { return lines_; }
   const LineReader& lines() const { return lines_; }
-  const std::vector<std::string>& names() const { return names_; }
 
   /// The number of a column. If there is no such column, `take` returns kNone, and `need` throws InputError,
   /// which says why it is needed.

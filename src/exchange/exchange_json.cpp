@@ -150,8 +150,6 @@ struct Document::Impl {
 };
 
 Document::Document() : impl_(std::make_unique<Impl>()) {}
-Document::Document(Document&&) noexcept = default;
-Document& Document::operator=(Document&&) noexcept = default;
 Document::~Document() = default;
 
 void Document::open(std::string_view text) {
