@@ -68,10 +68,9 @@ void subtract_limbs(mp_limb_t* difference, const mp_limb_t* a, std::size_t n, co
   }
 }
 
-// a b, of n, m >= 1 limbs; returns the size. The product must overlap neither a nor b.
+// a b, of n >= m >= 1 limbs; returns the size. The product must overlap neither a nor b.
 std::size_t multiply_limbs(mp_limb_t* product, const mp_limb_t* a, std::size_t n, const mp_limb_t* b,
                            std::size_t m) {
-  if (n < m) return multiply_limbs(product, b, m, a, n);
   if (n > kShort || m > 2) {
     const mp_limb_t top = m == 1 ? product[n] = mpn_mul_1(product, a, static_cast<mp_size_t>(n), b[0])
                           : n == m && a == b
@@ -96,6 +95,11 @@ std::size_t multiply_limbs(mp_limb_t* product, const mp_limb_t* a, std::size_t n
     product[n + 1] = static_cast<mp_limb_t>(carry);
   }
   return n + m - (product[n + m - 1] == 0);
+}
+
+std::size_t multiply_any(mp_limb_t* product, const mp_limb_t* a, std::size_t n, const mp_limb_t* b,
+                         std::size_t m) {
+  return n >= m ? multiply_limbs(product, a, n, b, m) : multiply_limbs(product, b, m, a, n);
 }
 
 int with_sign(std::size_t n, bool negative) {
@@ -176,14 +180,16 @@ void Z::add(Z& sum, const Z& a, const mp_limb_t* b_limbs, int b_size) {
   sum.size_ = with_sign(n, size < 0);
 }
 
-Z operator*(const Z& a, const Z& b) {
-  Z product;
+// The product must be neither a nor b.
+void Z::multiply(Z& product, const Z& a, const Z& b) {
   const std::size_t n = a.count(), m = b.count();
-  if (n == 0 || m == 0) return product;
-  if (n + m > Z::kInline) product.adopt(Z::allocate(n + m), n + m);
+  if (n == 0 || m == 0) {
+    product.size_ = 0;
+    return;
+  }
+  if (n + m > product.capacity_) product.adopt(allocate(n + m), n + m);
   product.size_ =
-      with_sign(multiply_limbs(product.limbs_, a.limbs_, n, b.limbs_, m), (a.size_ < 0) != (b.size_ < 0));
-  return product;
+      with_sign(multiply_any(product.limbs_, a.limbs_, n, b.limbs_, m), (a.size_ < 0) != (b.size_ < 0));
 }
 
 Z& Z::add_product(const Z& a, const Z& b, int sign) {
@@ -195,7 +201,7 @@ Z& Z::add_product(const Z& a, const Z& b, int sign) {
     return *this;
   }
   Scratch product(n + m);
-  const std::size_t size = multiply_limbs(product.limbs(), a.limbs_, n, b.limbs_, m);
+  const std::size_t size = multiply_any(product.limbs(), a.limbs_, n, b.limbs_, m);
   add(*this, *this, product.limbs(), with_sign(size, negative));
   return *this;
 }
@@ -215,13 +221,14 @@ mp_limb_t leading_bits(const mp_limb_t* limbs, std::size_t n) {
 // Quotients of fewer bits than this are off by at most one if the leading bits are divided in binary64.
 constexpr long kShortQuotient = 50;
 
-// floor(a / b) for n >= m >= 2 limbs and a short quotient, if a has `excess` bits more than b; returns whether
-// it is exact. Most quotients of a search have few bits. They are guessed, and the remainder corrects the
-// guess, however far off it is.
-bool divide_short(const mp_limb_t* a, std::size_t n, const mp_limb_t* b, std::size_t m, long excess,
-                  mp_limb_t& quotient) {
+// floor(a / b) for n >= m >= 2 limbs and a short quotient; returns whether it is exact. Most quotients of a
+// search have few bits. They are guessed, and the remainder corrects the guess, however far off it is.
+bool divide_short(const mp_limb_t* a, std::size_t n, const mp_limb_t* b, std::size_t m, mp_limb_t& quotient) {
+  const auto bits = [](const mp_limb_t* limbs, std::size_t k) {
+    return static_cast<int>(k) * GMP_NUMB_BITS - __builtin_clzl(limbs[k - 1]);
+  };
   const double ratio = static_cast<double>(leading_bits(a, n)) / static_cast<double>(leading_bits(b, m));
-  quotient = static_cast<mp_limb_t>(std::ldexp(ratio, static_cast<int>(excess)));
+  quotient = static_cast<mp_limb_t>(std::ldexp(ratio, bits(a, n) - bits(b, m)));
   const auto size = static_cast<mp_size_t>(m);
   Scratch product(m + 1), rest(m + 1);
   mp_limb_t *const p = product.limbs(), *const r = rest.limbs();
@@ -255,8 +262,8 @@ Z::Division divide(const Z& a, const Z& b, Z::Rounding rounding) {
     result.quotient.limbs_[0] = a.limbs_[0] / b.limbs_[0];
     result.exact = a.limbs_[0] % b.limbs_[0] == 0;
     size = result.quotient.limbs_[0] != 0;
-  } else if (const long excess = bit_length(a) - bit_length(b); m > 1 && excess < kShortQuotient) {
-    result.exact = divide_short(a.limbs_, n, b.limbs_, m, excess, result.quotient.limbs_[0]);
+  } else if (m > 1 && bit_length(a) - bit_length(b) < kShortQuotient) {
+    result.exact = divide_short(a.limbs_, n, b.limbs_, m, result.quotient.limbs_[0]);
     size = result.quotient.limbs_[0] != 0;
   } else {
     size = n - m + 1;

@@ -36,7 +36,11 @@ class Z {
   /// A finite binary64, rounded towards 0.
   explicit Z(double value);
 
-  Z(const Z& other) : Z() { *this = other; }
+  Z(const Z& other) : limbs_(inline_), size_(other.size_) {
+    const std::size_t n = other.count();
+    if (n > kInline) adopt(allocate(n), n);
+    copy(limbs_, other.limbs_, n);
+  }
   Z(Z&& other) noexcept : limbs_(inline_), size_(other.size_) { take(other); }
   Z& operator=(const Z& other) {
     if (this == &other) return *this;
@@ -49,8 +53,12 @@ class Z {
   Z& operator=(Z&& other) noexcept {
     if (this == &other) return *this;
     size_ = other.size_;
-    if (!other.is_inline()) release();
-    take(other);
+    if (other.is_inline()) {
+      copy(limbs_, other.limbs_, other.count());
+    } else {
+      release();
+      take(other);
+    }
     return *this;
   }
   ~Z() { release(); }
@@ -86,7 +94,11 @@ class Z {
     result.size_ = -result.size_;
     return result;
   }
-  friend Z operator*(const Z& a, const Z& b);
+  friend Z operator*(const Z& a, const Z& b) {
+    Z product;
+    multiply(product, a, b);
+    return product;
+  }
   /// The quotient rounded towards 0. Throws std::domain_error for b = 0, as every division does.
   friend Z operator/(const Z& a, const Z& b);
   /// a - a / b * b
@@ -169,8 +181,8 @@ class Z {
     std::memcpy(to, from, kAtOnce * sizeof(mp_limb_t));
     if (n > kAtOnce) std::memcpy(to + kAtOnce, from + kAtOnce, (n - kAtOnce) * sizeof(mp_limb_t));
   }
-  // Takes over the limbs of another number of the same size: copies them, or adopts its heap array, if this
-  // number's own limbs are in place.
+  // Takes over the limbs of another number of the same size: copies them, or adopts its heap array. This
+  // number's own limbs must be in place.
   void take(Z& other) noexcept {
     if (other.is_inline()) {
       copy(limbs_, other.limbs_, other.count());
@@ -196,6 +208,7 @@ class Z {
   }
 
   static void add(Z& sum, const Z& a, const mp_limb_t* b, int b_size);
+  static void multiply(Z& product, const Z& a, const Z& b);
   Z& add_product(const Z& a, const Z& b, int sign);
 
   mp_limb_t* limbs_;  // least significant first; inline_, or an array of `capacity_`
