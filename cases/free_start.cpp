@@ -41,4 +41,9 @@ Vec free_point(Random& random, const Scene& scene) {
   }
 }
 
+Query free_flight(Random& random, const Scene& scene) {
+  const Vec x = free_point(random, scene);
+  return {x, random.direction(scene.dimension), {}};
+}
+
 }  // namespace lorentz::cases

@@ -19,4 +19,7 @@ Vec point_in_cell(Random& random, const Scene& scene);
 /// The same, in no obstacle; if 20 draws fail, the last point drawn.
 Vec free_point(Random& random, const Scene& scene);
 
+/// From a free point in an isotropic direction.
+Query free_flight(Random& random, const Scene& scene);
+
 }  // namespace lorentz::cases

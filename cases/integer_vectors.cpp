@@ -55,10 +55,15 @@ IntVec primitive(IntVec a) {
   return a;
 }
 
+IntVec drawn_integers(Random& random, int dimension, std::int64_t range) {
+  IntVec a{};
+  for (int i = 0; i < dimension; ++i) a[i] = random.integer(-range, range);
+  return a;
+}
+
 IntVec drawn_primitive(Random& random, int dimension, std::int64_t range) {
   IntVec a{};
-  while (a == IntVec{})
-    for (int i = 0; i < dimension; ++i) a[i] = random.integer(-range, range);
+  while (a == IntVec{}) a = drawn_integers(random, dimension, range);
   return primitive(a);
 }
 
@@ -82,6 +87,15 @@ Vec cartesian(const Lattice& lattice, const IntVec& a) {
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) sum[k] += static_cast<double>(a[i]) * lattice.vectors[i][k];
   return sum;
+}
+
+double half_width(const Lattice& lattice, int dimension, const IntVec& indices) {
+  const auto& u = lattice.vectors;
+  if (dimension == 2) return std::fabs(cross(u[0], u[1])[2]) / (2 * length(cartesian(lattice, indices)));
+  const auto dual = dual_of(u, 3);
+  Vec normal{};
+  for (int i = 0; i < 3; ++i) normal = sum(normal, scaled(dual[i], static_cast<double>(indices[i])));
+  return 1 / (2 * length(normal));
 }
 
 Squared drawn_triple(Random& random, std::int64_t range) {

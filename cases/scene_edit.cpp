@@ -23,8 +23,31 @@ void scale_obstacles(Scene& scene, double factor) {
   });
 }
 
-ObstacleId obstacle(std::int64_t a, std::int64_t b, std::int64_t c, int atom) {
-  return {0, atom, {Integer(a), Integer(b), Integer(c)}};
+void scale_places(Scene& scene, double factor) {
+  for (Lattice& lattice : scene.lattices) {
+    for (Vec& u : lattice.vectors) u = scaled(u, factor);
+    for (Atom& atom : lattice.atoms) atom.position = scaled(atom.position, factor);
+  }
+}
+
+Vec image(const std::vector<Vec>& semiaxes, const Vec& y) {
+  Vec result{};
+  for (std::size_t i = 0; i < semiaxes.size(); ++i) result = plus(result, y[i], semiaxes[i]);
+  return result;
+}
+
+Vec drawn_across(Random& random, const Vec& v, int dimension) {
+  const Vec n = dimension == 2 ? Vec{-v[1] * random.sign(), v[0], 0} : cross(v, random.direction(3));
+  const double size = length(n);
+  return size > 0 ? scaled(n, 1 / size) : Vec{0, 1, 0};
+}
+
+std::array<Vec, 3> drawn_frame(Random& random, const Vec& a, int dimension) {
+  if (dimension == 2) return {a, Vec{-a[1], a[0], 0}, Vec{0, 0, 1}};
+  Vec b = cross(a, random.direction(3));
+  if (b == Vec{}) b = cross(a, a[0] == 0 ? Vec{1, 0, 0} : Vec{0, 1, 0});
+  b = scaled(b, 1 / length(b));
+  return {a, b, cross(a, b)};
 }
 
 }  // namespace lorentz::cases

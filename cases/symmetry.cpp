@@ -16,9 +16,10 @@ Vec Symmetry::operator()(const Vec& a) const {
   return image;
 }
 
-ObstacleId Symmetry::operator()(const ObstacleId& id) const {
-  ObstacleId image = id;
-  for (int i = 0; i < 3; ++i) image.cell[i] = Integer(sign_[i] * id.cell[from_[i]].int64());
+Query Symmetry::operator()(const Query& query) const {
+  Query image{(*this)(query.x), (*this)(query.v), query.from};
+  for (int i = 0; image.from && i < 3; ++i)
+    image.from->cell[i] = Integer(sign_[i] * query.from->cell[from_[i]].int64());
   return image;
 }
 

@@ -3,18 +3,17 @@
 
 #include <array>
 
-#include <lorentz/obstacle.hpp>
-
+#include <lorentz/query.hpp>
 #include "cases/random.hpp"
 
 namespace lorentz::cases {
 
-/// Permutes and reflects the components of a vector: a symmetry of the square or cubic lattice.
+/// Permutes and reflects the components of vectors and cells: a symmetry of the square or cubic lattice.
 class Symmetry {
  public:
   Symmetry(Random& random, int dimension);
   Vec operator()(const Vec& a) const;
-  ObstacleId operator()(const ObstacleId& id) const;
+  Query operator()(const Query& query) const;
 
  private:
   std::array<int, 3> from_{0, 1, 2};

@@ -44,20 +44,15 @@ Vec drawn_velocity(Source& source, const Vec& n, int dimension, std::vector<std:
   Vec tangent = cross(n, dimension == 2 ? Vec{0, 0, 1} : to_vec(drawn_primitive(random, 3, 5)));
   if (tangent == Vec{}) tangent = cross(n, n[0] == 0 ? Vec{1, 0, 0} : Vec{-n[1], n[0], 1});  // n was drawn
   const double side = random.sign();
-  switch (random.below(4)) {
+  switch (drawn_tag(random, tags, {"inwards", "outwards", "tangential", "nearly-tangential"})) {
     case 0:
-      tags.push_back("inwards");
-      return sum(scaled(n, -1), scaled(tangent, random.between(-2, 2)));
+      return plus(scaled(n, -1), random.between(-2, 2), tangent);
     case 1:
-      tags.push_back("outwards");
-      return sum(n, scaled(tangent, random.between(-2, 2)));
+      return plus(n, random.between(-2, 2), tangent);
     case 2:
-      tags.push_back("tangential");
       return scaled(tangent, side);
     default:
-      tags.push_back("nearly-tangential");
-      return sum(scaled(tangent, side),
-                 scaled(n, random.octave(-bits_of(source.precision), -4) * random.sign()));
+      return plus(scaled(tangent, side), random.octave(-bits_of(source.precision), -4) * random.sign(), n);
   }
 }
 
@@ -76,10 +71,8 @@ void set_from(Random& random, const ObstacleId& own, const Vec& n, int dimension
       break;
     case 3: {
       made.tags.push_back("from-elsewhere");
-      ObstacleId other = own;
       const std::int64_t far = random.one_in(2) ? 2 : std::int64_t{1} << random.integer(20, 60);
-      for (int i = 0; i < dimension; ++i) other.cell[i] = Integer(random.integer(-far, far));
-      made.query.from = other;
+      made.query.from = obstacle(drawn_integers(random, dimension, far), own.atom);
       break;
     }
     default:
@@ -92,15 +85,22 @@ void set_start(Source& source, const Vec& centre, const Vec& n, int dimension, b
   Random& random = source.random;
   made.query.x = sum(centre, n);
   const bool off = random.one_in(2);
-  made.tags.push_back(exact && !off ? "on-surface" : "near-surface");
-  if (off)
-    for (int i = 0; i < dimension; ++i)
-      if (random.one_in(2)) made.query.x[i] = moved(made.query.x[i], random.integer(-4, 4), source.precision);
+  tagged(made.tags, exact && !off, "on-surface", "near-surface");
+  for (int i = 0; off && i < dimension; ++i)
+    if (random.one_in(2)) made.query.x[i] = moved(made.query.x[i], random.integer(-4, 4), source.precision);
 }
 
-Case make_exact(Source& source) {
+// A flight from the obstacle `own` around `centre`; n is a radius of it.
+void set_flight(Source& source, const ObstacleId& own, const Vec& centre, const Vec& n, bool exact,
+                Case& made) {
+  const int dimension = made.scene.dimension;
+  set_start(source, centre, n, dimension, exact, made);
+  made.query.v = drawn_velocity(source, n, dimension, made.tags);
+  set_from(source.random, own, n, dimension, made);
+}
+
+void make_exact(Source& source, Case& made) {
   static constexpr std::int64_t kRich[] = {65, 85, 325, 425, 1105, 5525};
-  Case made;
   Random &drawn = source.scene, &random = source.random;
   const int dimension = drawn.one_in(2) ? 3 : 2;
   std::array<std::int64_t, 4> quaternion{1, 1, 1, 0};
@@ -110,60 +110,44 @@ Case make_exact(Source& source) {
     w = 0;
     for (const std::int64_t component : quaternion) w += component * component;
   }
-  const int exponent = std::ilogb(static_cast<double>(w)) +
-                       static_cast<int>(drawn.integer(3, source.precision == NumberFormat::binary64 ? 9 : 7));
+  const int exponent = std::ilogb(static_cast<double>(w)) + drawn.exponent(3, source.is_wide() ? 9 : 7);
   made.scene = unit_scene(dimension, std::ldexp(static_cast<double>(w), -exponent));
   const IntVec point = dimension == 2 ? circle_point(random, w) : sphere_point(random, quaternion);
   const Symmetry symmetry(random, dimension);
   const Vec n = scaled(symmetry(to_vec(point)), std::ldexp(1, -exponent));
-  ObstacleId own;
-  Vec centre{};
-  for (int i = 0; i < dimension; ++i) {
-    const std::int64_t cell = random.integer(-9, 9);
-    own.cell[i] = Integer(cell);
-    centre[i] = static_cast<double>(cell);
-  }
-  set_start(source, centre, n, dimension, true, made);
-  made.query.v = drawn_velocity(source, n, dimension, made.tags);
-  set_from(random, own, n, dimension, made);
-  return made;
+  const IntVec cell = drawn_integers(random, dimension, 9);
+  set_flight(source, obstacle(cell), to_vec(cell), n, true, made);
 }
 
-Case make_rounded(Source& source) {
-  Case made;
+void make_rounded(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   made.scene = drawn_crystal(drawn, drawn.one_in(2) ? 3 : 2).scene;
   scale_obstacles(made.scene, drawn.one_in(2) ? 1 : drawn.octave(-14, 0));
   const Lattice& lattice = made.scene.lattices[0];
-  ObstacleId own;
-  own.atom = static_cast<int>(random.below(lattice.atoms.size()));
-  IntVec cell{};
-  for (int i = 0; i < made.scene.dimension; ++i)
-    cell[i] = random.integer(-3, 3), own.cell[i] = Integer(cell[i]);
-  const Vec centre = sum(lattice.atoms[own.atom].position, cartesian(lattice, cell)),
-            n = scaled(random.direction(made.scene.dimension), lattice.atoms[own.atom].radius);
-  set_start(source, centre, n, made.scene.dimension, false, made);
-  made.query.v = drawn_velocity(source, n, made.scene.dimension, made.tags);
-  set_from(random, own, n, made.scene.dimension, made);
-  return made;
+  const auto which = static_cast<int>(random.below(lattice.atoms.size()));
+  const Atom& atom = lattice.atoms[which];
+  const IntVec cell = drawn_integers(random, made.scene.dimension, 3);
+  const Vec n = scaled(random.direction(made.scene.dimension), atom.radius);
+  set_flight(source, obstacle(cell, which), sum(atom.position, cartesian(lattice, cell)), n, false, made);
 }
 
 }  // namespace
 
 Family boundary_starts() {
-  return {"boundary-starts",
-          "Starts on an obstacle's surface, exactly or within ulps; with and without `from`.",
-          {{"on-surface", "exactly on the surface, which belongs to no open obstacle"},
-           {"near-surface", "within ulps of it: inside or outside, and the time 0 or tiny"},
-           {"inwards", "hits at once, at t = 0 if it starts on the surface"},
-           {"outwards", "does not hit the obstacle that it starts on"},
-           {"tangential", "touches, which is no hit"},
-           {"nearly-tangential", "a slope of 2^-4 to 2^-53 against the tangent: a chord of any shortness",
-            "a slope of 2^-4 to 2^-24 against the tangent: a chord of any shortness"},
-           {"leaving", "`from` is the obstacle that x is on"},
-           {"from-around-x", "`from` contains x, and is ignored all the same"},
-           {"from-elsewhere", "`from` is another obstacle, near or 2^60 cells away"}},
-          [](Source& source) { return source.scene.one_in(3) ? make_rounded(source) : make_exact(source); }};
+  return {
+      "boundary-starts",
+      "Starts on an obstacle's surface, exactly or within ulps; with and without `from`.",
+      {{"on-surface", "exactly on the surface, which belongs to no open obstacle"},
+       {"near-surface", "within ulps of it: inside or outside, and the time 0 or tiny"},
+       {"inwards", "hits at once, at t = 0 if it starts on the surface"},
+       {"outwards", "does not hit the obstacle that it starts on"},
+       {"tangential", "touches, which is no hit"},
+       {"nearly-tangential", "a slope of 2^-4 to 2^-53 against the tangent: a chord of any shortness",
+        "a slope of 2^-4 to 2^-24 against the tangent: a chord of any shortness"},
+       {"leaving", "`from` is the obstacle that x is on"},
+       {"from-around-x", "`from` contains x, and is ignored all the same"},
+       {"from-elsewhere", "`from` is another obstacle, near or 2^60 cells away"}},
+      [](Source& source, Case& made) { (source.scene.one_in(3) ? make_rounded : make_exact)(source, made); }};
 }
 
 }  // namespace lorentz::cases

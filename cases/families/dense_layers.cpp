@@ -57,10 +57,8 @@ void coarsen(Scene& scene, double s) {
 
 Layers drawn_dense_layers(Random& drawn, Case& made) {
   Layers layers{};
-  const bool rods = drawn.one_in(4);
-  made.tags.push_back(rods ? "rods" : "walls");
-  layers.coarse = drawn.one_in(3);
-  if (layers.coarse) made.tags.push_back("coarse");
+  const bool rods = tagged(made.tags, drawn.one_in(4), "rods", "walls");
+  layers.coarse = tagged(made.tags, drawn.one_in(3), "coarse");
   const bool usual = !drawn.one_in(4);  // the cost of a walk grows with the square
   layers.s =
       layers.coarse ? (usual ? 0.125 : 0.0625) : 1 / (usual ? drawn.between(8, 14) : drawn.between(5, 24));
@@ -77,8 +75,8 @@ Scene layered_scene(Random& drawn, const Layers& layers, Case& made) {
                      Vec{layers.s * drawn.between(-1, 1), layers.other * skew, layers.period}};
   const bool ellipsoids = !drawn.one_in(3);
   const std::int64_t atoms = drawn.integer(ellipsoids ? 2 : 1, 3);
-  made.tags.push_back(atoms == 1 ? "one-atom" : "several-atoms");
-  if (ellipsoids) made.tags.push_back("ellipsoids");
+  tagged(made.tags, atoms == 1, "one-atom", "several-atoms");
+  tagged(made.tags, ellipsoids, "ellipsoids");
   const std::int64_t first = drawn.one_in(4) ? 0 : 1;  // then every other one
   for (std::int64_t n = 0; n < atoms; ++n)
     lattice.atoms.push_back(drawn_atom(drawn, layers, ellipsoids && n % 2 == first));
@@ -98,8 +96,7 @@ Vec layered_velocity(Random& random, Case& made) {
     case 2:
     case 3:
       made.tags.push_back("few-bits");
-      return {static_cast<double>(random.integer(-8, 8)), static_cast<double>(random.integer(-8, 8)),
-              static_cast<double>(random.integer(-8, -1))};
+      return {random.whole(-8, 8), random.whole(-8, 8), random.whole(-8, -1)};
     default: {
       made.tags.push_back("any-slope");
       Vec v = random.direction(3);
@@ -113,33 +110,23 @@ Vec layered_velocity(Random& random, Case& made) {
 void leave_layer(Random& random, const Layers& layers, Case& made) {
   const Atom& atom = made.scene.lattices[0].atoms[0];
   made.tags.push_back("leaving");
-  made.query.x = atom.position;
-  if (atom.is_ball())
-    made.query.x[2] += atom.radius;
-  else
-    made.query.x = sum(made.query.x, atom.semiaxes[2]);
+  made.query.x = sum(atom.position, semiaxes_of(atom, 3)[2]);
   made.query.v[2] = -made.query.v[2];
   made.query.from = ObstacleId{};
-  if (!random.one_in(3)) return;
-  made.query.x[2] += layers.s * random.uniform();
+  if (random.one_in(3)) made.query.x[2] += layers.s * random.uniform();
 }
 
-Case make_dense(Source& source) {
-  Case made;
+void make_dense(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   const Layers layers = drawn_dense_layers(drawn, made);
   made.scene = layered_scene(drawn, layers, made);
   made.query.v = layered_velocity(random, made);
-  if (random.one_in(6)) {
-    leave_layer(random, layers, made);
-    return made;
-  }
+  if (random.one_in(6)) return leave_layer(random, layers, made);
   const bool coarse = random.one_in(2);
   const auto place = [&](double across) {
-    return coarse ? across * static_cast<double>(random.integer(-8, 8)) / 8 : across * random.between(-1, 1);
+    return coarse ? across * random.whole(-8, 8) / 8 : across * random.between(-1, 1);
   };
   made.query.x = {place(layers.s), place(layers.other), 1 + layers.s * random.octave(-6, 1)};
-  return made;
 }
 
 }  // namespace

@@ -13,8 +13,7 @@
 namespace lorentz::cases {
 namespace {
 
-Case make_dense_rows(Source& source) {
-  Case made;
+void make_dense_rows(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   const double r = drawn.octave(-5, -3), apart = r / drawn.between(66, 95);
   const double layers = 400 * r * r / apart * drawn.octave(0, 4);
@@ -23,12 +22,12 @@ Case make_dense_rows(Source& source) {
                              {symmetry(Vec{apart, 0, 0}), symmetry(Vec{apart * drawn.uniform(), 1, 0}),
                               symmetry(Vec{drawn.uniform(), drawn.uniform(), layers})},
                              r);
-  const bool skew = random.one_in(4);
-  made.tags.push_back(skew ? "skew" : "straight");
+  const bool skew = tagged(made.tags, random.one_in(4), "skew", "straight");
   const double slope = r * random.octave(-10, -6);
-  made.query.x = symmetry(Vec{apart * random.uniform(), random.uniform(), -r - slope * random.between(0, 2)});
-  made.query.v = symmetry(Vec{skew ? random.octave(-12, -4) : 0, 1, slope});
-  return made;
+  made.query =
+      symmetry(Query{Vec{apart * random.uniform(), random.uniform(), -r - slope * random.between(0, 2)},
+                     Vec{skew ? random.octave(-12, -4) : 0, 1, slope},
+                     {}});
 }
 
 }  // namespace

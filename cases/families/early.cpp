@@ -15,11 +15,10 @@
 namespace lorentz::cases {
 namespace {
 
-Case make_early(Source& source) {
-  Case made;
+void make_early(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   const int dimension = drawn.one_in(3) ? 3 : 2;
-  const bool is_wide = source.precision == NumberFormat::binary64;
+  const bool is_wide = source.is_wide();
   const int grid = bits_of(source.precision) + 2;  // places are whole multiples of 2^-55
   const std::int64_t quarter = std::int64_t{1} << (grid - 2);
   const std::int64_t least = dimension == 2 ? (is_wide ? 20 : 6) : (is_wide ? 36 : 12);
@@ -30,13 +29,12 @@ Case make_early(Source& source) {
   made.scene.lattices[0].atoms[0].position = symmetry(Vec{0, 3 * k, 0});
   // u - 4 k from a quarter to a half, u even.
   const std::int64_t u = 2 * random.integer((K + quarter + 1) / 2, (K + 2 * quarter - 1) / 2);
-  const bool late = random.one_in(4);
+  const bool late = tagged(made.tags, random.one_in(4), "late", "early");
   const double beside = (is_wide ? random.octave(-200, -112) : random.octave(-120, -54)) * (late ? -1 : 1);
-  made.tags.push_back(late ? "late" : "early");
-  made.query.x = symmetry(Vec{std::ldexp(static_cast<double>(-u), -grid), beside, 0});
-  made.query.v = symmetry(
-      Vec{std::ldexp(1, static_cast<int>(random.integer(is_wide ? -60 : -30, is_wide ? 60 : 30))), 0, 0});
-  return made;
+  made.query =
+      symmetry(Query{Vec{std::ldexp(static_cast<double>(-u), -grid), beside, 0},
+                     Vec{std::ldexp(1, random.exponent(is_wide ? -60 : -30, is_wide ? 60 : 30)), 0, 0},
+                     {}});
 }
 
 }  // namespace

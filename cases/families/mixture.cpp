@@ -53,21 +53,15 @@ void leave(Random& random, Case& made) {
   }
 }
 
-Case make_mixture(Source& source) {
-  Case made;
+void make_mixture(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   made.scene.dimension = drawn.one_in(3) ? 3 : 2;
-  const bool many_cells = drawn.one_in(3);
-  made.tags.push_back(many_cells ? "many-cells" : "small");
+  const bool many_cells = tagged(made.tags, drawn.one_in(3), "many-cells", "small");
   for (std::int64_t n = drawn.integer(1, 3); n > 0; --n)
     made.scene.lattices.push_back(drawn_lattice(drawn, made.scene.dimension, many_cells && n == 1));
   made.query.x = many_cells ? point_in_cell(random, made.scene) : free_point(random, made.scene);
   made.query.v = random.direction(made.scene.dimension);
-  if (many_cells && random.one_in(2)) {
-    made.tags.push_back("leaving");
-    leave(random, made);
-  }
-  return made;
+  if (tagged(made.tags, many_cells && random.one_in(2), "leaving")) leave(random, made);
 }
 
 }  // namespace

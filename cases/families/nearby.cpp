@@ -11,8 +11,7 @@
 namespace lorentz::cases {
 namespace {
 
-Case make_nearby(Source& source) {
-  Case made;
+void make_nearby(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   const int dimension = drawn.one_in(3) ? 3 : 2;
   made.scene = unit_scene(dimension, drawn.between(0.2, 0.5));
@@ -24,10 +23,8 @@ Case make_nearby(Source& source) {
   }
   const double r = made.scene.lattices[0].atoms[0].radius;
   const Vec n = random.direction(dimension), along = random.direction(dimension);
-  made.query.x =
-      scaled(n, r * (1 + random.octave(source.precision == NumberFormat::binary64 ? -40 : -18, -2)));
+  made.query.x = scaled(n, r * (1 + random.octave(source.is_wide() ? -40 : -18, -2)));
   made.query.v = sum(scaled(n, -1), scaled(along, random.between(0, 0.8)));
-  return made;
 }
 
 }  // namespace

@@ -13,33 +13,24 @@
 namespace lorentz::cases {
 namespace {
 
-Case make_rounding(Source& source) {
-  Case made;
+void make_rounding(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
-  const bool is_wide = source.precision == NumberFormat::binary64;
+  const bool is_wide = source.is_wide();
   // Integers on a grid of 2^-55.
   const int grid = bits_of(source.precision) + 2;
   const std::int64_t eighth = std::int64_t{1} << (grid - 3);
-  const int dimension = drawn.one_in(3) ? 3 : 2, smaller = static_cast<int>(drawn.integer(0, 12));
+  const int dimension = drawn.one_in(3) ? 3 : 2, smaller = drawn.exponent(0, 12);
   const std::int64_t r = drawn.integer(eighth, 2 * eighth - 9) | 1;
   made.scene = unit_scene(dimension, std::ldexp(static_cast<double>(r), -grid - smaller));
   const std::int64_t u = 2 * random.integer((r + 2 * eighth + 1) / 2, 2 * eighth - 1);
   const Symmetry symmetry(random, dimension);
   Vec x{std::ldexp(static_cast<double>(-u), -grid - smaller), 0, 0};
-  if (random.one_in(3)) {
-    made.tags.push_back("beside");
+  if (tagged(made.tags, random.one_in(3), "beside", "midway"))
     x[1] = random.octave(is_wide ? -200 : -120, is_wide ? -24 : -12) * random.sign();
-  } else {
-    made.tags.push_back("midway");
-  }
-  const bool subnormal = random.one_in(8);
-  if (subnormal) made.tags.push_back("subnormal");
-  const auto exponent =
-      static_cast<int>(subnormal ? (is_wide ? random.integer(1021, 1023) : random.integer(125, 127))
-                                 : (is_wide ? random.integer(-60, 60) : random.integer(-30, 30)));
-  made.query.x = symmetry(x);
-  made.query.v = symmetry(Vec{std::ldexp(1, exponent), 0, 0});
-  return made;
+  const bool subnormal = tagged(made.tags, random.one_in(8), "subnormal");
+  const int exponent = subnormal ? (is_wide ? random.exponent(1021, 1023) : random.exponent(125, 127))
+                                 : (is_wide ? random.exponent(-60, 60) : random.exponent(-30, 30));
+  made.query = symmetry(Query{x, Vec{std::ldexp(1, exponent), 0, 0}, {}});
 }
 
 }  // namespace

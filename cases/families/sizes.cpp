@@ -21,10 +21,8 @@ constexpr std::string_view kKinds[] = {"unit", "cell", "motif", "ellipsoid", "su
 
 // An obstacle whose radius or shortest semiaxis is `size`; an ellipsoid is up to 2^5 times as long as wide.
 Atom drawn_obstacle(Random& drawn, int dimension, double size, bool is_ball) {
+  if (is_ball) return {{}, size, {}};
   Atom atom;
-  atom.radius = size;
-  if (is_ball) return atom;
-  atom.radius = 0;
   const double most = std::min(0.4, 32 * size);
   const Vec a = drawn.direction(2);
   atom.semiaxes = {scaled(a, size), scaled({-a[1], a[0], 0}, drawn.between(size, most))};
@@ -60,16 +58,14 @@ void leave_obstacle(Random& random, Case& made) {
   const int which = static_cast<int>(random.below(atoms.size()));
   const Atom& atom = atoms[which];
   const Vec n = random.direction(dimension);
-  Vec arm = scaled(n, atom.radius);
-  for (std::size_t k = 0; k < atom.semiaxes.size(); ++k) arm = sum(arm, scaled(atom.semiaxes[k], n[k]));
+  const Vec arm = atom.is_ball() ? scaled(n, atom.radius) : image(atom.semiaxes, n);
   made.query.x = sum(atom.position, arm);
   made.query.v = sum(scaled(arm, 1 / length(arm)), scaled(random.direction(dimension), random.uniform()));
   made.query.from = ObstacleId{lattice, which, {}};
 }
 
-Case make_sizes(Source& source) {
+void make_sizes(Source& source, Case& made) {
   constexpr std::uint64_t kFlat = 38, kSolid = 22, kStepFlat = 23, kStepSolid = 13;
-  Case made;
   Random &drawn = source.scene, &random = source.random;
   const std::uint64_t number = source.index / kCasesPerScene, kind = number % std::size(kKinds),
                       turn = number / std::size(kKinds);
@@ -79,15 +75,10 @@ Case make_sizes(Source& source) {
   const int octave = -2 - static_cast<int>(turn / 2 * step % octaves);
   made.tags.emplace_back(kKinds[kind]);
   made.scene = sized_scene(drawn, kind, dimension, drawn.octave(octave, octave + 1));
-  if (random.one_in(3)) {
-    made.tags.push_back("leaving");
-    leave_obstacle(random, made);
-    return made;
-  }
+  if (tagged(made.tags, random.one_in(3), "leaving")) return leave_obstacle(random, made);
   made.query.x = free_point(random, made.scene);
   made.query.v = random.one_in(4) ? near_integer_direction(random, dimension, source.precision)
                                   : random.direction(dimension);
-  return made;
 }
 
 }  // namespace

@@ -11,19 +11,15 @@
 namespace lorentz::cases {
 namespace {
 
-Case make_unequal(Source& source) {
-  Case made;
+void make_unequal(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   made.scene = drawn.one_in(2) ? unit_scene(3, 1) : drawn_crystal(drawn, 3).scene;
   Lattice& lattice = made.scene.lattices[0];
   const double small = drawn.octave(-12, -9), large = small * drawn.octave(3, 6);
-  const bool small_first = drawn.one_in(2);
-  made.tags.push_back(small_first ? "small-first" : "large-first");
+  const bool small_first = tagged(made.tags, drawn.one_in(2), "small-first", "large-first");
   lattice.atoms = {{{}, small_first ? small : large, {}}, {{}, small_first ? large : small, {}}};
   for (double& component : lattice.atoms[1].position) component = drawn.between(0.2, 0.8);
-  made.query.x = free_point(random, made.scene);
-  made.query.v = random.direction(3);
-  return made;
+  made.query = free_flight(random, made.scene);
 }
 
 }  // namespace
