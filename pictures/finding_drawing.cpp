@@ -169,10 +169,6 @@ bool can_be_drawn(const Scene& scene, const Query& query, const Answer& exact) {
          !flaw_of(Query{query.x, query.v, exact.obstacle}, scene);
 }
 
-std::string draw_sheet(const FindingCase& finding, const Answer* given, const Answer& exact) {
-  return Sheet(finding, given, exact).draw();
-}
-
 // An answer in other units of length, with v as it is.
 Answer scaled_answer(Answer answer, int exponent) {
   if (answer.time) answer.time = std::ldexp(*answer.time, -exponent);
@@ -185,14 +181,13 @@ std::string drawing(const Scene& scene, const Query& query, const Answer* given,
   Scene its_scene = scene;
   Query its_query = query;
   int exponent = length_exponent(scene);
-  if (exponent == 0 || !scale_lengths(exponent, its_scene, its_query))
-    return draw_sheet(FindingCase(scene, query, given, exact, decisive), given, exact);
+  if (!scale_lengths(exponent, its_scene, its_query)) its_scene = scene, its_query = query, exponent = 0;
   const Answer its_exact = scaled_answer(exact, exponent);
   const std::optional<Answer> its_given =
       given ? std::optional(scaled_answer(*given, exponent)) : std::nullopt;
   const FindingCase finding(its_scene, its_query, its_given ? &*its_given : nullptr, its_exact, decisive,
                             exponent);
-  return draw_sheet(finding, given, exact);
+  return Sheet(finding, given, exact).draw();
 }
 
 }  // namespace

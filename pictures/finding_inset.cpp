@@ -96,9 +96,9 @@ Inset::Inset(Svg& svg, const FindingCase& finding, const Axes& axes, const Panel
 
 void Inset::set_axes(const Axes& axes) {
   const Vec centre = case_.surroundings.centre(case_.query, place_in_question(case_), case_.obstacle);
-  right_ = unit(mapped(to_ball_, case_.along));
+  right_ = unit(coordinates(to_ball_, case_.along));
   if (dot(centre, axes.across) < 0) side_ = -1;
-  const Vec c = mapped(to_ball_, centre), across = mapped(to_ball_, scaled(axes.across, side_));
+  const Vec c = coordinates(to_ball_, centre), across = coordinates(to_ball_, scaled(axes.across, side_));
   for (const Vec& other : {c, across}) {
     const Vec rest = sum(other, scaled(right_, -dot(other, right_)));
     up_ = unit(rest);
@@ -182,7 +182,7 @@ void Inset::draw_line() {
 // Draws x, and the surface where it is nearest to x.
 void Inset::draw_start() {
   const Vec centre =
-      mapped(to_ball_, case_.surroundings.centre(case_.query, PlaceOnLine::start(), case_.obstacle));
+      coordinates(to_ball_, case_.surroundings.centre(case_.query, PlaceOnLine::start(), case_.obstacle));
   const Vec to_centre = unit(centre);
   const double cosine = dot(to_centre, right_), sine = dot(to_centre, up_), gap = case_.distance * scale_;
   origin_ = {origin_.x - gap * cosine / 2, origin_.y + side_ * gap * sine / 2};
@@ -203,15 +203,15 @@ void Inset::draw_entries() {
   origin_.x -= way / 2;
   const auto y0_of = [&](const ObstacleId& id, const std::array<Vec, 3>& rows) {
     const Vec centre = case_.surroundings.centre(case_.query, PlaceOnLine::at(id), id);
-    return unit(scaled(mapped(rows, centre), -1));
+    return unit(scaled(coordinates(rows, centre), -1));
   };
   add_surface(case_.obstacle, {right_, up_, y0_of(case_.obstacle, to_ball_)}, 0, 0);
   if (case_.second) {
     const auto rows = to_ball(case_.atom_of(*case_.second), case_.scene.dimension);
     const auto columns = semiaxes_of(case_.atom_of(case_.obstacle), case_.scene.dimension);
     const auto back = [&](const Vec& y) {
-      return mapped(rows,
-                    sum(sum(scaled(columns[0], y[0]), scaled(columns[1], y[1])), scaled(columns[2], y[2])));
+      return coordinates(
+          rows, sum(sum(scaled(columns[0], y[0]), scaled(columns[1], y[1])), scaled(columns[2], y[2])));
     };
     add_surface(*case_.second, {back(right_), back(up_), y0_of(*case_.second, rows)}, way, 0);
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pictures/drawing_parts.hpp"
 #include "pictures/finding_case.hpp"
 #include "pictures/svg.hpp"
 
@@ -50,9 +51,6 @@ struct Axes {
   Vec along, across, depth;
 };
 Axes axes_of(const FindingCase& finding);
-
-/// The outline of an obstacle seen from afar, in the unit of length; angles towards +up.
-EllipseShape shadow_of(const Atom& atom, int dimension, const Vec& right, const Vec& up);
 
 /// The section of an obstacle by a plane, relative to the foot of its centre there.
 struct ShapeSection {

@@ -1,22 +1,15 @@
 // Obstacles as ellipses: sections by a plane, or shadows.
 #include <cmath>
 
-#include "pictures/drawing_parts.hpp"
 #include "pictures/finding_parts.hpp"
 
 namespace lorentz::pictures {
 
-EllipseShape shadow_of(const Atom& atom, int dimension, const Vec& right, const Vec& up) {
-  const auto columns = semiaxes_of(atom, dimension);
-  return ellipse_of({dot(right, columns[0]), dot(right, columns[1]), dot(right, columns[2])},
-                    {dot(up, columns[0]), dot(up, columns[1]), dot(up, columns[2])});
-}
-
 // y = B w + q, B the two columns of A^-1 for the axes: |w - w0|^2_S < 1, S = B^T B / k.
 std::optional<ShapeSection> section_of(const Atom& atom, const Axes& axes, double depth) {
   const auto rows = to_ball(atom, 3);
-  const Vec a = mapped(rows, axes.along), b = mapped(rows, axes.across),
-            q = mapped(rows, scaled(axes.depth, -depth));
+  const Vec a = coordinates(rows, axes.along), b = coordinates(rows, axes.across),
+            q = coordinates(rows, scaled(axes.depth, -depth));
   const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), det = aa * bb - ab * ab;
   const double aq = dot(a, q), bq = dot(b, q);
   const Point w0{(ab * bq - bb * aq) / det, (ab * aq - aa * bq) / det};

@@ -186,11 +186,8 @@ void add_axis(Svg& svg, const Frame& frame, bool along_t) {
 void add_axes(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
   add_axis(svg, frame, true);
   add_axis(svg, frame, false);
-  svg.polygon({{frame.left, frame.top},
-               {frame.right, frame.top},
-               {frame.right, frame.bottom},
-               {frame.left, frame.bottom}},
-              "fill=\"none\" " + stroke("#222222", 1.4));
+  svg.rectangle({frame.left, frame.top}, {frame.right, frame.bottom},
+                "fill=\"none\" " + stroke("#222222", 1.4));
   svg.text({(frame.left + frame.right) / 2, frame.bottom + 56}, plot.t_label, "text-anchor=\"middle\"");
   svg.text({0, 0}, plot.value_label,
            fmt::format("text-anchor=\"middle\" transform=\"translate({:.0f} {:.0f}) rotate(-90)\"",
@@ -201,30 +198,18 @@ void add_marker(Svg& svg, Point at, std::size_t series) {
   const std::string style =
       fmt::format("fill=\"{0}\" fill-opacity=\"0.35\" stroke=\"{0}\" stroke-width=\"1.8\"",
                   colour_of(static_cast<int>(series)));
+  static const std::vector<Point> kCorners[] = {
+      {},  // a circle
+      {{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}},
+      {{0, -1.25}, {1.15, 0.85}, {-1.15, 0.85}},
+      {{0, -1.35}, {1.2, 0}, {0, 1.35}, {-1.2, 0}},
+      {{0, 1.25}, {1.15, -0.85}, {-1.15, -0.85}},
+      {{-1.2, -0.5}, {0, -1.2}, {1.2, -0.5}, {1.2, 0.5}, {0, 1.2}, {-1.2, 0.5}}};
   constexpr double r = 5.5;
-  const auto polygon = [&](std::vector<Point> corners) {
-    for (Point& corner : corners) corner = {at.x + r * corner.x, at.y + r * corner.y};
-    svg.polygon(corners, style);
-  };
-  switch (series % 6) {
-    case 0:
-      svg.ellipse(at, {r, r, 0}, style);
-      break;
-    case 1:
-      polygon({{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}});
-      break;
-    case 2:
-      polygon({{0, -1.25}, {1.15, 0.85}, {-1.15, 0.85}});
-      break;
-    case 3:
-      polygon({{0, -1.35}, {1.2, 0}, {0, 1.35}, {-1.2, 0}});
-      break;
-    case 4:
-      polygon({{0, 1.25}, {1.15, -0.85}, {-1.15, -0.85}});
-      break;
-    default:
-      polygon({{-1.2, -0.5}, {0, -1.2}, {1.2, -0.5}, {1.2, 0.5}, {0, 1.2}, {-1.2, 0.5}});
-  }
+  std::vector<Point> corners = kCorners[series % std::size(kCorners)];
+  if (corners.empty()) return svg.ellipse(at, {r, r, 0}, style);
+  for (Point& corner : corners) corner = {at.x + r * corner.x, at.y + r * corner.y};
+  svg.polygon(corners, style);
 }
 
 // Adds a series' points and their error bars, in front of everything else.
@@ -296,8 +281,7 @@ LegendBox legend_box(const Frame& frame, const FreePathPlot& plot) {
 void add_legend(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
   const LegendBox box = legend_box(frame, plot);
   const double left = box.low.x;
-  svg.polygon({box.low, {box.high.x, box.low.y}, box.high, {left, box.high.y}},
-              "fill=\"white\" fill-opacity=\"0.85\" stroke=\"#bbbbbb\"");
+  svg.rectangle(box.low, box.high, "fill=\"white\" fill-opacity=\"0.85\" stroke=\"#bbbbbb\"");
   double y = box.low.y + 5 + kRow / 2;
   const auto label = [&](const std::string& words) {
     svg.text({left + 56, y + 7}, words);

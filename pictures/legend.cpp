@@ -67,8 +67,8 @@ void add_way_entries(Svg& svg, LegendColumns& columns, const Legend& legend,
                      const std::vector<FreeWay>& ways) {
   for (const std::size_t number : legend.ways) {
     const Point at = columns.next();
-    svg.polygon({{at.x - 8, at.y - 6}, {at.x + 8, at.y - 6}, {at.x + 8, at.y + 6}, {at.x - 8, at.y + 6}},
-                fmt::format("fill=\"{0}\" fill-opacity=\"0.35\" stroke=\"{0}\"", way_colour(number)));
+    svg.rectangle({at.x - 8, at.y - 6}, {at.x + 8, at.y + 6},
+                  fmt::format("fill=\"{0}\" fill-opacity=\"0.35\" stroke=\"{0}\"", way_colour(number)));
     add_label(svg, at, ways[number].name);
   }
 }

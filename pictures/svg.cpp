@@ -64,6 +64,10 @@ void Svg::polygon(const std::vector<Point>& points, const std::string& style) {
   body_ += fmt::format("<polygon points=\"{}\" {}/>\n", path_of(points), style);
 }
 
+void Svg::rectangle(Point corner, Point opposite, const std::string& style) {
+  polygon({corner, {opposite.x, corner.y}, opposite, {corner.x, opposite.y}}, style);
+}
+
 void Svg::text(Point at, const std::string& words, const std::string& style) {
   body_ +=
       fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" {}>{}</text>\n", at.x, at.y, style, xml_escaped(words));
