@@ -6,8 +6,6 @@
 namespace lorentz::cases {
 namespace {
 
-__extension__ typedef __int128 Wide;
-
 struct Gcd {
   std::int64_t g, x, y;  // g = x a + y b
 };
@@ -105,12 +103,17 @@ Squared drawn_triple(Random& random, std::int64_t range) {
   return {primitive(v), {0, 0, w}, w};
 }
 
+std::array<IntVec, 3> rotation_of(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
+  return {IntVec{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)},
+          IntVec{2 * (b * c - a * d), a * a - b * b + c * c - d * d, 2 * (c * d + a * b)},
+          IntVec{2 * (b * d + a * c), 2 * (c * d - a * b), a * a - b * b - c * c + d * d}};
+}
+
 Squared drawn_quadruple(Random& random, std::int64_t range) {
   for (int tries = 0; tries < 16; ++tries) {
     const std::int64_t a = random.integer(-range, range), b = random.integer(-range, range),
                        c = random.integer(-range, range), d = random.integer(-range, range);
-    const IntVec v{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)},
-        across{2 * (b * c - a * d), a * a - b * b + c * c - d * d, 2 * (c * d + a * b)};
+    const auto [v, across, other] = rotation_of(a, b, c, d);
     if (content_of(v) == 1) return {v, across, a * a + b * b + c * c + d * d};
   }
   return {{1, 2, 2}, {2, 1, -2}, 3};

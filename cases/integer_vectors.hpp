@@ -14,6 +14,7 @@
 namespace lorentz::cases {
 
 using IntVec = std::array<std::int64_t, 3>;
+using Wide = WideInteger;
 
 using lorentz::cross;  // of Vec, beside those of IntVec
 using lorentz::dot;
@@ -65,8 +66,10 @@ struct Squared {
 /// From a Pythagorean triple (a^2 - b^2, 2ab, a^2 + b^2), a up to `range`; primitive.
 Squared drawn_triple(Random& random, std::int64_t range);
 
-/// From a quaternion with components up to `range`: its rotation matrix times its norm has orthogonal integer
-/// rows of that length. v is primitive.
+/// The rotation matrix of a quaternion times its norm: rows and columns are orthogonal and of that length.
+std::array<IntVec, 3> rotation_of(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d);
+
+/// From a quaternion with components up to `range`: two rows of its matrix. v is primitive.
 Squared drawn_quadruple(Random& random, std::int64_t range);
 
 /// Primitive v in the plane with |v|^2 = w^2 + 1 or w^2 - 1, w below a bound.

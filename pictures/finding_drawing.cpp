@@ -169,6 +169,49 @@ bool can_be_drawn(const Scene& scene, const Query& query, const Answer& exact) {
          !flaw_of(Query{query.x, query.v, exact.obstacle}, scene);
 }
 
+// The exponent of the unit of length in which a scene has ordinary size; 0 in most cases. Scenes whose lengths
+// are near the ends of binary64's range are drawn in another unit, so that squares and cubes of lengths stay in
+// range.
+int length_exponent(const Scene& scene) {
+  double largest = 0;
+  const auto see = [&](const Vec& vector) {
+    for (const double component : vector) largest = std::max(largest, std::fabs(component));
+  };
+  const Lattice& lattice = scene.lattices[0];
+  for (const Vec& u : lattice.vectors) see(u);
+  if (largest == 0)  // a single obstacle is as large as its scene
+    for (const Atom& atom : lattice.atoms) {
+      see({atom.radius, 0, 0});
+      for (const Vec& axis : atom.semiaxes) see(axis);
+    }
+  constexpr int kOrdinary = 100;
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+  return std::abs(exponent) <= kOrdinary ? 0 : exponent;
+}
+
+// Divides all lengths by 2^exponent; false if that is not possible without rounding.
+bool scale_lengths(int exponent, Scene& scene, Query& query) {
+  bool exact = true;
+  const auto scale = [&](Vec& a) {
+    for (double& number : a) {
+      const double before = number;
+      number = std::ldexp(number, -exponent);
+      exact &= std::ldexp(number, exponent) == before;
+    }
+  };
+  for (Lattice& lattice : scene.lattices)
+    for (Vec& u : lattice.vectors) scale(u);
+  for_each_atom(scene, [&](Atom& atom) {
+    Vec radius{atom.radius, 0, 0};
+    scale(radius);
+    atom.radius = radius[0];
+    scale(atom.position);
+    for (Vec& axis : atom.semiaxes) scale(axis);
+  });
+  scale(query.x);
+  return exact;
+}
+
 // An answer in other units of length, with v as it is.
 Answer scaled_answer(Answer answer, int exponent) {
   if (answer.time) answer.time = std::ldexp(*answer.time, -exponent);

@@ -71,12 +71,6 @@ std::vector<ObstacleId> marked_obstacles(const FindingCase& finding);
 /// The same decision, place and distances in words, shown under the mouse.
 std::string hint_of(const FindingCase& finding, const ObstacleId& id);
 
-/// The exponent of the unit of length in which a scene has ordinary size; 0 in most cases.
-int length_exponent(const Scene& scene);
-
-/// Divides all lengths by 2^exponent; false if that is not possible without rounding.
-bool scale_lengths(int exponent, Scene& scene, Query& query);
-
 /// Notes and positions that the panel of the flight passes on.
 struct FlightPanel {
   std::vector<std::string> notes;

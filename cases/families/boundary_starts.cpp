@@ -10,11 +10,9 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
-#include "cases/symmetry.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
@@ -30,10 +28,7 @@ IntVec circle_point(Random& random, std::int64_t w) {
 
 // Rows and columns of a quaternion's rotation matrix have the length of its norm.
 IntVec sphere_point(Random& random, const std::array<std::int64_t, 4>& quaternion) {
-  const auto [a, b, c, d] = quaternion;
-  const IntVec rows[] = {{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)},
-                         {2 * (b * c - a * d), a * a - b * b + c * c - d * d, 2 * (c * d + a * b)},
-                         {2 * (b * d + a * c), 2 * (c * d - a * b), a * a - b * b - c * c + d * d}};
+  const auto rows = std::apply(rotation_of, quaternion);
   const std::uint64_t i = random.below(6);
   return i < 3 ? rows[i] : IntVec{rows[0][i - 3], rows[1][i - 3], rows[2][i - 3]};
 }

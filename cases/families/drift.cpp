@@ -11,15 +11,12 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {
-
-__extension__ typedef __int128 Wide;
 
 // Lattice planes whose normal has k bits.
 struct SlantedLayers {

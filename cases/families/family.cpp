@@ -3,8 +3,8 @@
 #include <stdexcept>
 
 #include <lorentz/scene_check.hpp>
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
 
 namespace lorentz::cases {
 

@@ -6,9 +6,9 @@
 
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
-#include "cases/crystals.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {

@@ -12,13 +12,10 @@
 #include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
-#include "cases/symmetry.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {
-
-__extension__ typedef __int128 Wide;
 
 // A v with V_0 W_1 2^22 - V_1 W_0 = j (in binary32 2^10) times their common divisor g. V_0 is not 0:
 // u_0 K / g is 1 modulo W_0 / g, so that W_0 / g would divide j; but W_0 is odd, g at most W_1 < 2^30, and

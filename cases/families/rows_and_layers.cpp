@@ -6,12 +6,10 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/crystals.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
-#include "cases/hard_moves.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
@@ -83,7 +81,8 @@ void make_case(Source& source, Case& made) {
       break;
     default:
       made.query.x = sum(made.query.x, scaled(random.direction(dimension), reach * random.between(0.1, 0.9)));
-      move_to_edge(random, made.scene, oracle_of(made.scene), made.query, source.precision);
+      move_to_edge([&] { return drawn_off_edge(random, source.precision); }, made.scene,
+                   oracle_of(made.scene), made.query, source.precision);
   }
 }
 

@@ -10,12 +10,10 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/crystals.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
-#include "cases/hard_moves.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
@@ -37,7 +35,8 @@ void set_query(Source& source, Case& made) {
   }
   for (int tries = 0; kind == 2 && tries < 4; ++tries) {
     Query moved = query;
-    if (move_to_edge(random, made.scene, oracle_of(made.scene), moved, source.precision)) {
+    const auto off_edge = [&] { return drawn_off_edge(random, source.precision); };
+    if (move_to_edge(off_edge, made.scene, oracle_of(made.scene), moved, source.precision)) {
       query = moved;
       return made.tags.push_back("grazing");
     }

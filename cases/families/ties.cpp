@@ -9,18 +9,14 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/symmetry.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {
-
-Atom ball(const Vec& position, double radius) {
-  return {position, radius, {}};
-}
 
 double dyadic(Random& random, int low, int high) {  // eighths of a power of two: few bits
   return std::ldexp(random.whole(8, 15), random.exponent(low, high) - 3);

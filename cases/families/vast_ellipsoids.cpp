@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/crystals.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {

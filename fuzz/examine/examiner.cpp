@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include <lorentz/scene_check.hpp>
-#include "cases/free_start.hpp"
+#include "cases/drawn_flights.hpp"
 #include "fuzz/examine/answerers.hpp"
 #include "fuzz/examine/tie.hpp"
 #include "question/examine.hpp"

@@ -16,7 +16,7 @@
 #include <lorentz/scene_check.hpp>
 #include "cases/bad_queries.hpp"
 #include "cases/families/target.hpp"
-#include "cases/free_start.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/integer_vectors.hpp"
 #include "cases/ulps.hpp"
 #include "tests/support/support.hpp"

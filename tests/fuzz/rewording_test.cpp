@@ -9,8 +9,8 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
+#include "cases/drawn_flights.hpp"
 #include "cases/families/target.hpp"
-#include "cases/free_start.hpp"
 #include "fuzz/examine/time_limit.hpp"
 #include "fuzz/rewording/notation.hpp"
 #include "fuzz/rewording/rewording_steps.hpp"
