@@ -25,12 +25,12 @@ inline bool tagged(std::vector<std::string>& tags, bool is, const char* tag, con
   return is;
 }
 
-/// Draws one of the tags, adds it, and returns its number.
-inline std::uint64_t drawn_tag(Random& random, std::vector<std::string>& tags,
-                               std::initializer_list<const char*> all) {
-  const std::uint64_t number = random.below(all.size());
-  tags.emplace_back(all.begin()[number]);
-  return number;
+/// Draws one of the tags, adds it, and returns it.
+inline std::string_view drawn_tag(Random& random, std::vector<std::string>& tags,
+                                  std::initializer_list<const char*> all) {
+  const char* tag = all.begin()[random.below(all.size())];
+  tags.emplace_back(tag);
+  return tag;
 }
 
 /// A mark of a case, with a note on what the case is meant to break.

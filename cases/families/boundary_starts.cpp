@@ -39,39 +39,29 @@ Vec drawn_velocity(Source& source, const Vec& n, int dimension, std::vector<std:
   Vec tangent = cross(n, dimension == 2 ? Vec{0, 0, 1} : to_vec(drawn_primitive(random, 3, 5)));
   if (tangent == Vec{}) tangent = cross(n, n[0] == 0 ? Vec{1, 0, 0} : Vec{-n[1], n[0], 1});  // n was drawn
   const double side = random.sign();
-  switch (drawn_tag(random, tags, {"inwards", "outwards", "tangential", "nearly-tangential"})) {
-    case 0:
-      return plus(scaled(n, -1), random.between(-2, 2), tangent);
-    case 1:
-      return plus(n, random.between(-2, 2), tangent);
-    case 2:
-      return scaled(tangent, side);
-    default:
-      return plus(scaled(tangent, side), random.octave(-bits_of(source.precision), -4) * random.sign(), n);
-  }
+  const std::string_view way =
+      drawn_tag(random, tags, {"inwards", "outwards", "tangential", "nearly-tangential"});
+  if (way == "inwards") return plus(scaled(n, -1), random.between(-2, 2), tangent);
+  if (way == "outwards") return plus(n, random.between(-2, 2), tangent);
+  const Vec along = scaled(tangent, side);
+  if (way == "tangential") return along;
+  return plus(along, random.octave(-bits_of(source.precision), -4) * random.sign(), n);
 }
 
 // Draws `from`, or leaves it empty; `own` is the obstacle that x is on.
 void set_from(Random& random, const ObstacleId& own, const Vec& n, int dimension, Case& made) {
-  switch (random.below(6)) {
-    case 0:
-    case 1:
-      made.tags.push_back("leaving");
-      made.query.from = own;
-      break;
-    case 2:
-      made.tags.front() = "from-around-x";  // instead of the tag of x's distance from the surface
-      made.query.from = own;
-      made.query.x = sum(made.query.x, scaled(n, -random.between(0, 1)));
-      break;
-    case 3: {
-      made.tags.push_back("from-elsewhere");
-      const std::int64_t far = random.one_in(2) ? 2 : std::int64_t{1} << random.integer(20, 60);
-      made.query.from = obstacle(drawn_integers(random, dimension, far), own.atom);
-      break;
-    }
-    default:
-      break;
+  const std::uint64_t kind = random.below(6);
+  if (kind < 2) {
+    made.tags.push_back("leaving");
+    made.query.from = own;
+  } else if (kind == 2) {
+    made.tags.front() = "from-around-x";  // instead of the tag of x's distance from the surface
+    made.query.from = own;
+    made.query.x = plus(made.query.x, -random.between(0, 1), n);
+  } else if (kind == 3) {
+    made.tags.push_back("from-elsewhere");
+    const std::int64_t far = random.one_in(2) ? 2 : std::int64_t{1} << random.integer(20, 60);
+    made.query.from = obstacle(drawn_integers(random, dimension, far), own.atom);
   }
 }
 

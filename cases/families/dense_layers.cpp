@@ -94,24 +94,16 @@ Scene layered_scene(Random& drawn, const Layers& layers, Case& made) {
 
 // A velocity down onto the wall: at any slope, steeply, straight down, or with small integers.
 Vec layered_velocity(Random& random, Case& made) {
-  switch (random.below(8)) {
-    case 0:
-      made.tags.push_back("straight");
-      return {0, 0, -1};
-    case 1:
-      made.tags.push_back("steep");
-      return {random.octave(-40, -2) * random.sign(), random.octave(-40, -2) * random.sign(), -1};
-    case 2:
-    case 3:
-      made.tags.push_back("few-bits");
-      return {random.whole(-8, 8), random.whole(-8, 8), random.whole(-8, -1)};
-    default: {
-      made.tags.push_back("any-slope");
-      Vec v = random.direction(3);
-      v[2] = -std::max(std::fabs(v[2]) * random.octave(-3, 0), 0.0625);
-      return v;
-    }
-  }
+  const std::string_view kind = drawn_tag(
+      random, made.tags,
+      {"straight", "steep", "few-bits", "few-bits", "any-slope", "any-slope", "any-slope", "any-slope"});
+  if (kind == "straight") return {0, 0, -1};
+  if (kind == "steep")
+    return {random.octave(-40, -2) * random.sign(), random.octave(-40, -2) * random.sign(), -1};
+  if (kind == "few-bits") return {random.whole(-8, 8), random.whole(-8, 8), random.whole(-8, -1)};
+  Vec v = random.direction(3);
+  v[2] = -std::max(std::fabs(v[2]) * random.octave(-3, 0), 0.0625);
+  return v;
 }
 
 // A start on top of the first obstacle, up to rounding; the flight goes to the next layer.

@@ -21,16 +21,12 @@ namespace {
 // A radius near the half width at which the corridors close.
 double drawn_radius(Random& random, NumberFormat precision, double closing, std::vector<std::string>& tags) {
   const int least = -51 + missing_bits(precision);
-  switch (drawn_tag(random, tags, {"corridor-open", "just-open", "just-closed", "small-radius"})) {
-    case 0:
-      return closing * random.between(0.05, 0.9);
-    case 1:
-      return closing * (1 - random.octave(least, -10));
-    case 2:
-      return closing * (1 + random.octave(least, -10));
-    default:
-      return closing * random.octave(-18, -4);
-  }
+  const std::string_view size =
+      drawn_tag(random, tags, {"corridor-open", "just-open", "just-closed", "small-radius"});
+  if (size == "corridor-open") return closing * random.between(0.05, 0.9);
+  if (size == "just-open") return closing * (1 - random.octave(least, -10));
+  if (size == "just-closed") return closing * (1 + random.octave(least, -10));
+  return closing * random.octave(-18, -4);
 }
 
 // F_(n+1) u_1 + F_n u_2
@@ -44,26 +40,21 @@ IntVec golden(Random& random, NumberFormat precision) {
 Vec flat_direction(Random& random, NumberFormat precision, const Lattice& lattice, const IntVec& g,
                    const IntVec& next, std::vector<std::string>& tags) {
   const int missing = missing_bits(precision);
-  switch (drawn_tag(random, tags, {"ulps-off-rational", "neighbours", "huge-quotient", "golden"})) {
-    case 0: {
-      Vec v = scaled(cartesian(lattice, g), random.whole(1, 99));
-      jitter(random, v, 2, 3, precision);
-      return v;
-    }
-    case 1: {
-      const std::int64_t n = random.integer(1, std::int64_t{1} << random.integer(2, 44 - missing));
-      return cartesian(lattice, {n * g[0] + next[0], n * g[1] + next[1], 0});
-    }
-    case 2: {
-      const double drift = random.octave(-52 + missing, -8) * random.sign();
-      return plus(cartesian(lattice, g), drift, cartesian(lattice, next));
-    }
-    default: {
-      Vec v = cartesian(lattice, golden(random, precision));
-      jitter(random, v, 2, 2, precision);
-      return v;
-    }
+  const std::string_view kind =
+      drawn_tag(random, tags, {"ulps-off-rational", "neighbours", "huge-quotient", "golden"});
+  if (kind == "neighbours") {
+    const std::int64_t n = random.integer(1, std::int64_t{1} << random.integer(2, 44 - missing));
+    return cartesian(lattice, {n * g[0] + next[0], n * g[1] + next[1], 0});
   }
+  if (kind == "huge-quotient") {
+    const double drift = random.octave(-52 + missing, -8) * random.sign();
+    return plus(cartesian(lattice, g), drift, cartesian(lattice, next));
+  }
+  const bool golden_mean = kind == "golden";
+  Vec v = golden_mean ? cartesian(lattice, golden(random, precision))
+                      : scaled(cartesian(lattice, g), random.whole(1, 99));
+  jitter(random, v, 2, golden_mean ? 2 : 3, precision);
+  return v;
 }
 
 void make_flat(Source& source, Case& made) {

@@ -106,11 +106,16 @@ void ellipse(Source& source, Case& made) {
 }
 
 void make_never(Source& source, Case& made) {
-  static constexpr void (*kKinds[])(Source&, Case&) = {corridor, plane,         cylinder,
-                                                       motif,    superposition, ellipse};
+  static constexpr struct {
+    const char* tag;
+    void (*make)(Source&, Case&);
+  } kKinds[] = {{"corridor", corridor},           {"plane", plane},
+                {"cylinder", cylinder},           {"motif", motif},
+                {"superposition", superposition}, {"ellipse", ellipse}};
+  const auto& [tag, make] = kKinds[source.scene.below(6)];
+  made.tags.emplace_back(tag);
+  make(source, made);
   Random& random = source.random;
-  kKinds[drawn_tag(source.scene, made.tags,
-                   {"corridor", "plane", "cylinder", "motif", "superposition", "ellipse"})](source, made);
   Vec& v = made.query.v;
   v = scaled(v, std::ldexp(random.sign(), random.exponent(-6, 6)));
   if (tagged(made.tags, random.one_in(4), "neighbour")) {

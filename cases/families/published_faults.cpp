@@ -97,21 +97,21 @@ Query along_axis(Random& random, const Scene& scene) {
 void make_published(Source& source, Case& made) {
   if (source.index < kExampleCount) return example(source.index, source.precision, made);
   Random &drawn = source.scene, &random = source.random;
-  const std::uint64_t kind = drawn_tag(
+  const std::string_view kind = drawn_tag(
       drawn, made.tags,
       {"skipped-disc", "skipped-disc", "endless-channel", "slow-drift", "late-sphere", "along-axis"});
-  const double r = kind == 2   ? drawn.octave(-6, -4)
-                   : kind == 3 ? drawn.octave(source.is_wide() ? -24 : -16, -6)
-                               : drawn.between(0.05, kind == 4 ? 0.3 : 0.2);
-  made.scene = unit_scene(kind == 4 || (kind == 5 && drawn.one_in(2)) ? 3 : 2, r);
-  if (kind == 3)
-    made.query = {{0, random.between(0.26, 0.45)}, {1, r * random.between(2.1, 3)}, {}};
-  else
-    made.query = kind < 2    ? skipped_disc(random, source.precision, r)
-                 : kind == 2 ? endless_channel(random, r)
-                 : kind == 4 ? late_sphere(random, made.scene)
-                             : along_axis(random, made.scene);
-  made.query = Symmetry(random, made.scene.dimension)(made.query);
+  const double r = kind == "endless-channel" ? drawn.octave(-6, -4)
+                   : kind == "slow-drift"    ? drawn.octave(source.is_wide() ? -24 : -16, -6)
+                                             : drawn.between(0.05, kind == "late-sphere" ? 0.3 : 0.2);
+  const bool in_space = kind == "late-sphere" || (kind == "along-axis" && drawn.one_in(2));
+  made.scene = unit_scene(in_space ? 3 : 2, r);
+  Query& query = made.query;
+  if (kind == "skipped-disc") query = skipped_disc(random, source.precision, r);
+  if (kind == "endless-channel") query = endless_channel(random, r);
+  if (kind == "slow-drift") query = {{0, random.between(0.26, 0.45)}, {1, r * random.between(2.1, 3)}, {}};
+  if (kind == "late-sphere") query = late_sphere(random, made.scene);
+  if (kind == "along-axis") query = along_axis(random, made.scene);
+  query = Symmetry(random, made.scene.dimension)(query);
 }
 
 }  // namespace

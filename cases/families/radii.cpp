@@ -36,25 +36,20 @@ void make_large(Source& source, Case& made) {
   const double covering = std::sqrt(dimension) / 2;
   const bool is_wide = source.is_wide();
   double r = 0.5, period = 1;  // of the second vector
-  switch (drawn_tag(drawn, made.tags, {"touching", "overlapping", "pocket", "covering", "elongated"})) {
-    case 0:
-      r = drawn.one_in(2) ? moved(0.5, drawn.integer(-3, 3), source.precision)
-                          : 0.5 * (1 + drawn.octave(is_wide ? -40 : -20, -4) * drawn.sign());
-      break;
-    case 1:
-      r = drawn.between(0.5, dimension == 2 ? 0.6 : std::sqrt(0.5));
-      break;
-    case 2:
-      r = covering * (1 - drawn.octave(-20, -3));
-      break;
-    case 3:
-      r = drawn.one_in(2) ? moved(covering, drawn.integer(-4, 4), source.precision)
-          : is_wide       ? covering * (1 - drawn.octave(-41, -30))
-                          : covering * (1 - drawn.octave(-20, -14));
-      break;
-    default:
-      r = dimension == 2 ? drawn.octave(1, 5) * 1.5 : drawn.octave(0, 2);
-      period = 2 * r * (1 + drawn.octave(-12, 0));
+  const std::string_view size =
+      drawn_tag(drawn, made.tags, {"touching", "overlapping", "pocket", "covering", "elongated"});
+  if (size == "touching")
+    r = drawn.one_in(2) ? moved(0.5, drawn.integer(-3, 3), source.precision)
+                        : 0.5 * (1 + drawn.octave(is_wide ? -40 : -20, -4) * drawn.sign());
+  if (size == "overlapping") r = drawn.between(0.5, dimension == 2 ? 0.6 : std::sqrt(0.5));
+  if (size == "pocket") r = covering * (1 - drawn.octave(-20, -3));
+  if (size == "covering")
+    r = drawn.one_in(2) ? moved(covering, drawn.integer(-4, 4), source.precision)
+        : is_wide       ? covering * (1 - drawn.octave(-41, -30))
+                        : covering * (1 - drawn.octave(-20, -14));
+  if (size == "elongated") {
+    r = dimension == 2 ? drawn.octave(1, 5) * 1.5 : drawn.octave(0, 2);
+    period = 2 * r * (1 + drawn.octave(-12, 0));
   }
   made.scene = unit_scene(dimension, r);
   made.scene.lattices[0].vectors[1][1] = period;

@@ -63,26 +63,22 @@ void make_case(Source& source, Case& made) {
   const double reach = atom.is_ball() ? atom.radius : length(atom.semiaxes[0]);
   const Vec direction = random.direction(dimension);
   made.query = {plus(target, -reach * random.octave(1, 12), direction), direction, {}};
-  switch (drawn_tag(random, made.tags, {"aimed", "away", "along", "leaving", "edge"})) {
-    case 0:
-      break;
-    case 1:
-      made.query.v = random.direction(dimension);
-      break;
-    case 2:
-      made.query.v = along(random, source.precision, lattice, dimension);
-      made.query.x = sum(target, scaled(random.direction(dimension), reach * random.between(1, 3)));
-      break;
-    case 3:
-      made.query.from = obstacle(cell, static_cast<int>(&atom - lattice.atoms.data()));
-      made.query.x = plus(target, reach, direction);
-      made.query.v = random.one_in(2) ? along(random, source.precision, lattice, dimension)
-                                      : random.direction(dimension);
-      break;
-    default:
-      made.query.x = sum(made.query.x, scaled(random.direction(dimension), reach * random.between(0.1, 0.9)));
-      move_to_edge([&] { return drawn_off_edge(random, source.precision); }, made.scene,
-                   oracle_of(made.scene), made.query, source.precision);
+  Vec &x = made.query.x, &v = made.query.v;
+  const std::string_view way = drawn_tag(random, made.tags, {"aimed", "away", "along", "leaving", "edge"});
+  if (way == "away") v = random.direction(dimension);
+  if (way == "along") {
+    v = along(random, source.precision, lattice, dimension);
+    x = sum(target, scaled(random.direction(dimension), reach * random.between(1, 3)));
+  }
+  if (way == "leaving") {
+    made.query.from = obstacle(cell, static_cast<int>(&atom - lattice.atoms.data()));
+    x = plus(target, reach, direction);
+    v = random.one_in(2) ? along(random, source.precision, lattice, dimension) : random.direction(dimension);
+  }
+  if (way == "edge") {
+    x = sum(x, scaled(random.direction(dimension), reach * random.between(0.1, 0.9)));
+    move_to_edge([&] { return drawn_off_edge(random, source.precision); }, made.scene, oracle_of(made.scene),
+                 made.query, source.precision);
   }
 }
 

@@ -20,15 +20,13 @@ constexpr double kTinyFlat = 1e-12, kTinySolid = 1e-7;
 
 void set_limit_radius(Random& drawn, NumberFormat precision, Case& made) {
   const double tiny = made.scene.dimension == 2 ? kTinyFlat : kTinySolid;
-  switch (drawn_tag(drawn, made.tags, {"tiny-radius", "half-radius", "ordinary-radius"})) {
-    case 0:
-      return set_radius(made.scene, moved(tiny, drawn.integer(-2, 2), precision) *
-                                        (drawn.one_in(2) ? 1 : drawn.between(1, 10)));
-    case 1:
-      return set_radius(made.scene, moved(0.5, drawn.integer(-2, 2), precision));
-    default:
-      return set_radius(made.scene, drawn.octave(-10, -1));
-  }
+  const std::string_view size =
+      drawn_tag(drawn, made.tags, {"tiny-radius", "half-radius", "ordinary-radius"});
+  if (size == "tiny-radius")
+    return set_radius(made.scene, moved(tiny, drawn.integer(-2, 2), precision) *
+                                      (drawn.one_in(2) ? 1 : drawn.between(1, 10)));
+  set_radius(made.scene,
+             size == "half-radius" ? moved(0.5, drawn.integer(-2, 2), precision) : drawn.octave(-10, -1));
 }
 
 void set_velocity(Source& source, int dimension, Case& made) {
@@ -37,19 +35,15 @@ void set_velocity(Source& source, int dimension, Case& made) {
   const int subnormal_bits = is_wide ? 30 : 20, smallest = is_wide ? -1074 : -149;
   Vec& v = made.query.v;
   v = random.direction(dimension);
-  switch (drawn_tag(random, made.tags,
-                    {"subnormal-velocity", "huge-velocity", "uneven-velocity", "unit-velocity"})) {
-    case 0:
-      for (double& component : v)
-        component = std::ldexp(std::round(std::ldexp(component, subnormal_bits)), smallest);
-      break;
-    case 1:
-      v = scaled(v, is_wide ? random.octave(1000, 1023) : random.octave(110, 127));
-      break;
-    case 2: {
-      double& component = v[random.axis(dimension)];
-      component = std::ldexp(component, -random.exponent(1, is_wide ? 1060 : 135));
-    }
+  const std::string_view kind = drawn_tag(
+      random, made.tags, {"subnormal-velocity", "huge-velocity", "uneven-velocity", "unit-velocity"});
+  if (kind == "subnormal-velocity")
+    for (double& component : v)
+      component = std::ldexp(std::round(std::ldexp(component, subnormal_bits)), smallest);
+  if (kind == "huge-velocity") v = scaled(v, is_wide ? random.octave(1000, 1023) : random.octave(110, 127));
+  if (kind == "uneven-velocity") {
+    double& component = v[random.axis(dimension)];
+    component = std::ldexp(component, -random.exponent(1, is_wide ? 1060 : 135));
   }
   if (v == Vec{}) v[0] = std::ldexp(1, smallest);
 }

@@ -60,15 +60,9 @@ void make_crystal(Source& source, Case& made) {
   const Crystal& crystal = crystals()[which];
   made.scene = crystal.scene;
   made.tags = {std::string(crystal.name)};
-  switch ((turn / crystals().size() + which) % 3) {
-    case 0:
-      break;
-    case 1:
-      scale_obstacles(made.scene, source.scene.between(0.1, 1.1));
-      break;
-    default:
-      scale_obstacles(made.scene, source.scene.octave(-13, -3));
-  }
+  const std::uint64_t size = (turn / crystals().size() + which) % 3;
+  if (size > 0)
+    scale_obstacles(made.scene, size == 1 ? source.scene.between(0.1, 1.1) : source.scene.octave(-13, -3));
   set_query(source, made);
 }
 
@@ -90,23 +84,21 @@ void make_superposition(Source& source, Case& made) {
   made.scene = unit_scene(dimension, r);
   auto& lattices = made.scene.lattices;
   Lattice other = lattices[0];
-  switch (drawn_tag(drawn, made.tags, {"turned", "three-lattices", "incommensurate", "shifted"})) {
-    case 0:
-      other = turned(dimension, drawn.one_in(2), drawn.axis(3), r);
-      break;
-    case 1:
-      other = turned(dimension, false, 1, r);
-      lattices.push_back(turned(dimension, true, 0, r));
-      break;
-    case 2: {
-      const double spacing = drawn.between(0.6, 1.7);
-      for (Vec& vector : other.vectors) vector = scaled(vector, spacing);
-      other.atoms[0].radius = r * drawn.between(0.3, 3);
-      break;
-    }
-    default:
-      for (int i = 0; i < dimension; ++i) other.atoms[0].position[i] = drawn.uniform();
-      if (drawn.one_in(2)) other.vectors[0] = scaled(other.vectors[0], 1.5);
+  const std::string_view kind =
+      drawn_tag(drawn, made.tags, {"turned", "three-lattices", "incommensurate", "shifted"});
+  if (kind == "turned") other = turned(dimension, drawn.one_in(2), drawn.axis(3), r);
+  if (kind == "three-lattices") {
+    other = turned(dimension, false, 1, r);
+    lattices.push_back(turned(dimension, true, 0, r));
+  }
+  if (kind == "incommensurate") {
+    const double spacing = drawn.between(0.6, 1.7);
+    for (Vec& vector : other.vectors) vector = scaled(vector, spacing);
+    other.atoms[0].radius = r * drawn.between(0.3, 3);
+  }
+  if (kind == "shifted") {
+    for (int i = 0; i < dimension; ++i) other.atoms[0].position[i] = drawn.uniform();
+    if (drawn.one_in(2)) other.vectors[0] = scaled(other.vectors[0], 1.5);
   }
   lattices.push_back(std::move(other));
   tagged(made.tags, dimension == 3, "space");

@@ -128,24 +128,14 @@ Ray far_origin(Random& random, const RayRange& range, int dimension, double w) {
 
 Ray ray_beside(Random& random, const RayRange& range, int dimension, const Touching& touching) {
   const double w = touching.w;
-  switch (random.below(10)) {
-    case 0:
-      return plain(random, dimension, w);
-    case 1:
-    case 2:
-      return past_edge(random, range, dimension, w, false);
-    case 3:
-      return tangent(random, range, touching);
-    case 4:
-    case 5:
-      return at_surface(random, range, dimension, touching);
-    case 6:
-      return from_inside(random, range, dimension, w);
-    case 7:
-      return past_edge(random, range, dimension, w, true);
-    default:
-      return far_origin(random, range, dimension, w);
-  }
+  const std::uint64_t kind = random.below(10);
+  if (kind == 0) return plain(random, dimension, w);
+  if (kind <= 2) return past_edge(random, range, dimension, w, false);
+  if (kind == 3) return tangent(random, range, touching);
+  if (kind <= 5) return at_surface(random, range, dimension, touching);
+  if (kind == 6) return from_inside(random, range, dimension, w);
+  if (kind == 7) return past_edge(random, range, dimension, w, true);
+  return far_origin(random, range, dimension, w);
 }
 
 // Does b^2 - a c, of the quadratic a t^2 + 2 b t + c, lose half of its bits or more?
