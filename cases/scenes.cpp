@@ -20,23 +20,19 @@ constexpr std::array<Vec, 3> kBcc{Vec{-0.5, 0.5, 0.5}, Vec{0.5, -0.5, 0.5}, Vec{
 constexpr std::array<Vec, 3> kHexagonal{Vec{1, 0, 0}, Vec{-0.5, kRoot3Half, 0}, Vec{0, 0, 1.632993161855452}};
 constexpr std::array<Vec, 3> kTriclinic{Vec{1, 0, 0}, Vec{0.25, 1, 0}, Vec{-0.125, 0.25, 1.125}};
 
-std::vector<Crystal> flat() {
-  const Vec middle{0.5, 0.28867513459481287};
-  return {
+}  // namespace
+
+const std::vector<Crystal>& crystals() {
+  const Vec middle{0.5, 0.5, 0.5}, quarter{0.25, 0.25, 0.25};
+  static const std::vector<Crystal> all{
       {"square", crystal(2, kSquare, {ball({}, 0.1)})},
       {"rectangular", crystal(2, {Vec{1, 0}, Vec{0, 1.5}, Vec{}}, {ball({}, 0.4)})},
       {"oblique", crystal(2, {Vec{1, 0}, Vec{0.25, 1.25}, Vec{}}, {ball({}, 0.4)})},
       {"triangular", crystal(2, kTriangular, {ball({}, 0.45)})},
       {"hexagonal", crystal(2, {Vec{1, 0}, Vec{-0.5, kRoot3Half}, Vec{}}, {ball({}, 0.4)})},
-      {"honeycomb", crystal(2, kTriangular, {ball({}, 0.23), ball(middle, 0.23)})},
+      {"honeycomb", crystal(2, kTriangular, {ball({}, 0.23), ball({0.5, 0.28867513459481287}, 0.23)})},
       {"kagome",
        crystal(2, kTriangular, {ball({}, 0.2), ball({0.5, 0}, 0.2), ball({0.25, 0.4330127018922193}, 0.2)})},
-  };
-}
-
-std::vector<Crystal> solid() {
-  const Vec middle{0.5, 0.5, 0.5}, quarter{0.25, 0.25, 0.25};
-  return {
       {"cubic", crystal(3, kCubic, {ball({}, 0.1)})},
       {"bcc", crystal(3, kBcc, {ball({}, 0.35)})},
       {"fcc", crystal(3, kFcc, {ball({}, 0.28)})},
@@ -51,24 +47,14 @@ std::vector<Crystal> solid() {
                               ball({0, 0.5, 0}, 0.25), ball({0, 0, 0.5}, 0.25)})},
       {"triclinic", crystal(3, kTriclinic, {ball({}, 0.4)})},
   };
-}
-
-}  // namespace
-
-const std::vector<Crystal>& crystals() {
-  static const std::vector<Crystal> all = [] {
-    std::vector<Crystal> both = flat();
-    for (Crystal& crystal : solid()) both.push_back(std::move(crystal));
-    return both;
-  }();
   return all;
 }
 
 const Crystal& drawn_crystal(Random& random, int dimension) {
-  static const std::uint64_t count = flat().size();
-  const std::uint64_t first = dimension == 2 ? 0 : count,
-                      number = dimension == 2 ? count : crystals().size() - count;
-  return crystals()[first + random.below(number)];
+  std::vector<const Crystal*> some;
+  for (const Crystal& crystal : crystals())
+    if (crystal.scene.dimension == dimension) some.push_back(&crystal);
+  return *some[random.below(some.size())];
 }
 
 Scene lattice_scene(int dimension, const std::array<Vec, 3>& vectors, double radius) {

@@ -50,6 +50,14 @@ DrawnLine line_of(const DrawnFlight& flight, double longest, double cell) {
   return line;
 }
 
+Placed placed(const Scene& scene, const ObstacleId& id) {
+  const Lattice& lattice = scene.lattices[id.lattice];
+  Vec centre = lattice.atoms[id.atom].position;
+  for (int i = 0; i < scene.dimension; ++i)
+    centre = plus(centre, std::strtod(id.cell[i].decimal().c_str(), nullptr), lattice.vectors[i]);
+  return {id.lattice, id.atom, centre};
+}
+
 }  // namespace
 
 std::vector<DrawnLine> lines_of(const Scene& scene, const std::vector<DrawnFlight>& flights,
@@ -84,18 +92,6 @@ std::vector<DrawnLine> lines_in_window(const Scene& scene, const std::vector<Dra
     lines.push_back(line_of(flight, kFar * cell_size(scene), cell_size(scene)));
   return lines;
 }
-
-namespace {
-
-Placed placed(const Scene& scene, const ObstacleId& id) {
-  const Lattice& lattice = scene.lattices[id.lattice];
-  Vec centre = lattice.atoms[id.atom].position;
-  for (int i = 0; i < scene.dimension; ++i)
-    centre = plus(centre, std::strtod(id.cell[i].decimal().c_str(), nullptr), lattice.vectors[i]);
-  return {id.lattice, id.atom, centre};
-}
-
-}  // namespace
 
 std::vector<Placed> hits_of(const Scene& scene, const std::vector<DrawnLine>& lines) {
   std::vector<Placed> hits;

@@ -81,6 +81,12 @@ std::size_t longest_label(const Scene& scene, const DrawOptions& options, const 
   return longest;
 }
 
+constexpr double kLegendGap = 14, kBottomMargin = 6;
+
+double title_height(const DrawOptions& options) {
+  return options.title.empty() ? kMargin / 2 : 40;
+}
+
 }  // namespace
 
 double add_legend(Svg& svg, const Scene& scene, const DrawOptions& options, const Legend& legend,
@@ -113,16 +119,6 @@ double add_legend(Svg& svg, const Scene& scene, const DrawOptions& options, cons
   }
   return bottom;
 }
-
-namespace {
-
-constexpr double kLegendGap = 14, kBottomMargin = 6;
-
-double title_height(const DrawOptions& options) {
-  return options.title.empty() ? kMargin / 2 : 40;
-}
-
-}  // namespace
 
 Page::Page(const Scene& scene, const DrawOptions& options, const Legend& legend, double tallest)
     : top(title_height(options)), width(options.width - 2 * kMargin), height(tallest * options.width / 800) {

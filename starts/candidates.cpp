@@ -32,6 +32,18 @@ bool in_range(const Scene& scene, const cases::Box& box) {
   return size + largest < 0x1p1000;
 }
 
+// The relative surface of each atom, lattice by lattice: per volume, or per period of each lattice if the
+// lattices repeat in fewer directions. Empty if the values are beyond the range of binary64.
+std::vector<double> surfaces_of(const Scene& scene) {
+  std::vector<double> surfaces;
+  if (!is_crystal(scene)) {
+    for_each_atom(scene, [&](const Atom& atom) { surfaces.push_back(surface_of(atom, scene.dimension)); });
+  } else if (const auto shares = shares_of(scene)) {
+    for (const AtomShares::AtomShare& share : shares->atoms) surfaces.push_back(share.surface);
+  }
+  return surfaces;
+}
+
 }  // namespace
 
 void StartColumns::resize(std::size_t count, int dimension, bool with_from) {
@@ -70,22 +82,6 @@ Candidates::Candidates(const Scene& scene, Ensemble ensemble, std::uint64_t seed
         "the scene's numbers are too large for starts to be drawn; choose a larger unit of length");
   if (ensemble == Ensemble::surface) choose_by_surface(scene);
 }
-
-namespace {
-
-// The relative surface of each atom, lattice by lattice: per volume, or per period of each lattice if the
-// lattices repeat in fewer directions. Empty if the values are beyond the range of binary64.
-std::vector<double> surfaces_of(const Scene& scene) {
-  std::vector<double> surfaces;
-  if (!is_crystal(scene)) {
-    for_each_atom(scene, [&](const Atom& atom) { surfaces.push_back(surface_of(atom, scene.dimension)); });
-  } else if (const auto shares = shares_of(scene)) {
-    for (const AtomShares::AtomShare& share : shares->atoms) surfaces.push_back(share.surface);
-  }
-  return surfaces;
-}
-
-}  // namespace
 
 // One random word chooses the obstacle. Each obstacle gets its share of the words, in steps of 2^-40 of the
 // largest share, because the last bits of elliptic integrals differ between machines.
