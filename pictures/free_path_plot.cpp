@@ -9,7 +9,7 @@ namespace lorentz::pictures {
 namespace {
 
 // Colours that colour-blind people can tell apart (after Okabe & Ito), and dark enough for thin lines.
-constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#aa4499", "#7a5c00", "#444444"};
+constexpr const char* kSeriesColours[] = {"#0072b2", "#d55e00", "#009e73", "#aa4499", "#7a5c00", "#444444"};
 constexpr const char* kGrey = "#777777";
 constexpr double kLetterSize = 20;  // font size, so that it is 10 at half the width
 constexpr double kAdvance = 0.56;   // approximate width of a letter, in font sizes
@@ -21,7 +21,7 @@ std::size_t letters_in(const std::string& text) {
 }
 
 const char* colour_of(int series) {
-  return series < 0 ? kGrey : kColours[static_cast<std::size_t>(series) % std::size(kColours)];
+  return series < 0 ? kGrey : kSeriesColours[static_cast<std::size_t>(series) % std::size(kSeriesColours)];
 }
 
 // The smallest of 1, 2, 5, 10, 20, .. that is `least` or more.
@@ -278,7 +278,7 @@ LegendBox legend_box(const Frame& frame, const FreePathPlot& plot) {
   return {best, {best.x + width, best.y + height}};
 }
 
-void add_legend(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
+void add_plot_legend(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
   const LegendBox box = legend_box(frame, plot);
   const double left = box.low.x;
   svg.rectangle(box.low, box.high, "fill=\"white\" fill-opacity=\"0.85\" stroke=\"#bbbbbb\"");
@@ -323,7 +323,7 @@ std::string draw_free_paths(const FreePathPlot& plot) {
   add_axes(svg, frame, plot);
   for (const PlotCurve& curve : plot.curves) add_curve(svg, frame, curve);
   for (std::size_t i = 0; i < plot.series.size(); ++i) add_series(svg, frame, plot.series[i], i);
-  add_legend(svg, frame, plot);
+  add_plot_legend(svg, frame, plot);
   if (!plot.title.empty())
     add_words(svg, {frame.left, 33}, plot.title, 22, frame.right - frame.left, "font-weight=\"bold\"");
   if (!plot.note.empty())

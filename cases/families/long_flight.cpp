@@ -15,7 +15,7 @@
 namespace lorentz::cases {
 namespace {
 
-double drift(Random& random, NumberFormat precision) {
+double drawn_drift(Random& random, NumberFormat precision) {
   const int k = random.exponent(8, precision == NumberFormat::binary64 ? 100 : 46);
   return random.sign() * (random.one_in(2) ? std::ldexp(1, -k) : random.octave(-k, -k + 1));
 }
@@ -44,7 +44,7 @@ void make_long(Source& source, Case& made) {
     const double r = drawn.one_in(3) ? 0.5 * (1 - drawn.octave(least, -4)) : drawn.between(0.01, 0.39);
     made.scene = lattice_scene(2, vectors, r);
     x[1] = random.whole(-2, 2) + 0.5 + (0.5 - r) * 0.9 * random.between(-1, 1);
-    v = {random.sign(), drift(random, source.precision)};
+    v = {random.sign(), drawn_drift(random, source.precision)};
   } else if (kind == 2) {
     made.tags.push_back("plane-drift");
     const double r = drawn.one_in(3) ? 0.5 * (1 - drawn.octave(least, -4)) : drawn.between(0.01, 0.49);
@@ -52,15 +52,15 @@ void make_long(Source& source, Case& made) {
     x[1] = random.uniform();
     x[2] = 0.5 + (0.5 - r) * 0.9 * random.between(-1, 1);
     v = {random.sign(), random.one_in(3) ? std::ldexp(random.whole(-16, 16), -4) : random.between(-1, 1),
-         drift(random, source.precision)};
+         drawn_drift(random, source.precision)};
   } else {
     made.tags.push_back("cylinder-drift");
     const double r = drawn.between(0.5, 0.7), room = (std::sqrt(0.5) - r) * 0.6;
     made.scene = unit_scene(3, r);
     x[1] = 0.5 + room * random.between(-1, 1);
     x[2] = 0.5 + room * random.between(-1, 1);
-    v = {random.sign(), drift(random, source.precision),
-         random.one_in(3) ? 0.0 : drift(random, source.precision)};
+    v = {random.sign(), drawn_drift(random, source.precision),
+         random.one_in(3) ? 0.0 : drawn_drift(random, source.precision)};
   }
   if (random.one_in(3)) v = scaled(v, random.octave(-20, 20));
 }

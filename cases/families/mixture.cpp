@@ -14,7 +14,7 @@ namespace lorentz::cases {
 namespace {
 
 // Semiaxes along a drawn frame in the plane of the first two axes, the third upright.
-Atom drawn_obstacle(Random& drawn, int dimension, double size) {
+Atom mixed_obstacle(Random& drawn, int dimension, double size) {
   Atom atom;
   for (int i = 0; i < dimension; ++i) atom.position[i] = drawn.one_in(2) ? 0 : drawn.uniform();
   if (drawn.one_in(2)) {
@@ -35,9 +35,9 @@ Lattice drawn_lattice(Random& drawn, int dimension, bool many_cells) {
   for (Vec& vector : lattice.vectors) vector = scaled(vector, spacing);
   lattice.atoms.clear();
   for (std::int64_t n = drawn.integer(1, 3); n > 0; --n)
-    lattice.atoms.push_back(drawn_obstacle(drawn, dimension, drawn.octave(-9, -3)));
+    lattice.atoms.push_back(mixed_obstacle(drawn, dimension, drawn.octave(-9, -3)));
   if (many_cells)
-    lattice.atoms[0] = drawn_obstacle(drawn, dimension, drawn.octave(0, dimension == 2 ? 3 : 1));
+    lattice.atoms[0] = mixed_obstacle(drawn, dimension, drawn.octave(0, dimension == 2 ? 3 : 1));
   return lattice;
 }
 

@@ -108,7 +108,7 @@ void make_superposition(Source& source, Case& made) {
 }
 
 // Semiaxes along a drawn frame, `slender` times as long as wide.
-std::vector<Vec> drawn_semiaxes(Random& random, int dimension, double size, double slender) {
+std::vector<Vec> stretched_semiaxes(Random& random, int dimension, double size, double slender) {
   const auto [a, b, c] = drawn_frame(random, random.direction(dimension), dimension);
   std::vector<Vec> semiaxes{scaled(a, size), scaled(b, size / slender)};
   if (dimension == 3) semiaxes.push_back(scaled(c, random.one_in(2) ? size : size / slender));
@@ -124,13 +124,13 @@ void make_ellipsoid(Source& source, Case& made) {
   const double stretch = slender ? drawn.between(8, 100) : drawn.between(1.2, 4);
   const double size = drawn.one_in(3) ? drawn.octave(-12, -3) : drawn.between(0.1, 0.4);
   auto& atoms = made.scene.lattices[0].atoms;
-  auto semiaxes = drawn_semiaxes(drawn, dimension, size, stretch);
+  auto semiaxes = stretched_semiaxes(drawn, dimension, size, stretch);
   if (tagged(made.tags, drawn.one_in(3), "sheared-axes"))  // such semiaxes span an ellipsoid, too
     semiaxes[0] = plus(semiaxes[0], drawn.between(-2, 2), semiaxes[1]);
   atoms[0] = {atoms[0].position, 0, std::move(semiaxes)};
   if (tagged(made.tags, drawn.one_in(2), "mixed")) {
     const Vec middle = dimension == 2 ? Vec{0.5, 0.5} : Vec{0.5, 0.5, 0.5};
-    atoms.push_back({middle, 0, drawn_semiaxes(drawn, dimension, size * 0.7, drawn.between(1, 5))});
+    atoms.push_back({middle, 0, stretched_semiaxes(drawn, dimension, size * 0.7, drawn.between(1, 5))});
     atoms.push_back({Vec{0.5, 0, 0}, size * 0.3, {}});
   }
   set_query(source, made);
