@@ -14,15 +14,8 @@ using oracle::DecisionKind;
 using oracle::Verdict;
 
 const char* decision_name(DecisionKind kind) {
-  switch (kind) {
-    case DecisionKind::containing:
-      return "containing";
-    case DecisionKind::meeting:
-      return "meeting";
-    case DecisionKind::order:
-      break;
-  }
-  return "order";
+  constexpr const char* kNames[] = {"containing", "meeting", "order"};
+  return kNames[static_cast<int>(kind)];
 }
 
 const char* verdict_name(Verdict verdict) {
