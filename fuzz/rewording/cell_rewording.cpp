@@ -107,7 +107,7 @@ class Changing {
   // u_j *= factor.
   bool multiply(Random& random, std::int64_t factor) {
     const std::uint64_t j = random.below(rank_);
-    const auto product = exact_sum({}, {Z(static_cast<long>(factor)), 0, 0}, {vectors_[j], Vec{}, Vec{}});
+    const auto product = exact_sum({}, Z(static_cast<long>(factor)), vectors_[j]);
     if (!product) return false;
     vectors_[j] = *product;
     for (Z& entry : m_[j]) entry *= static_cast<long>(factor);
@@ -124,7 +124,7 @@ class Changing {
       column[k] += Z(static_cast<long>(c)) * m_[i][k];
       if (oracle::bit_length(column[k]) > kMostCellBits + 1) return false;
     }
-    const auto sum = exact_sum(vectors_[j], {Z(static_cast<long>(c)), 0, 0}, {vectors_[i], Vec{}, Vec{}});
+    const auto sum = exact_sum(vectors_[j], Z(static_cast<long>(c)), vectors_[i]);
     if (!sum) return false;
     vectors_[j] = *sum;
     m_[j] = std::move(column);

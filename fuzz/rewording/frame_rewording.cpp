@@ -23,6 +23,17 @@ void for_each_vector(TheScene& scene, const F& lengths, const F& positions) {
   }
 }
 
+Vec negated(Vec a) {
+  for (double& component : a) component = component == 0 ? 0.0 : -component;
+  return a;
+}
+
+// Sets x to its image, if that is made of binary64 values.
+bool set_if(Vec& x, const std::optional<Vec>& image) {
+  if (image) x = *image;
+  return image.has_value();
+}
+
 template <class T>
 void shuffle(Random& random, std::vector<T>& values) {
   for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[random.below(i)]);
@@ -68,11 +79,7 @@ class MovedScene final : public RewordingStep {
   explicit MovedScene(const Vec& by) : by_(by) {}
   std::string words() const override { return "scene moved"; }
   bool reword(Vec& x, Vec&) const override { return move(x); }
-  bool move(Vec& a) const {
-    const auto sum = exact_sum(a, {1, 0, 0}, {by_, Vec{}, Vec{}});
-    if (sum) a = *sum;
-    return sum.has_value();
-  }
+  bool move(Vec& a) const { return set_if(a, exact_sum(a, 1, by_)); }
 
  private:
   Vec by_;
@@ -80,13 +87,8 @@ class MovedScene final : public RewordingStep {
 
 // A translation that moves an atom to the origin, or one by numbers of few bits: in the cell, or far away.
 Vec drawn_translation(Random& random, const Scene& scene) {
-  Vec by{};
   const Lattice& lattice = scene.lattices[random.below(scene.lattices.size())];
-  if (random.one_in(3)) {
-    by = lattice.atoms[random.below(lattice.atoms.size())].position;
-    for (double& component : by) component = component == 0 ? 0.0 : -component;
-    return by;
-  }
+  if (random.one_in(3)) return negated(lattice.atoms[random.below(lattice.atoms.size())].position);
   const Atom& atom = lattice.atoms[0];
   const Vec size_of = lattice.rank(scene.dimension) > 0 ? lattice.vectors[0]
                       : atom.is_ball()                  ? Vec{atom.radius}
@@ -94,6 +96,7 @@ Vec drawn_translation(Random& random, const Scene& scene) {
   const int unit =
       std::ilogb(std::max({std::fabs(size_of[0]), std::fabs(size_of[1]), std::fabs(size_of[2])}));
   const int size = static_cast<int>(random.one_in(2) ? random.integer(-4, 4) : random.integer(5, 50));
+  Vec by{};
   for (int i = 0; i < scene.dimension; ++i)
     by[i] = std::ldexp(static_cast<double>(random.integer(-8, 8)), std::min(unit + size, 1000));
   return by;
@@ -105,40 +108,18 @@ class Scaled final : public RewordingStep {
  public:
   explicit Scaled(int exponent) : exponent_(exponent) {}
   std::string words() const override { return "lengths 2^" + std::to_string(exponent_); }
-  bool reword(Vec& x, Vec&) const override {
-    const auto product = exact_scaled(x, exponent_);
-    if (product) x = *product;
-    return product.has_value();
-  }
+  bool reword(Vec& x, Vec&) const override { return set_if(x, exact_scaled(x, exponent_)); }
   int time_exponent() const override { return exponent_; }
 
  private:
   int exponent_;
 };
 
-// The lowest and the highest bit of a scene's numbers.
-struct BitRange {
-  long lowest = std::numeric_limits<long>::max(), highest = std::numeric_limits<long>::min();
-  void see(double value) {
-    if (value == 0) return;
-    lowest = std::min(lowest, oracle::OddMantissa(value).exponent);
-    highest = std::max<long>(highest, std::ilogb(value));
-  }
-  void see(const Vec& a) {
-    for (const double component : a) see(component);
-  }
-};
-
 BitRange range_of(const Scene& scene) {
   BitRange range;
-  for (const Lattice& lattice : scene.lattices) {
-    for (int i = 0; i < scene.dimension; ++i) range.see(lattice.vectors[i]);
-    for (const Atom& atom : lattice.atoms) {
-      range.see(atom.radius);
-      range.see(atom.position);
-      for (const Vec& axis : atom.semiaxes) range.see(axis);
-    }
-  }
+  const auto see = [&](const Vec& a) { range.see(a); };
+  for_each_vector(scene, see, see);
+  for_each_atom(scene, [&](const Atom& atom) { range.see(atom.radius); });
   return range;
 }
 
@@ -211,11 +192,8 @@ double drawn_height(Random& random, int least) {
 
 std::vector<Vec> drawn_axes(Random& random, const std::vector<Vec>& axes) {
   std::vector<Vec> result;
-  for (const int k : drawn_order(random, axes.size())) {
-    result.push_back(axes[k]);
-    if (random.one_in(2))
-      for (double& component : result.back()) component = component == 0 ? 0.0 : -component;
-  }
+  for (const int k : drawn_order(random, axes.size()))
+    result.push_back(random.one_in(2) ? negated(axes[k]) : axes[k]);
   return result;
 }
 
@@ -245,24 +223,16 @@ std::unique_ptr<RewordingStep> draw_scaled(Random& random, Scene& scene) {
   const BitRange range = range_of(scene);
   // least <= 0 <= most, because the numbers are binary64 values as they are.
   const long least = kLeastExponent - range.lowest, most = kLargestExponent - range.highest;
-  long exponent = random.integer(least, most);
-  switch (random.below(4)) {
-    case 0:
-      exponent = least + static_cast<long>(random.below(4));
-      break;
-    case 1:
-      exponent = most - static_cast<long>(random.below(4));
-      break;
-    case 2:
-      exponent = static_cast<long>(random.integer(-8, 8));
-      break;
-    default:
-      break;
-  }
-  exponent = std::clamp(exponent, least, most);
+  const std::int64_t anywhere = random.integer(least, most);
+  const std::uint64_t kind = random.below(4);
+  const long drawn = kind == 0   ? least + static_cast<long>(random.below(4))
+                     : kind == 1 ? most - static_cast<long>(random.below(4))
+                     : kind == 2 ? static_cast<long>(random.integer(-8, 8))
+                                 : static_cast<long>(anywhere);
+  const auto exponent = static_cast<int>(std::clamp(drawn, least, most));
   if (exponent == 0) return nullptr;
-  scale_scene(scene, static_cast<int>(exponent));
-  return std::make_unique<Scaled>(static_cast<int>(exponent));
+  scale_scene(scene, exponent);
+  return std::make_unique<Scaled>(exponent);
 }
 
 std::unique_ptr<RewordingStep> draw_order(Random& random, Scene& scene) {
