@@ -143,7 +143,9 @@ class FreeJsonWriter {
   bool blanks_, shuffles_, escapes_;
 };
 
-StreamItem read_here(const std::string& line, const Scene* scene) {
+}  // namespace
+
+StreamItem read_line(const std::string& line, const Scene* scene) {
   static thread_local ExchangeReader reader;
   const std::string padded = line + std::string(LineReader::kPadding, ' ');
   StreamItem item;
@@ -151,15 +153,10 @@ StreamItem read_here(const std::string& line, const Scene* scene) {
   return item;
 }
 
-}  // namespace
-
 std::optional<Misreading> misreading(Random& random, const Scene& scene, const Query& query,
-                                     const ReadLine& reader) {
+                                     const ReadLine& read) {
   FreeJsonWriter writer(random);
   const std::string scene_line = writer.scene_line(scene), query_line = writer.query_line(query, scene);
-  const auto read = [&](const std::string& line, const Scene* known) {
-    return reader ? reader(line, known) : read_here(line, known);
-  };
   const StreamItem first = read(scene_line, nullptr);
   if (first.kind != StreamItem::Kind::scene || first.scene != scene)
     return Misreading{writer.notation(), scene_line};
