@@ -52,11 +52,7 @@ Examined Examiner::judge(const Question& question, Reply& reply, bool is_carried
     own.exact = std::move(*exact_here);
     return judge_exact(own, reply);
   }
-  Examined contradiction;
-  contradiction.kind = Kind::error;
-  contradiction.given = question.exact;
-  contradiction.exact = place_->exact(question.query);
-  return contradiction;
+  return {.kind = Kind::error, .given = question.exact, .exact = place_->exact(question.query)};
 }
 
 Examined Examiner::judge_exact(const Question& question, Reply& reply) {
