@@ -1,9 +1,6 @@
 // Counts of large numbers of free flights, and the laws of theory for them.
-#include <algorithm>
-#include <atomic>
-
-#include <lorentz/exchange.hpp>
 #include "python/engine.hpp"
+#include "python/signals.hpp"
 #include "starts/free_starts.hpp"
 #include "statistics/flights/findings.hpp"
 #include "statistics/flights/run.hpp"
@@ -14,21 +11,6 @@ namespace {
 template <class Number>
 py::array_t<Number> numpy_array(const std::vector<Number>& numbers) {
   return py::array_t<Number>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
-}
-
-// Flies while other Python threads run. Ctrl-C ends it.
-void fly(const flights::FlightsPlan& plan, unsigned jobs, flights::Account& account) {
-  std::atomic<bool> stop = false;
-  flights::FlightBounds bounds;
-  bounds.jobs = jobs, bounds.stop = &stop;
-  {
-    const py::gil_scoped_release release;
-    flights::run(plan, bounds, account, [&](const flights::Account&) {
-      const py::gil_scoped_acquire gil;
-      if (!stop && PyErr_CheckSignals() != 0) stop = true;
-    });
-  }
-  if (PyErr_Occurred()) throw py::error_already_set();
 }
 
 // The report of `lorentz flights --json`, and its counts: bins, and paths beyond each edge.
@@ -42,7 +24,11 @@ py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::strin
   report.plan.from = starts::ensemble_named(start, "start");
   report.plan.seed = seed, report.plan.count = count;
   report.account = flights::Account::begun(report.plan);
-  fly(report.plan, jobs, report.account);
+  found_by([&](std::atomic<bool>& stop) {
+    flights::FlightBounds bounds;
+    bounds.jobs = jobs, bounds.stop = &stop;
+    flights::run(report.plan, bounds, report.account);
+  });
   const flights::FlightsFindings found(report);
   return py::make_tuple(report.json(), numpy_array(found.edges), numpy_array(found.counts),
                         numpy_array(found.beyond));

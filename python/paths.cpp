@@ -15,8 +15,6 @@
 namespace lorentz::python {
 namespace {
 
-constexpr double kForEver = std::numeric_limits<double>::infinity();
-
 // ---- Particles
 
 // The collisions of C that are kept: every k-th, or only the last (k = 0).
@@ -129,10 +127,6 @@ std::shared_ptr<Paths> follow(const PyScene& scene, const QueryArrays& arrays, K
 
 // ---- Itineraries
 
-py::list texts(const std::vector<std::string>& numbers) {
-  return py::cast(numbers);
-}
-
 py::dict itinerary(const PyScene& scene, const std::string& start, std::optional<std::uint64_t> collisions,
                    const std::optional<std::string>& time, int digits, bool states, long most_bits) {
   oracle::Journey journey;
@@ -157,11 +151,11 @@ py::dict itinerary(const PyScene& scene, const std::string& start, std::optional
   for (const oracle::CertifiedCollision& c : met)
     list.append(py::dict(py::arg("lattice") = c.obstacle.lattice, py::arg("atom") = c.obstacle.atom,
                          py::arg("cell") = to_python(c.obstacle.cell, scene.dimension()),
-                         py::arg("time") = c.time, py::arg("x") = texts(c.x), py::arg("v") = texts(c.v),
+                         py::arg("time") = c.time, py::arg("x") = c.x, py::arg("v") = c.v,
                          py::arg("bits") = c.bits));
   return py::dict(py::arg("collisions") = list, py::arg("end") = std::string(name_of(arrival.end)),
-                  py::arg("bits") = arrival.bits, py::arg("x") = texts(arrival.x),
-                  py::arg("v") = texts(arrival.v), py::arg("distance") = arrival.distance);
+                  py::arg("bits") = arrival.bits, py::arg("x") = arrival.x, py::arg("v") = arrival.v,
+                  py::arg("distance") = arrival.distance);
 }
 
 // ---- Starts
@@ -211,13 +205,6 @@ py::dict draw(const PyScene& scene, std::size_t count, const std::string& kind, 
 
 // ---- Arrays
 
-template <class Number>
-py::array shown(const std::vector<Number>& numbers, std::vector<std::size_t> shape, const py::object& owner) {
-  py::array array(py::dtype::of<Number>(), std::move(shape), numbers.data(), owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
-
 // The shape of an array: one number per particle, one per collision, or one vector per collision.
 enum class ArrayShape { particles, collisions, vectors };
 
@@ -225,10 +212,10 @@ template <class Number>
 auto view_of(std::vector<Number> Paths::*member, ArrayShape shape) {
   return [=](const py::object& self) {
     const auto& paths = self.cast<const Paths&>();
-    std::vector<std::size_t> lengths{paths.particles};
-    if (shape != ArrayShape::particles) lengths.push_back(paths.columns);
-    if (shape == ArrayShape::vectors) lengths.push_back(static_cast<std::size_t>(paths.dimension));
-    return shown(paths.*member, lengths, self);
+    std::vector<py::ssize_t> lengths{static_cast<py::ssize_t>(paths.particles)};
+    if (shape != ArrayShape::particles) lengths.push_back(static_cast<py::ssize_t>(paths.columns));
+    if (shape == ArrayShape::vectors) lengths.push_back(paths.dimension);
+    return view((paths.*member).data(), std::move(lengths), self);
   };
 }
 

@@ -8,14 +8,6 @@
 namespace lorentz::python {
 namespace {
 
-// Returns the result of `find(stop)`, which runs while other Python threads run. Ctrl-C ends it.
-template <class Find>
-auto found_by(const Find& find) {
-  const py::gil_scoped_release release;
-  std::atomic<bool> stop = false;
-  return watched(stop, [&] { return find(stop); });
-}
-
 // The report of `lorentz lyapunov --json`.
 std::string lyapunov(const PyScene& scene, std::uint64_t collisions, bool spectrum, std::uint64_t seed,
                      unsigned jobs) {
