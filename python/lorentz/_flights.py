@@ -89,6 +89,12 @@ class FreePaths:
         return f"{text}\n  {remark}" if remark else text
 
 
+def report_of(text: str) -> dict[str, Any]:
+    """The report in a text of JSON, without its scene."""
+    report: dict[str, Any] = json.loads(text)
+    return {key: value for key, value in report.items() if key != "scene"}
+
+
 def single_numbers(report: dict[str, Any]) -> dict[str, Any]:
     """The members of a report for a table: numbers and texts, without lists."""
     return {key: value for key, value in report.items() if key != "scene" and not isinstance(value, (list, dict))}
@@ -154,8 +160,6 @@ def horizon(scene: SceneLike, radius: float | None = None, *, min_width: float =
         numbers = [finite(number, "direction") for number in vector(direction, "direction")]
         if len(numbers) != 3:
             raise Error(f"direction: has {len(numbers)} components, not 3")
-        along: dict[str, Any] = json.loads(_lorentz.open_direction(native(place), numbers))
-        return {key: value for key, value in along.items() if key != "scene"}
+        return report_of(_lorentz.open_direction(native(place), numbers))
     text, verdict = _lorentz.horizon(native(place), min_width, cylinders)
-    found: dict[str, Any] = json.loads(text)
-    return {key: value for key, value in found.items() if key != "scene"} | {"verdict": verdict}
+    return report_of(text) | {"verdict": verdict}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import warnings
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ import numpy as np
 
 from . import _lorentz
 from ._answers import Floats
-from ._flights import single_numbers
+from ._flights import report_of, single_numbers
 from ._lorentz import Error
 from ._numbers import Number, finite, items, time_limit, whole, word
 from ._scene import Scene, SceneLike, common_radius, native
@@ -162,7 +161,7 @@ def lyapunov(scene: SceneLike, radius: Number | None = None, *, collisions: int 
             the engine ``batch`` does not support the scene.
     """
     place = Scene(scene, radius)
-    return Lyapunov(place, _report(_lorentz.lyapunov(
+    return Lyapunov(place, report_of(_lorentz.lyapunov(
         native(place), whole(collisions, "collisions", 1, 2**52), bool(spectrum), _seed(seed), _jobs(jobs))))
 
 
@@ -181,7 +180,7 @@ def diffusion(scene: SceneLike, radius: Number | None = None, *, count: int = 10
     """
     place = Scene(scene, radius)
     until = time_limit(max_time, "max_time")
-    return Diffusion(place, _report(_lorentz.diffusion(
+    return Diffusion(place, report_of(_lorentz.diffusion(
         native(place), whole(count, "count", 1, 2**52), finite(until, "max_time"), word(start, "start"), _seed(seed), _jobs(jobs))))
 
 
@@ -205,7 +204,7 @@ def survival(scene: SceneLike, radius: Number | None = None, *, count: int = 100
     widths = [whole(width, "bits", 24, 100_000) for width in items(bits, "bits")]
     if not widths:
         raise Error("bits: needs at least one number")
-    return Survival(place, _report(_lorentz.survival(
+    return Survival(place, report_of(_lorentz.survival(
         native(place), whole(count, "count", 1, 10**7), whole(collisions, "collisions", 1, 10**6), widths, word(engine, "engine"),
         _seed(seed))))
 
@@ -249,11 +248,6 @@ def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLi
             row["error"] = str(error)
         rows.append(row)
     return rows
-
-
-def _report(text: str) -> dict[str, Any]:
-    report: dict[str, Any] = json.loads(text)
-    return {key: value for key, value in report.items() if key != "scene"}
 
 
 def _row_of(found: Any) -> dict[str, Any]:
