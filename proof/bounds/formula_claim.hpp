@@ -54,6 +54,35 @@ struct FormulaClaim {
   bool has_script() const { return !wide && (computed.size > 0 || !ranges.empty()); }
 };
 
+/// A real number as it is written by hand, and the sizes of its terms.
+struct Terms {
+  std::string exact, size;
+
+  friend Terms operator+(const Terms& a, const Terms& b) {
+    return {a.exact + " + " + b.exact, a.size + " + " + b.size};
+  }
+  friend Terms operator-(const Terms& a, const Terms& b) {
+    return {a.exact + " - " + b.exact, a.size + " + " + b.size};
+  }
+  friend Terms operator*(const std::string& factor, const Terms& a) {
+    return {factor + " * " + a.exact, "Rabs " + factor + " * " + a.size};
+  }
+  friend Terms operator*(const Terms& a, const std::string& factor) {
+    return {a.exact + " * " + factor, a.size + " * Rabs " + factor};
+  }
+  friend Terms operator/(const Terms& a, const std::string& divisor) {
+    return {a.exact + " / " + divisor, a.size + " / Rabs " + divisor};
+  }
+};
+/// A number, or a product of some.
+inline Terms term(const std::string& text) {
+  return {text, text.find(' ') == text.npos ? "Rabs " + text : "Rabs (" + text + ")"};
+}
+/// In parentheses.
+inline Terms whole(const Terms& a) {
+  return {"(" + a.exact + ")", "(" + a.size + ")"};
+}
+
 /// Makes the inputs of one statement, and the statement.
 class Inputs {
  public:
@@ -86,6 +115,9 @@ class Inputs {
                      std::string size) const {
     return {std::move(constant), std::move(name), variables_, given_, must_not_underflow(), computed,
             std::move(exact),    std::move(size), wide_};
+  }
+  FormulaClaim claim(Constant constant, std::string name, const Symbol& computed, const Terms& terms) const {
+    return claim(std::move(constant), std::move(name), computed, terms.exact, terms.size);
   }
 
   static std::string decimal(double value) {
