@@ -60,8 +60,6 @@ void bind_first_hit(py::module_& module) {
     };
   };
   py::class_<AnswerRows, Answers>(module, "Answers", "Memory of lorentz.Answers.")
-      .def("__len__", [](const AnswerRows& answers) { return answers.count; })
-      .def_readonly("dimension", &AnswerRows::dimension)
       .def_property_readonly("outcome", outcome)
       .def_property_readonly("stage", column_of(&AnswerRows::stage))
       .def_property_readonly("time_is_rounded",

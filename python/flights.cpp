@@ -34,17 +34,16 @@ py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::strin
                         numpy_array(found.beyond));
 }
 
-// For each law: its name, the limit in which it holds, and its survival at these times.
+// For each law: its name, and its survival at these times.
 py::list laws_of(const PyScene& scene, const std::string& start, const py::array_t<double>& times) {
   py::list list;
   for (const flights::Law& law : flights::laws_of(scene.scene(), starts::ensemble_named(start, "start")).laws)
-    list.append(py::make_tuple(law.name, law.when, py::vectorize(law.survival)(times)));
+    list.append(py::make_tuple(law.name, py::vectorize(law.survival)(times)));
   return list;
 }
 
-std::pair<std::optional<double>, std::string> mean_free_path(const PyScene& scene) {
-  const flights::MeanFreePath mean = flights::mean_free_path_of(scene.scene());
-  return {mean.value, mean.how};
+std::optional<double> mean_free_path(const PyScene& scene) {
+  return flights::mean_free_path_of(scene.scene()).value;
 }
 
 }  // namespace

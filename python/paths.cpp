@@ -161,12 +161,8 @@ py::dict itinerary(const PyScene& scene, const std::string& start, std::optional
 // ---- Starts
 
 struct DrawnStarts {
-  DrawnStarts(std::size_t count, int dimension)
-      : x({static_cast<py::ssize_t>(count), py::ssize_t{dimension}}),
-        v({static_cast<py::ssize_t>(count), py::ssize_t{dimension}}),
-        cell({static_cast<py::ssize_t>(count), py::ssize_t{dimension}}),
-        lattice(static_cast<py::ssize_t>(count)),
-        atom(static_cast<py::ssize_t>(count)) {}
+  DrawnStarts(py::ssize_t count, py::ssize_t dimension)
+      : x({count, dimension}), v({count, dimension}), cell({count, dimension}), lattice(count), atom(count) {}
 
   py::array_t<double> x, v;
   py::array_t<std::int64_t> cell;
@@ -196,7 +192,7 @@ void draw_into(DrawnStarts& drawn, const starts::FreeStarts& starts, std::uint64
 py::dict draw(const PyScene& scene, std::size_t count, const std::string& kind, std::uint64_t seed,
               std::uint64_t first) {
   const starts::Kind its = starts::kind_named(kind, "kind");
-  DrawnStarts drawn(count, scene.dimension());
+  DrawnStarts drawn(static_cast<py::ssize_t>(count), scene.dimension());
   draw_into(drawn, {scene.scene(), its, seed}, first);
   py::dict columns(py::arg("x") = drawn.x, py::arg("v") = drawn.v, py::arg("start_from") = py::none());
   if (kind == "surface") columns["start_from"] = py::make_tuple(drawn.lattice, drawn.atom, drawn.cell);
@@ -223,8 +219,6 @@ auto view_of(std::vector<Number> Paths::*member, ArrayShape shape) {
 
 void bind_paths(py::module_& module) {
   py::class_<Paths, std::shared_ptr<Paths>>(module, "Paths", "Memory of lorentz.Paths.")
-      .def("__len__", [](const Paths& paths) { return paths.particles; })
-      .def_readonly("dimension", &Paths::dimension)
       .def_property_readonly("count", view_of(&Paths::count, ArrayShape::particles))
       .def_property_readonly("stop_code", view_of(&Paths::stop, ArrayShape::particles))
       .def_property_readonly("time", view_of(&Paths::time, ArrayShape::collisions))

@@ -22,6 +22,10 @@ namespace {
 constexpr int kMostCellBits = 40, kLargestIndex = 8;
 constexpr std::size_t kMostAtoms = 24;
 
+bool is_multiple(const IntegerVec& a, const Z& of) {
+  return std::all_of(a.begin(), a.end(), [&](const Z& component) { return component % of == 0; });
+}
+
 class NewCells final : public RewordingStep {
  public:
   NewCells(int lattice, IntegerMatrix m, std::vector<IntegerVec> classes)
@@ -47,7 +51,7 @@ class NewCells final : public RewordingStep {
       IntegerVec a;
       for (std::size_t i = 0; i < 3; ++i) a[i] = n[i] - classes_[k][i];
       a = adjugate_ * a;
-      if (!is_multiple(a)) continue;
+      if (!is_multiple(a, determinant_)) continue;
       for (Z& component : a) component /= determinant_;
       id.cell = to_cell(a);
       id.atom = id.atom * static_cast<int>(classes_.size()) + static_cast<int>(k);
@@ -65,10 +69,6 @@ class NewCells final : public RewordingStep {
   }
 
  private:
-  bool is_multiple(const IntegerVec& a) const {
-    return std::all_of(a.begin(), a.end(), [&](const Z& component) { return component % determinant_ == 0; });
-  }
-
   int lattice_;
   IntegerMatrix m_, adjugate_;
   Z determinant_;
@@ -146,8 +146,7 @@ std::vector<IntegerVec> classes_of(const IntegerMatrix& m, int rank) {
     for (long b = 0; b < (rank >= 2 ? q : 1); ++b)
       for (long c = 0; c < (rank == 3 ? q : 1); ++c) {
         const bool known = std::any_of(classes.begin(), classes.end(), [&](const IntegerVec& other) {
-          const IntegerVec n = to_cells * IntegerVec{Z(a - other[0]), Z(b - other[1]), Z(c - other[2])};
-          return n[0] % index == 0 && n[1] % index == 0 && n[2] % index == 0;
+          return is_multiple(to_cells * IntegerVec{Z(a - other[0]), Z(b - other[1]), Z(c - other[2])}, index);
         });
         if (!known) classes.push_back({a, b, c});
         if (static_cast<long>(classes.size()) == q) return classes;

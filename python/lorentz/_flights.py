@@ -125,12 +125,12 @@ def flights(scene: SceneLike, radius: float | None = None, *, count: int = 1_000
 def laws(scene: SceneLike, times: npt.ArrayLike, *, start: str = "uniform") -> dict[str, Floats]:
     """P(path > t) by each known law for the scene, by name, in the shape of `times`; empty without a law."""
     t = floats_of(times, "times")
-    return {name: np.asarray(survival) for name, _, survival in _lorentz.laws(native(scene), word(start, "start"), t)}
+    return {name: np.asarray(survival) for name, survival in _lorentz.laws(native(scene), word(start, "start"), t)}
 
 
 def mean_free_path(scene: SceneLike, radius: float | None = None) -> float | None:
     """The mean free path between collisions, exact up to rounding; None if no formula is known."""
-    return _lorentz.mean_free_path(native(Scene(scene, radius)))[0]
+    return _lorentz.mean_free_path(native(Scene(scene, radius)))
 
 
 def horizon(scene: SceneLike, radius: float | None = None, *, min_width: float = 0.0,
