@@ -163,25 +163,16 @@ class RemoteWork final : public WorkSource {
   std::condition_variable changed_;
 };
 
-Report received(const mpi::communicator& world, int source) {
-  Report report;
-  world.recv(source, kReport, report);
-  return report;
-}
-
-void take_in(Ledger& ledger, Report& report) {
-  for (Done& done : report.done) ledger.hand_in(std::move(done));
-  if (report.answerer_failed) ledger.answerer_failed();
-  if (!report.failure.empty()) ledger.fail(std::make_exception_ptr(std::runtime_error(report.failure)));
-}
-
 }  // namespace
 
 void Ranks::serve(Ledger& ledger) {
   const mpi::communicator& world = mpi().world;
   while (const auto status = world.iprobe(mpi::any_source, kReport)) {
-    Report report = received(world, status->source());
-    take_in(ledger, report);
+    Report report;
+    world.recv(status->source(), kReport, report);
+    for (Done& done : report.done) ledger.hand_in(std::move(done));
+    if (report.answerer_failed) ledger.answerer_failed();
+    if (!report.failure.empty()) ledger.fail(std::make_exception_ptr(std::runtime_error(report.failure)));
     dismissed_ += report.last;
     if (report.last) continue;
     Orders orders{ledger.take_some(report.wants, report.batch_size), ledger.stop()};

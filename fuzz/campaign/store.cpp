@@ -15,6 +15,7 @@ using runs::Statement;
 
 namespace {
 
+// Rows are read and written in the order of these columns; a file with others is refused.
 constexpr const char* kSchema = R"sql(
   CREATE TABLE campaign (
     id INTEGER PRIMARY KEY, version TEXT NOT NULL, engine TEXT NOT NULL, targets TEXT NOT NULL,
@@ -39,11 +40,6 @@ constexpr const char* kSchema = R"sql(
     shrunk_margin REAL, shrinking INTEGER NOT NULL, bits INTEGER NOT NULL, complexity INTEGER NOT NULL, tries INTEGER NOT NULL,
     PRIMARY KEY (campaign, target, place, step, words)) WITHOUT ROWID;
 )sql";
-
-constexpr const char* kFindingColumns =
-    "campaign, target, place, step, words, kind, sort, cause, scene, query, given, exact, shrunk_scene, "
-    "shrunk_query, shrunk_given, shrunk_exact, departs, margin, shrunk_departs, shrunk_margin, shrinking, "
-    "bits, complexity, tries";
 
 const runs::FileKind& kind() {
   static const runs::FileKind kind{
@@ -82,8 +78,7 @@ std::uint64_t seed_in(const std::string& text, const std::string& path) {
 }  // namespace
 
 std::vector<Campaign> Store::campaigns() const {
-  Statement all(database_.connection(),
-                "SELECT id, version, engine, targets, seed, options, keep, shard FROM campaign ORDER BY id");
+  Statement all(database_.connection(), "SELECT * FROM campaign ORDER BY id");
   std::vector<Campaign> campaigns;
   while (all.step()) {
     Campaign one;
@@ -104,9 +99,7 @@ std::int64_t Store::open_campaign(const CampaignManifest& manifest) {
   for (const Campaign& campaign : campaigns())
     if (campaign.manifest == manifest) return campaign.id;
   database_.begin();
-  Statement(database_.connection(),
-            "INSERT INTO campaign (version, engine, targets, seed, options, keep, shard) VALUES (?, ?, ?, ?, "
-            "?, ?, ?)")
+  Statement(database_.connection(), "INSERT INTO campaign VALUES (NULL, ?, ?, ?, ?, ?, ?, ?)")
       .bind(manifest.version)
       .bind(manifest.engine)
       .bind(manifest.targets)
@@ -186,8 +179,8 @@ Finding finding_in(Statement& row) {
 }  // namespace
 
 std::vector<Stored> Store::findings() const {
-  Statement row(database_.connection(), std::string("SELECT ") + kFindingColumns +
-                                            " FROM finding ORDER BY campaign, target, place, step, words");
+  Statement row(database_.connection(),
+                "SELECT * FROM finding ORDER BY campaign, target, place, step, words");
   std::vector<Stored> all;
   for (std::uint64_t number = 1; row.step(); ++number) {
     std::string label = "in row " + std::to_string(number);
@@ -225,8 +218,8 @@ void Store::put(std::int64_t campaign, std::string_view target, const TargetTall
 void Store::put(std::int64_t campaign, const Finding& f) {
   database_.begin();
   Statement row(database_.connection(),
-                std::string("INSERT OR REPLACE INTO finding (") + kFindingColumns +
-                    ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                "INSERT OR REPLACE INTO finding VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
+                "?, ?, ?, ?, ?, ?, ?)");
   row.bind(campaign).bind(f.target).bind(f.index).bind(f.step);
   for (const std::string* text :
        {&f.words, &f.kind, &f.sort, &f.cause, &f.text.scene, &f.text.query, &f.text.given, &f.text.exact,

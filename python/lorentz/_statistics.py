@@ -42,12 +42,16 @@ class Estimate(NamedTuple):
 
 
 @dataclass(frozen=True, repr=False)
-class Lyapunov:
-    """Lyapunov exponents in nats, the largest first. ``report`` is that of `lorentz lyapunov --json`, without
-    the scene."""
+class Reported:
+    """A scene, and a report on it."""
 
     scene: Scene
     report: dict[str, Any]
+
+
+class Lyapunov(Reported):
+    """Lyapunov exponents in nats, the largest first. ``report`` is that of `lorentz lyapunov --json`, without
+    the scene."""
 
     @property
     def exponents(self) -> list[Estimate]:
@@ -72,12 +76,8 @@ class Lyapunov:
         return f"Lyapunov({told} a collision)"
 
 
-@dataclass(frozen=True, repr=False)
-class Diffusion:
+class Diffusion(Reported):
     """Mean squared displacements. ``report`` is that of `lorentz diffusion --json` without the scene."""
-
-    scene: Scene
-    report: dict[str, Any]
 
     @property
     def coefficient(self) -> Estimate | None:
@@ -113,13 +113,9 @@ class Diffusion:
         return Estimate(self.report["D"], self.report["D_error"])
 
 
-@dataclass(frozen=True, repr=False)
-class Survival:
+class Survival(Reported):
     """How many collisions of trajectories are right. ``report`` is the report of `lorentz survival --json`
     without the scene."""
-
-    scene: Scene
-    report: dict[str, Any]
 
     @property
     def right(self) -> dict[int, list[int]]:
