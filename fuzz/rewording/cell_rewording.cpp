@@ -26,7 +26,7 @@ bool is_multiple(const IntegerVec& a, const Z& of) {
   return std::all_of(a.begin(), a.end(), [&](const Z& component) { return component % of == 0; });
 }
 
-class NewCells final : public RewordingStep {
+class NewCells {
  public:
   NewCells(int lattice, IntegerMatrix m, std::vector<IntegerVec> classes)
       : lattice_(lattice),
@@ -35,7 +35,7 @@ class NewCells final : public RewordingStep {
         determinant_(determinant(m_)),
         classes_(std::move(classes)) {}
 
-  std::string words() const override {
+  std::string words() const {
     long bits = 0;
     for (const IntegerVec& column : m_)
       for (const Z& entry : column) bits = std::max(bits, oracle::bit_length(entry) - 1);
@@ -44,7 +44,7 @@ class NewCells final : public RewordingStep {
            std::to_string(bits);
   }
 
-  void there(ObstacleId& id) const override {
+  void there(ObstacleId& id) const {
     if (id.lattice != lattice_) return;
     const IntegerVec n = to_integers(id.cell);
     for (std::size_t k = 0; k < classes_.size(); ++k) {
@@ -59,7 +59,7 @@ class NewCells final : public RewordingStep {
     }
   }
 
-  void back(ObstacleId& id) const override {
+  void back(ObstacleId& id) const {
     if (id.lattice != lattice_) return;
     const int count = static_cast<int>(classes_.size());
     IntegerVec n = m_ * to_integers(id.cell);
@@ -167,32 +167,35 @@ std::optional<std::vector<Atom>> copies_of(const Lattice& lattice, const std::ve
   return atoms;
 }
 
-std::unique_ptr<RewordingStep> draw_cells(Random& random, Scene& scene, std::int64_t factor) {
+std::optional<RewordingStep> draw_cells(Random& random, Scene& scene, std::int64_t factor) {
   const int l = static_cast<int>(random.below(scene.lattices.size()));
   Lattice& lattice = scene.lattices[l];
   const int rank = lattice.rank(scene.dimension);
-  if (rank == 0 || lattice.atoms.size() * static_cast<std::size_t>(factor) > kMostAtoms) return nullptr;
+  if (rank == 0 || lattice.atoms.size() * static_cast<std::size_t>(factor) > kMostAtoms) return std::nullopt;
   Changing changing(lattice.vectors, rank);
   for (std::uint64_t steps = random.below(4) + (factor == 1); steps > 0; --steps) changing.shear(random);
-  if (factor > 1 && !changing.multiply(random, factor)) return nullptr;
+  if (factor > 1 && !changing.multiply(random, factor)) return std::nullopt;
   for (std::uint64_t steps = random.below(3); steps > 0; --steps) changing.shear(random);
   if (random.one_in(2)) changing.exchange(random);
-  if (changing.matrix() == identity()) return nullptr;
+  if (changing.matrix() == identity()) return std::nullopt;
   std::vector<IntegerVec> classes = classes_of(changing.matrix(), rank);
   auto atoms = copies_of(lattice, classes);
-  if (!atoms) return nullptr;
+  if (!atoms) return std::nullopt;
   lattice.vectors = changing.vectors();
   lattice.atoms = std::move(*atoms);
-  return std::make_unique<NewCells>(l, changing.matrix(), std::move(classes));
+  const NewCells cells(l, changing.matrix(), std::move(classes));
+  return RewordingStep{.words = cells.words(),
+                       .there = [cells](ObstacleId& id) { cells.there(id); },
+                       .back = [cells](ObstacleId& id) { cells.back(id); }};
 }
 
 }  // namespace
 
-std::unique_ptr<RewordingStep> draw_basis(Random& random, Scene& scene) {
+std::optional<RewordingStep> draw_basis(Random& random, Scene& scene) {
   return draw_cells(random, scene, 1);
 }
 
-std::unique_ptr<RewordingStep> draw_superlattice(Random& random, Scene& scene) {
+std::optional<RewordingStep> draw_superlattice(Random& random, Scene& scene) {
   return draw_cells(random, scene, random.integer(2, kLargestIndex));
 }
 

@@ -80,7 +80,7 @@ Rewording::Rewording(Random& random, const Scene& old)
   if (old.dimension == 2) vectors_[2] = {};
   for (std::uint64_t count = 1 + random.below(kMostSteps); count > 0; --count)
     if (auto step = kSteps[random.below(std::size(kSteps))](random, scene_))
-      steps_.push_back(std::move(step));
+      steps_.push_back(std::move(*step));
 }
 
 // Moves the start by up to 2^50 periods, or by fewer if the sum is not a binary64 value: along one vector
@@ -123,7 +123,7 @@ void Rewording::round_start(const std::array<std::int64_t, 3>& k, const IntegerV
 std::string Rewording::words(const Reworded& reworded) const {
   std::string text;
   const auto add = [&](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };
-  for (const auto& step : steps_) add(step->words());
+  for (const RewordingStep& step : steps_) add(step.words);
   std::int64_t farthest = 0;
   for (const std::int64_t n : reworded.periods) farthest = std::max(farthest, std::abs(n));
   if (farthest > 0)
@@ -137,8 +137,8 @@ std::optional<Reworded> Rewording::reword(Random& random, const Query& query) co
   Reworded reworded{query};
   if (!periods_.in_cells.empty() && random.one_in(2)) move_start(random, reworded);
   if (random.one_in(2)) change_speed(random, reworded);
-  for (const auto& step : steps_)
-    if (!step->reword(reworded.query.x, reworded.query.v)) return std::nullopt;
+  for (const RewordingStep& step : steps_)
+    if (!step.reword(reworded.query.x, reworded.query.v)) return std::nullopt;
   if (query.from) reworded.query.from = there(*query.from, reworded);
   return reworded;
 }
@@ -154,12 +154,12 @@ void Rewording::shift(ObstacleId& id, const Reworded& reworded, int sign) const 
 
 ObstacleId Rewording::there(ObstacleId id, const Reworded& reworded) const {
   shift(id, reworded, 1);
-  for (const auto& step : steps_) step->there(id);
+  for (const RewordingStep& step : steps_) step.there(id);
   return id;
 }
 
 ObstacleId Rewording::back(ObstacleId id, const Reworded& reworded) const {
-  for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) (*step)->back(id);
+  for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) step->back(id);
   shift(id, reworded, -1);
   return id;
 }
@@ -172,7 +172,7 @@ std::optional<Answer> Rewording::carried(const Answer& exact, const Reworded& re
   if (exact.outcome == Outcome::inside) return Answer::inside(there(exact.obstacle, reworded));
   if (exact.outcome != Outcome::hit || !exact.time) return std::nullopt;
   int exponent = -reworded.speed;
-  for (const auto& step : steps_) exponent += step->time_exponent();
+  for (const RewordingStep& step : steps_) exponent += step.time_exponent;
   double time = *exact.time;
   if (exponent != 0) {
     time = std::ldexp(time, exponent);

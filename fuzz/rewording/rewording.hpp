@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,7 +70,7 @@ class Rewording {
   Scene scene_;                 // in the new words
   std::array<Vec, 3> vectors_;  // of lattice 0, in the old
   Periods periods_;             // in the old
-  std::vector<std::unique_ptr<RewordingStep>> steps_;
+  std::vector<RewordingStep> steps_;
 };
 
 }  // namespace lorentz::fuzz
