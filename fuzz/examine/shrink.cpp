@@ -111,14 +111,14 @@ class Shrinker {
 
   void round_everything() {
     for (const int bits : {2, 3, 4, 6, 8, 10, 12, 16, 24, 32}) {
-      const auto shorten = [bits](double& x) { x = rounded_to(x, bits, ShrinkWay::nearest); };
-      const auto whole = [&](Candidate& one) { for_each_number(one.scene, one.query, shorten); };
+      const auto round = [bits](double& x) { x = rounded_to(x, bits, ShrinkWay::nearest); };
+      const auto whole = [&](Candidate& one) { for_each_number(one.scene, one.query, round); };
       const auto query_alone = [&](Candidate& one) {
-        for (Vec* a : {&one.query.x, &one.query.v}) std::for_each(a->begin(), a->end(), shorten);
+        for (Vec* a : {&one.query.x, &one.query.v}) std::for_each(a->begin(), a->end(), round);
       };
       const auto start_on_grid = [&](Candidate& one) {
         for (double& x : one.query.x) x = on_grid(x, bits);
-        std::for_each(one.query.v.begin(), one.query.v.end(), shorten);
+        std::for_each(one.query.v.begin(), one.query.v.end(), round);
       };
       if (offer(whole) || offer(query_alone) || offer(start_on_grid)) return;
     }

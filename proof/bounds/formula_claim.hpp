@@ -94,16 +94,11 @@ class Inputs {
     if (!wide_) given_.push_back("number " + name);
     return {name};
   }
-  /// A binary64 that stands for exact_NAME, from which it is `roundoffs` away at most.
-  Symbol rounded(const std::string& name, double roundoffs) {
+  /// A binary64 that stands for exact_NAME, from which it is `roundoffs` away at most, relative to `size`.
+  Symbol rounded(const std::string& name, double roundoffs, const std::string& size = "") {
     variables_.insert(variables_.end(), {name, "exact_" + name});
-    given_.push_back("rounded " + name + " exact_" + name + " " + decimal(roundoffs));
-    return {name, roundoffs};
-  }
-  /// The same, where that is relative to `size`.
-  Symbol rounded_of(const std::string& name, double roundoffs, const std::string& size) {
-    variables_.insert(variables_.end(), {name, "exact_" + name});
-    given_.push_back("rounded_of " + name + " exact_" + name + " " + size + " " + decimal(roundoffs));
+    given_.push_back((size.empty() ? "rounded " : "rounded_of ") + name + " exact_" + name + " " +
+                     (size.empty() ? "" : size + " ") + decimal(roundoffs));
     return {name, roundoffs};
   }
   /// Any real number.

@@ -80,7 +80,7 @@ inline FormulaClaim moment_of_line_in_space() {
 inline FormulaClaim discriminant_of_line() {
   Inputs in;
   in.real("l");
-  const Symbol p[2] = {in.rounded("a0", 3), in.rounded("a1", 3)}, moment = in.rounded_of("m", kLine, "l");
+  const Symbol p[2] = {in.rounded("a0", 3), in.rounded("a1", 3)}, moment = in.rounded("m", kLine, "l");
   return in
       .claim({"kDiscriminant", kDiscriminant * kLine, "77"}, "discriminant_of_line",
              square_of(p) - moment * moment, "exact_a0 * exact_a0 + exact_a1 * exact_a1 - exact_m * exact_m",
@@ -115,7 +115,7 @@ inline FormulaClaim volume_of_basis() {
   for (int i = 0; i < 3; ++i) {
     const std::string n = std::to_string(i);
     in.real("size" + n);
-    b[i] = in.rounded("b" + n, 3), cross[i] = in.rounded_of("c" + n, 8.001 * 1.73206, "size" + n);
+    b[i] = in.rounded("b" + n, 3), cross[i] = in.rounded("c" + n, 8.001 * 1.73206, "size" + n);
     exact += " + exact_b" + n + " * exact_c" + n, size += " + Rabs exact_b" + n + " * size" + n;
   }
   return in.claim({"kPlane", kPlane / kMaxKappa, "19.8"}, "volume_of_basis", volume_of(b, cross),
