@@ -26,7 +26,7 @@ inline std::array<Symbol, 3> vector_of(Inputs& in, const std::string& name) {
 }
 
 /// Component i of b x c.
-inline Terms cross_terms(const std::string& b, const std::string& c, int i) {
+inline SizedTerms cross_terms(const std::string& b, const std::string& c, int i) {
   const auto product = [&](int j, int k) {
     return term("exact_" + numbered(b, j % 3) + " * exact_" + numbered(c, k % 3));
   };
@@ -34,7 +34,7 @@ inline Terms cross_terms(const std::string& b, const std::string& c, int i) {
 }
 
 /// a . (b x c).
-inline Terms volume_terms(const std::string& a, const std::string& b, const std::string& c) {
+inline SizedTerms volume_terms(const std::string& a, const std::string& b, const std::string& c) {
   const auto one = [&](int i) { return ("exact_" + numbered(a, i)) * cross_terms(b, c, i); };
   return one(0) + one(1) + one(2);
 }

@@ -55,31 +55,31 @@ struct FormulaClaim {
 };
 
 /// A real number as it is written by hand, and the sizes of its terms.
-struct Terms {
+struct SizedTerms {
   std::string exact, size;
 
-  friend Terms operator+(const Terms& a, const Terms& b) {
+  friend SizedTerms operator+(const SizedTerms& a, const SizedTerms& b) {
     return {a.exact + " + " + b.exact, a.size + " + " + b.size};
   }
-  friend Terms operator-(const Terms& a, const Terms& b) {
+  friend SizedTerms operator-(const SizedTerms& a, const SizedTerms& b) {
     return {a.exact + " - " + b.exact, a.size + " + " + b.size};
   }
-  friend Terms operator*(const std::string& factor, const Terms& a) {
+  friend SizedTerms operator*(const std::string& factor, const SizedTerms& a) {
     return {factor + " * " + a.exact, "Rabs " + factor + " * " + a.size};
   }
-  friend Terms operator*(const Terms& a, const std::string& factor) {
+  friend SizedTerms operator*(const SizedTerms& a, const std::string& factor) {
     return {a.exact + " * " + factor, a.size + " * Rabs " + factor};
   }
-  friend Terms operator/(const Terms& a, const std::string& divisor) {
+  friend SizedTerms operator/(const SizedTerms& a, const std::string& divisor) {
     return {a.exact + " / " + divisor, a.size + " / Rabs " + divisor};
   }
 };
 /// A number, or a product of some.
-inline Terms term(const std::string& text) {
+inline SizedTerms term(const std::string& text) {
   return {text, text.find(' ') == text.npos ? "Rabs " + text : "Rabs (" + text + ")"};
 }
 /// In parentheses.
-inline Terms whole(const Terms& a) {
+inline SizedTerms whole(const SizedTerms& a) {
   return {"(" + a.exact + ")", "(" + a.size + ")"};
 }
 
@@ -111,7 +111,8 @@ class Inputs {
     return {std::move(constant), std::move(name), variables_, given_, must_not_underflow(), computed,
             std::move(exact),    std::move(size), wide_};
   }
-  FormulaClaim claim(Constant constant, std::string name, const Symbol& computed, const Terms& terms) const {
+  FormulaClaim claim(Constant constant, std::string name, const Symbol& computed,
+                     const SizedTerms& terms) const {
     return claim(std::move(constant), std::move(name), computed, terms.exact, terms.size);
   }
 

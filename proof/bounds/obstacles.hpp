@@ -74,7 +74,7 @@ inline Symbol start_of_row(Inputs& in, const Symbol& k, const Symbol& t0, const 
                d = in.rounded("d" + i, kHigh);
   return stepped(d, k, sum_of_products(t0, B0, t1, B1));
 }
-inline Terms start_terms(const std::string& i) {
+inline SizedTerms start_terms(const std::string& i) {
   return whole(term("exact_d" + i) + "k" * whole(term("t0 * exact_B0_" + i) + term("t1 * exact_B1_" + i)));
 }
 

@@ -32,7 +32,7 @@ inline Symbol along_basis(Inputs& in, const Symbol (&v)[2], const std::string& i
   const Symbol y = in.rounded("y" + i, 1), x = in.rounded("x" + i, 1);
   return sum_of_products(v[0], x, v[1], y);
 }
-inline Terms along_terms(const std::string& arm) {
+inline SizedTerms along_terms(const std::string& arm) {
   const auto one = [&](const std::string& i) {
     return (arm + i) * whole(term("v0 * exact_x" + i) + term("v1 * exact_y" + i));
   };
@@ -75,7 +75,7 @@ inline FormulaClaim number_of_row(const Constant& constant, const std::string& n
                S1 = along_basis(in, v, "1"), L[2] = {in.number("L0"), in.number("L1")},
                S_L = sum_of_products(L[0], S0, L[1], S1), y = in.number("y"), D_L = in.rounded("D_L", 1),
                s = in.number("s");
-  const Terms terms = whole(along_terms("L") * "y" + term("exact_D_L * s")) / kArea;
+  const SizedTerms terms = whole(along_terms("L") * "y" + term("exact_D_L * s")) / kArea;
   return in.claim(constant, name, row_number(S_L, y, D_L, s, inverse_of_area(in, v)), "- " + terms.exact,
                   terms.size);
 }
@@ -94,7 +94,7 @@ inline FormulaClaim row_beside_start_on_square() {
                S_L = sum_of_products(L[0], v[0], L[1], v[1]), y = in.number("y"), D_L = in.number("D_L"),
                s = in.number("s");
   in.given("0 < v0 * v0 + v1 * v1");
-  const Terms terms =
+  const SizedTerms terms =
       whole(whole(term("L0 * v0") + term("L1 * v1")) * "y" + term("D_L * s")) / "(v0 * v0 + v1 * v1)";
   return in.claim({"kRowNumber", kRowNumber, "16"}, "row_beside_start_on_square",
                   row_number(S_L, y, D_L, s, Symbol("1") / square_of(v)), "- " + terms.exact, terms.size);

@@ -15,7 +15,7 @@ inline FormulaClaim width_in_space() {
 }
 
 /// A coordinate across: of the anchor, a plane's step, a line's and a ball's, each known within 3 (Lemma 3).
-inline Symbol after_steps(Inputs& in, double of_steps, Terms& terms, const std::string& name) {
+inline Symbol after_steps(Inputs& in, double of_steps, SizedTerms& terms, const std::string& name) {
   Symbol at = in.number(name);
   terms = term(name);
   for (const std::string step : {"1", "2", "3"}) {
@@ -28,7 +28,7 @@ inline Symbol after_steps(Inputs& in, double of_steps, Terms& terms, const std::
 
 inline FormulaClaim across_in_space() {
   Inputs in;
-  Terms terms;
+  SizedTerms terms;
   const Symbol p = after_steps(in, 3, terms, "p");
   return in.claim({"kAcross", kAcross, "8"}, "across_in_space", p, terms);
 }
@@ -36,14 +36,14 @@ inline FormulaClaim across_in_space() {
 /// z, from a compensated sum and a quotient; and s = begin + z times the window's length.
 inline FormulaClaim along_window() {
   Inputs in;
-  Terms terms;
+  SizedTerms terms;
   const Symbol z = after_steps(in, 2.01, terms, "z");
   return in.claim({"kWindowStart", kWindowStart / kRoundoff, "16"}, "along_window", z, terms)
       .taken(2, "z of size 2");
 }
 inline FormulaClaim along_in_space() {
   Inputs in;
-  Terms terms;
+  SizedTerms terms;
   const Symbol z = after_steps(in, 2.01, terms, "z"), begin = in.number("b"), length = in.number("l");
   return in.claim({"kAlong", kAlong, "6"}, "along_in_space", begin + z * length,
                   term("b") + whole(terms) * "l");
@@ -69,7 +69,7 @@ inline FormulaClaim scale_of_across() {
 /// The moment about the flight of a line through q with the steps a, after the steps to it.
 inline FormulaClaim moment_of_line_in_space() {
   Inputs in;
-  Terms p0, p1;
+  SizedTerms p0, p1;
   const Symbol q[2] = {after_steps(in, 3, p0, "p"), after_steps(in, 3, p1, "q")},
                a[2] = {in.rounded("a0", 3), in.rounded("a1", 3)};
   return in.claim({"kLine", kLine, "13"}, "moment_of_line_in_space", moment_of_line(q, a),
@@ -129,8 +129,8 @@ inline FormulaClaim distance_from_plane() {
                p1 = in.rounded("p1", kAcross), p2 = in.rounded("p2", kAcross), z = in.number("z"),
                slope = sqrt(sum_of_products(g0, g0, g1, g1)), kappa = sum_of_products(g0, p0, g1, p1, g2, p2);
   in.given("0 < exact_g0 * exact_g0 + exact_g1 * exact_g1");
-  const Terms terms = whole(term("exact_g0 * exact_p0") + term("exact_g1 * exact_p1") +
-                            term("exact_g2 * exact_p2") - term("exact_g2 * z"));
+  const SizedTerms terms = whole(term("exact_g0 * exact_p0") + term("exact_g1 * exact_p1") +
+                                 term("exact_g2 * exact_p2") - term("exact_g2 * z"));
   const std::string g = "sqrt (exact_g0 * exact_g0 + exact_g1 * exact_g1)";
   return in.claim({"kPlane", kPlane, "460"}, "distance_from_plane",
                   distance_of_plane(kappa, g2, z, Symbol("1") / slope), terms.exact + " / " + g,

@@ -45,7 +45,7 @@ class WideInputs : public Inputs {
   WideInputs() : Inputs(true) {}
   WideSymbol wide(const std::string& name) { return {number(name).text, 0}; }
   FormulaClaim claim(Constant constant, std::string name, const WideSymbol& computed,
-                     const Terms& terms) const {
+                     const SizedTerms& terms) const {
     return Inputs::claim(std::move(constant), std::move(name), Symbol(computed.text, computed.error), terms);
   }
 };
