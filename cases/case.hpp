@@ -19,6 +19,20 @@ struct Case {
   std::vector<std::string> tags;
 };
 
+/// Adds the tag if `is`, else the other one if there is one. Returns `is`.
+inline bool tagged(std::vector<std::string>& tags, bool is, const char* tag, const char* other = nullptr) {
+  if (is || other) tags.emplace_back(is ? tag : other);
+  return is;
+}
+
+/// Draws one of the tags, adds it, and returns it.
+inline std::string_view drawn_tag(Random& random, std::vector<std::string>& tags,
+                                  std::initializer_list<const char*> all) {
+  const char* tag = all.begin()[random.below(all.size())];
+  tags.emplace_back(tag);
+  return tag;
+}
+
 /// A mark of a case, with a note on what the case is meant to break.
 struct Tag {
   std::string_view name, note;
@@ -36,6 +50,8 @@ struct Source {
   Random random;  ///< the case's own
   NumberFormat precision =
       NumberFormat::binary64;  ///< of the case's numbers: Family::make rounds those with more bits
+
+  bool is_wide() const { return precision == NumberFormat::binary64; }
 };
 
 }  // namespace lorentz::cases

@@ -6,8 +6,6 @@
 namespace lorentz::cases {
 namespace {
 
-__extension__ typedef __int128 Wide;
-
 struct Gcd {
   std::int64_t g, x, y;  // g = x a + y b
 };
@@ -55,10 +53,15 @@ IntVec primitive(IntVec a) {
   return a;
 }
 
+IntVec drawn_integers(Random& random, int dimension, std::int64_t range) {
+  IntVec a{};
+  for (int i = 0; i < dimension; ++i) a[i] = random.integer(-range, range);
+  return a;
+}
+
 IntVec drawn_primitive(Random& random, int dimension, std::int64_t range) {
   IntVec a{};
-  while (a == IntVec{})
-    for (int i = 0; i < dimension; ++i) a[i] = random.integer(-range, range);
+  while (a == IntVec{}) a = drawn_integers(random, dimension, range);
   return primitive(a);
 }
 
@@ -84,6 +87,15 @@ Vec cartesian(const Lattice& lattice, const IntVec& a) {
   return sum;
 }
 
+double half_width(const Lattice& lattice, int dimension, const IntVec& indices) {
+  const auto& u = lattice.vectors;
+  if (dimension == 2) return std::fabs(cross(u[0], u[1])[2]) / (2 * length(cartesian(lattice, indices)));
+  const auto dual = dual_of(u, 3);
+  Vec normal{};
+  for (int i = 0; i < 3; ++i) normal = sum(normal, scaled(dual[i], static_cast<double>(indices[i])));
+  return 1 / (2 * length(normal));
+}
+
 Squared drawn_triple(Random& random, std::int64_t range) {
   const std::int64_t a = random.integer(2, range), b = random.integer(1, a - 1);
   IntVec v{a * a - b * b, 2 * a * b, 0};
@@ -91,12 +103,17 @@ Squared drawn_triple(Random& random, std::int64_t range) {
   return {primitive(v), {0, 0, w}, w};
 }
 
+std::array<IntVec, 3> rotation_of(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
+  return {IntVec{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)},
+          IntVec{2 * (b * c - a * d), a * a - b * b + c * c - d * d, 2 * (c * d + a * b)},
+          IntVec{2 * (b * d + a * c), 2 * (c * d - a * b), a * a - b * b - c * c + d * d}};
+}
+
 Squared drawn_quadruple(Random& random, std::int64_t range) {
   for (int tries = 0; tries < 16; ++tries) {
     const std::int64_t a = random.integer(-range, range), b = random.integer(-range, range),
                        c = random.integer(-range, range), d = random.integer(-range, range);
-    const IntVec v{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)},
-        across{2 * (b * c - a * d), a * a - b * b + c * c - d * d, 2 * (c * d + a * b)};
+    const auto [v, across, other] = rotation_of(a, b, c, d);
     if (content_of(v) == 1) return {v, across, a * a + b * b + c * c + d * d};
   }
   return {{1, 2, 2}, {2, 1, -2}, 3};

@@ -48,8 +48,8 @@ double Random::sign() {
 }
 
 double Random::octave(int low, int high) {
-  const int exponent = static_cast<int>(integer(low, high - 1));
-  return std::ldexp(1 + uniform(), exponent);
+  const int k = exponent(low, high - 1);
+  return std::ldexp(1 + uniform(), k);
 }
 
 }  // namespace lorentz::cases

@@ -44,6 +44,9 @@ class Random {
   std::uint64_t below(std::uint64_t n) { return bits() % n; }
   bool one_in(std::uint64_t n) { return below(n) == 0; }
   std::int64_t integer(std::int64_t low, std::int64_t high);  ///< low to high, both included
+  int exponent(std::int64_t low, std::int64_t high) { return static_cast<int>(integer(low, high)); }
+  double whole(std::int64_t low, std::int64_t high) { return static_cast<double>(integer(low, high)); }
+  int axis(int dimension) { return static_cast<int>(below(static_cast<std::uint64_t>(dimension))); }
   double between(double low, double high);
   double sign();                     ///< +1 or -1
   double octave(int low, int high);  ///< 2^k (1 + u), k from low to high - 1: about log-uniform, above 0

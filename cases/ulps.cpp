@@ -42,6 +42,10 @@ double moved(double x, std::int64_t ulps, NumberFormat precision) {
   return std::isfinite(there) ? there : std::copysign(largest(precision), x);
 }
 
+double nudged(double x, std::int64_t ulps, double unit, NumberFormat precision) {
+  return x == 0 ? static_cast<double>(ulps) * unit : moved(x, ulps, precision);
+}
+
 double middle(double a, double b, NumberFormat precision) {
   const std::int64_t one = rank_of(a, precision), other = rank_of(b, precision);
   return of_rank((one >> 1) + (other >> 1) + (one & other & 1), precision);

@@ -18,6 +18,9 @@ constexpr int missing_bits(NumberFormat precision) {
 /// finite value.
 double moved(double x, std::int64_t ulps, NumberFormat precision = NumberFormat::binary64);
 
+/// The same, but a zero becomes `ulps` times `unit`.
+double nudged(double x, std::int64_t ulps, double unit, NumberFormat precision);
+
 /// The number midway between two numbers of the precision in their order, through 0 and the subnormals too.
 double middle(double a, double b, NumberFormat precision = NumberFormat::binary64);
 

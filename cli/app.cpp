@@ -2,22 +2,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <deque>
 #include <filesystem>
-#include <iostream>
 
 #include <lorentz/exchange.hpp>
-#include "cli/completion.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/file_options.hpp"
-#include "cli/manual.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
-#include "cli/versions.hpp"
+#include "cli/services.hpp"
 #include "files/signals.hpp"
 #include "src/exchange/nearest_name.hpp"
-#include "src/problem/write_error.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -41,7 +35,7 @@ CLI::Option* add_option(CLI::App& app, const Option& option, NumbersGiven& numbe
       [&](auto target) -> CLI::Option* {
         using To = std::remove_pointer_t<decltype(target)>;
         if constexpr (std::is_same_v<To, std::monostate>)
-          return app.get_option("--" + option.long_names().at(0));
+          return app.get_option(option.name());
         else if constexpr (std::is_same_v<To, bool>)
           return app.add_flag(option.names, *target, option.help);
         else if constexpr (std::is_pointer_v<decltype(target)>)
@@ -101,7 +95,7 @@ Called subcommand_of(CLI::App& app, const Command& command, const std::string& b
 std::string unknown_options(const CLI::App& app, const Command& command) {
   std::vector<std::string> names;
   for (const Option& option : command.options)
-    for (const std::string& name : option.long_names()) names.push_back("--" + name);
+    for (const std::string& name : option.long_names()) names.push_back(name);
   std::string text;
   for (const std::string& word : app.remaining(true))
     if (word.starts_with('-'))
@@ -144,10 +138,7 @@ const Action& parse(CLI::App& app, const Command& program, const NumbersGiven& n
   return command.act;
 }
 
-std::string& called() {
-  static std::string line;
-  return line;
-}
+std::string called;  // the shell line
 
 // Supports `lorentz help golden make` as another form of `lorentz golden make --help`.
 void help_as_option(int argc, char** argv) {
@@ -196,23 +187,6 @@ int parse_and_act(CLI::App& app, const Command& program, const NumbersGiven& num
   }
 }
 
-}  // namespace
-
-const std::string& command_line() {
-  return called();
-}
-
-void finish_output() {
-  static bool is_lost = false;  // reported only once
-  if (is_lost) return;
-  std::cout.flush();
-  const bool flushed = std::fflush(stdout) == 0;
-  is_lost = !flushed || std::ferror(stdout) || !std::cout;
-  if (is_lost) throw write_error("standard output", errno);
-}
-
-namespace {
-
 // Adds the help option in front of each command's own rows.
 void add_help(Command& command) {
   command.options.insert(command.options.begin(), {"-h,--help", {}, "", "Print this help message and exit"});
@@ -241,14 +215,14 @@ Command program() {
 
 }  // namespace
 
-std::string parser_library() {
-  return std::string("CLI11 ") + CLI11_VERSION;
+const std::string& command_line() {
+  return called;
 }
 
 int run(int argc, char** argv) {
   end_in_order();
-  called() = "lorentz";
-  for (int i = 1; i < argc; ++i) called() += ' ' + shell_quoted(argv[i]);
+  called = "lorentz";
+  for (int i = 1; i < argc; ++i) called += ' ' + shell_quoted(argv[i]);
   const Command commands = program();
   CLI::App app{commands.description};
   app.name(commands.name);

@@ -1,7 +1,8 @@
-// The program `lorentz`: one file per subcommand. Each declares its command here, with name and options.
+// The program `lorentz`: one file per subcommand. Each declares its command here.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cli/command.hpp"
 
@@ -25,11 +26,31 @@ Command judge_command();
 Command golden_command();
 Command doctor_command();
 
+// lorentz scene draw.
+Command scene_draw_command();
+
+// The parts of `lorentz golden`.
+Command golden_make_command();
+Command golden_add_command();
+Command golden_check_command();
+Command golden_verify_command();
+Command golden_explain_command();
+Command golden_export_command();
+Command golden_merge_command();
+Command golden_filter_command();
+Command golden_sample_command();
+
+// The parts of `lorentz fuzz`.
+Command fuzz_list_command();
+Command fuzz_show_command();
+Command fuzz_merge_command();
+Command fuzz_export_command();
+
 /// The shell line that called this program.
 const std::string& command_line();
 
-/// The parser library and its version.
-std::string parser_library();
+/// "GMP 6.2.1", ..: the libraries for computing, reading, storing and printing.
+std::vector<std::string> library_versions();
 
 /// The whole program: parses, acts, and turns exceptions into messages and an exit status.
 int run(int argc, char** argv);

@@ -1,12 +1,9 @@
 // lorentz bench: speed and error for all combinations of engines, scenes, radii and difficulties.
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
@@ -76,9 +73,9 @@ BenchPlan plan_of(BenchOptions options) {
   options.claim.ask(plan.engines);
   plan.seed = options.seed;
   plan.count = options.count;
-  plan.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
+  plan.answerer.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
   plan.claim = options.claim.claim();
-  plan.listener = terminal();
+  plan.answerer.listener = terminal();
   return plan;
 }
 

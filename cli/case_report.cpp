@@ -7,7 +7,6 @@
 #include "files/whole_file.hpp"
 #include "pictures/finding_drawing.hpp"
 #include "report/claim_words.hpp"
-#include "report/finding_json.hpp"
 #include "report/manifest.hpp"
 #include "report/page.hpp"
 #include "report/query_text.hpp"
@@ -46,6 +45,13 @@ std::optional<double> radii_of(const CaseReport& report, const oracle::Margins& 
   return dispute ? std::optional(dispute->radii) : std::nullopt;
 }
 
+// The drawing, or an empty text if there is nothing to draw.
+std::string drawing_of(const CaseReport& report) {
+  return report.given ? pictures::finding_drawing(report.scene, report.query, *report.given, report.exact,
+                                                  report.decisive)
+                      : pictures::finding_drawing(report.scene, report.query, report.exact);
+}
+
 void add_finding(json::Members& object, const CaseReport& report) {
   const Components dimension(report.scene);
   const oracle::Margins margins(report.scene, report.claim.precision);
@@ -59,14 +65,7 @@ void add_finding(json::Members& object, const CaseReport& report) {
              commands_of(report), "drawing", drawing.empty() ? std::nullopt : std::optional(drawing));
 }
 
-}  // namespace
-
-std::string drawing_of(const CaseReport& report) {
-  return report.given ? pictures::finding_drawing(report.scene, report.query, *report.given, report.exact,
-                                                  report.decisive)
-                      : pictures::finding_drawing(report.scene, report.query, report.exact);
-}
-
+// The report of kind "case" with one finding, in the form of docs/page.md.
 std::string page_json(const CaseReport& report) {
   return json::line_of([&](json::Members& page) {
     page.add("format", 1, "kind", "case", "title", report.title, "manifest",
@@ -74,6 +73,8 @@ std::string page_json(const CaseReport& report) {
              json::objects(std::span(&report, 1), add_finding));
   });
 }
+
+}  // namespace
 
 std::vector<Option> CaseFiles::rows() {
   return {{"--html", &html, "FILE",
@@ -86,17 +87,12 @@ std::string CaseFiles::as_typed() const {
 }
 
 void CaseFiles::write(const CaseReport& report) const {
-  const auto text_for = [&](bool page) {
-    if (page) return report::page(page_json(report));
-    std::string drawing = drawing_of(report);
-    if (drawing.empty())
-      throw InputError("--svg: there is nothing to draw: the question is invalid, or it has no exact answer");
-    return drawing;
-  };
-  std::vector<std::pair<std::string, std::string>> files;
-  if (html) files.emplace_back(*html, text_for(true));
-  if (svg) files.emplace_back(*svg, text_for(false));
-  for (const auto& [path, text] : files) write_whole(path, text);
+  const std::string page = html ? report::page(page_json(report)) : "",
+                    drawing = svg ? drawing_of(report) : "";
+  if (svg && drawing.empty())
+    throw InputError("--svg: there is nothing to draw: the question is invalid, or it has no exact answer");
+  if (html) write_whole(*html, page);
+  if (svg) write_whole(*svg, drawing);
 }
 
 }  // namespace lorentz::cli

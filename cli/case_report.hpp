@@ -31,12 +31,6 @@ struct CaseReport {
   std::string engine;                  ///< the engine that gave the answer; empty: none
 };
 
-/// The drawing, or an empty text if there is nothing to draw.
-std::string drawing_of(const CaseReport& report);
-
-/// The report of kind "case" with one finding, in the form of docs/page.md.
-std::string page_json(const CaseReport& report);
-
 /// Further files to which a case is written.
 struct CaseFiles {
   std::optional<std::string> html, svg;

@@ -7,13 +7,12 @@
 namespace lorentz::cli {
 namespace {
 
-std::vector<std::string> names_behind(const std::string& names, const std::string& dashes) {
+std::vector<std::string> names_with(const std::string& names, const std::string& dashes) {
   std::vector<std::string> result;
   for (std::size_t begin = 0; begin < names.size();) {
     const std::size_t end = std::min(names.find(',', begin), names.size());
     const std::string name = names.substr(begin, end - begin);
-    if (name.starts_with(dashes) && !name.substr(dashes.size()).starts_with('-'))
-      result.push_back(name.substr(dashes.size()));
+    if (name.starts_with(dashes) && !name.substr(dashes.size()).starts_with('-')) result.push_back(name);
     begin = end + 1;
   }
   return result;
@@ -26,23 +25,20 @@ bool Option::takes_value() const {
 }
 
 std::vector<std::string> Option::long_names() const {
-  return names_behind(names, "--");
+  return names_with(names, "--");
 }
 
 std::vector<std::string> Option::short_names() const {
-  return names_behind(names, "-");
+  return names_with(names, "-");
 }
 
 std::string Option::name() const {
-  return is_argument() ? names : "--" + long_names().at(0);
+  return is_argument() ? names : long_names().at(0);
 }
 
 bool Option::is_called(const std::string& word) const {
-  for (const std::string& name : long_names())
-    if (word == "--" + name) return true;
-  for (const std::string& name : short_names())
-    if (word == '-' + name) return true;
-  return false;
+  const auto is_in = [&](const std::vector<std::string>& all) { return std::ranges::count(all, word) > 0; };
+  return is_in(long_names()) || is_in(short_names());
 }
 
 std::string Option::default_text() const {
@@ -70,14 +66,12 @@ std::vector<Option> joined(std::vector<Option> first, const std::vector<Option>&
 }
 
 const Command* Command::called(const std::string& one) const {
-  const auto found = std::find_if(commands.begin(), commands.end(),
-                                  [&](const Command& command) { return command.name == one; });
+  const auto found = std::ranges::find(commands, one, &Command::name);
   return found == commands.end() ? nullptr : &*found;
 }
 
 const Option* Command::option_called(const std::string& word) const {
-  const auto found = std::find_if(options.begin(), options.end(),
-                                  [&](const Option& option) { return option.is_called(word); });
+  const auto found = std::ranges::find_if(options, [&](const Option& row) { return row.is_called(word); });
   return found == options.end() ? nullptr : &*found;
 }
 

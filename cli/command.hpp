@@ -11,6 +11,14 @@
 
 namespace lorentz::cli {
 
+/// The exit status of the program. If several apply, it is the largest.
+enum ExitStatus : int {
+  kDone = 0,
+  kDisagreement = 1,  ///< a wrong answer was found
+  kBadInput = 2,      ///< bad usage or bad input
+  kFailed = 3         ///< the work could not be done because of a file, a store or a subprocess
+};
+
 /// The action of a subcommand after its options are parsed. Returns an ExitStatus.
 using Action = std::function<int()>;
 
@@ -57,10 +65,10 @@ struct Option {
   bool takes_value() const;
   bool takes_many() const { return std::holds_alternative<std::vector<std::string>*>(target); }
 
-  std::vector<std::string> long_names() const;    ///< without dashes
-  std::vector<std::string> short_names() const;   ///< without dashes
-  std::string name() const;                       ///< "--engine", or the argument's name
-  bool is_called(const std::string& word) const;  ///< with dashes
+  std::vector<std::string> long_names() const;  ///< with dashes, as all names here
+  std::vector<std::string> short_names() const;
+  std::string name() const;  ///< "--engine", or the argument's name
+  bool is_called(const std::string& word) const;
 
   std::string default_text() const;         ///< valid before parsing; empty: no default
   std::vector<std::string> values() const;  ///< the given values, or the default

@@ -7,7 +7,6 @@
 #include "cli/compare_questions.hpp"
 #include "cli/compare_table.hpp"
 #include "cli/disagreement_file.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/logged_answers.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
@@ -77,12 +76,9 @@ std::unique_ptr<LoggedAnswers> logged_in(const std::string& path, const Compared
   if (!questions.are_columns())
     throw InputError("--answers: " + path +
                      ": its rows are matched by their numbers; --queries needs columns, too");
-  std::unique_ptr<AnswerReader> reader;
   if (path.ends_with(".npy"))
-    reader = std::make_unique<NpyAnswerReader>(path, questions.dimension());
-  else
-    reader = std::make_unique<CsvAnswerReader>(path, questions.components());
-  return std::make_unique<LoggedAnswers>(std::move(reader));
+    return std::make_unique<LoggedAnswers>(std::make_unique<NpyAnswerReader>(path, questions.dimension()));
+  return std::make_unique<LoggedAnswers>(std::make_unique<CsvAnswerReader>(path, questions.components()));
 }
 
 Compared logged_answers(const std::string& argument, const ComparedQuestions& questions,
@@ -91,8 +87,7 @@ Compared logged_answers(const std::string& argument, const ComparedQuestions& qu
   if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size())
     throw InputError("--answers: " + json_quoted(argument) + " is not NAME=FILE");
   auto logged = logged_in(argument.substr(equals + 1), questions, unknown);
-  LoggedAnswers* const raw = logged.get();
-  Compared one{argument.substr(0, equals), {}, {}, raw};
+  Compared one{argument.substr(0, equals), {}, {}, logged.get()};
   one.answerers.push_back(std::move(logged));
   return one;
 }
@@ -115,39 +110,17 @@ int exit_status(const std::vector<Tally>& tallies, const CompareOptions& options
   return kDone;
 }
 
-// Collects the answers of one part that differ from the exact ones: all for the file, the first wrong ones
-// for people.
-class Departures {
- public:
-  Departures(const CompareOptions& options, DisagreementFile& file) : options_(options), file_(file) {}
-
-  void add(const Judged& judged, const std::string& name, std::vector<std::string>& wrong) {
-    const oracle::Judgement& judgement = judged.judgement;
-    if (!departs(judgement) || (judgement.wrong_time && !options_.times)) return;
-    file_.add(judged, name);
-    if (judgement.verdict != oracle::Verdict::wrong || options_.json || wrong.size() >= options_.failures)
-      return;
-    const Question& question = judged.question;
-    const Place& place = *question.place;
-    wrong.push_back(description(judged) + report::reason_of(place.margins(), place.scene(), question.query,
-                                                            question.exact, judged.reply.answer,
-                                                            judgement.obstacle, "    "));
-  }
-
- private:
-  static std::string description(const Judged& judged) {
-    const Question& question = judged.question;
-    const Scene& scene = question.place->scene();
-    std::string query, truth, says;
-    append_query_line(query, question.id, question.query, scene);
-    append_answer_line(truth, question.id, question.exact, scene);
-    append_answer_line(says, question.id, judged.reply.answer, scene);
-    return fmt::format("  {}    says  {}    truth {}", query, says, truth);
-  }
-
-  const CompareOptions& options_;
-  DisagreementFile& file_;
-};
+std::string description(const Judged& judged) {
+  const Question& question = judged.question;
+  const Scene& scene = question.place->scene();
+  std::string query, truth, says;
+  append_query_line(query, question.id, question.query, scene);
+  append_answer_line(truth, question.id, question.exact, scene);
+  append_answer_line(says, question.id, judged.reply.answer, scene);
+  return fmt::format("  {}    says  {}    truth {}{}", query, says, truth,
+                     report::reason_of(question.place->margins(), scene, question.query, question.exact,
+                                       judged.reply.answer, judged.judgement.obstacle, "    "));
+}
 
 // The first wrong answers of the i-th engine or file, for people; empty if there are none.
 std::string first_wrong(const ComparedParts& parts, std::size_t i, std::size_t most) {
@@ -222,19 +195,24 @@ void pass_over(const std::vector<Question>& questions, std::vector<Compared>& co
     if (one.logged) ask_all(all_of(questions), *one.answerers[0], [](const Question&, Reply&) {});
 }
 
+// Judges one part: keeps all answers that differ from the exact ones for the file, and describes the first
+// wrong ones for people.
 ComparedPart examine_part(const CompareOptions& options, std::uint64_t number,
                           std::vector<Question>& questions, std::vector<Compared>& compared,
                           DisagreementFile& file) {
   const double ulps = options.ulps.value_or(oracle::kDefaultUlps);
   ComparedPart part{number, check_of(questions), {}, {}, {}};
-  Departures departures(options, file);
   answer_exactly(questions, truth_named(options.judge, {}), terminal(), static_cast<int>(options.jobs));
   for (Compared& one : compared) {
     Tally& tally = part.tallies.emplace_back();
     std::vector<std::string>& wrong = part.wrong.emplace_back();
     examine(questions, one.answerers, ulps, [&](const Judged& judged) {
-      tally.count(judged.judgement);
-      departures.add(judged, one.name, wrong);
+      const oracle::Judgement& judgement = judged.judgement;
+      tally.count(judgement);
+      if (!departs(judgement) || (judgement.wrong_time && !options.times)) return;
+      file.add(judged, one.name);
+      if (judgement.verdict == oracle::Verdict::wrong && !options.json && wrong.size() < options.failures)
+        wrong.push_back(description(judged));
     });
   }
   part.disagreements = file.take();
@@ -281,9 +259,9 @@ void race_all(const CompareOptions& options, const std::vector<Question>& questi
       engines.push_back(*one.engine), tallies.push_back(&one.tally);
       race_options.running.push_back(one.answerers[0].get());
     }
-  race_options.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
-  race_options.listener = terminal();
-  race_options.strict = options.strict;
+  race_options.answerer.timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
+  race_options.answerer.listener = terminal();
+  race_options.answerer.strict = options.strict;
   const std::vector<Speed> speeds = race(questions, engines, race_options);
   for (std::size_t i = 0; i < speeds.size(); ++i) {
     tallies[i]->speed = speeds[i];
@@ -375,9 +353,8 @@ Command compare_command() {
       "but the time is off by more than k times what such errors make of it (docs/verdicts.md).\n"
       "Errors of t are in ulps from the correctly rounded time. Times are of the engine alone, on one "
       "thread, over the\nfirst 10 000 queries; of a cmd: engine by the wall, pipes included; of a lib: "
-      "engine in "
-      "its own calls."
-      "\nExample:\n  lorentz compare --scene cubic --radius 0.2 --count 20000 --engine published,classical",
+      "engine in its own calls.\n"
+      "Example:\n  lorentz compare --scene cubic --radius 0.2 --count 20000 --engine published,classical",
       [options] { return act(*options); }};
 }
 

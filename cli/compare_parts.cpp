@@ -10,7 +10,6 @@
 #include "files/messages.hpp"
 #include "files/scene_file.hpp"
 #include "report/claim_words.hpp"
-#include "runs/check.hpp"
 #include "src/exchange/exchange_json.hpp"
 #include "src/exchange/json_writer.hpp"
 

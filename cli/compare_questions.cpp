@@ -1,7 +1,6 @@
 #include "cli/compare_questions.hpp"
 
 #include <lorentz/exchange.hpp>
-#include "cli/terminal.hpp"
 #include "files/messages.hpp"
 #include "files/scene_file.hpp"
 

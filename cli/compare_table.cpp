@@ -70,14 +70,14 @@ std::string verdict_of(const Tally& t) {
   if (t.speed.own_ns)
     text += fmt::format("; its own calls take {:.3g} ns a query, as it says", *t.speed.own_ns);
   if (t.wrong_time == 0) return text;
-  const auto at = [](const std::vector<double>& values, double part) { return quantile(values, part); };
   return text + fmt::format(
                     "\n  {} of right obstacles: off by {:.3g} ulps (median), {:.3g} (99 %), {:.3g} "
                     "(largest);\n"
                     "  {:.3g}, {:.3g}, {:.3g} times what an ulp in each input makes of them",
                     t.wrong_time == 1 ? "1 wrong time" : fmt::format("{} wrong times", t.wrong_time),
-                    at(t.wrong_ulps, 0.5), at(t.wrong_ulps, 0.99), at(t.wrong_ulps, 1),
-                    at(t.wrong_conditions, 0.5), at(t.wrong_conditions, 0.99), at(t.wrong_conditions, 1));
+                    quantile(t.wrong_ulps, 0.5), quantile(t.wrong_ulps, 0.99), quantile(t.wrong_ulps, 1),
+                    quantile(t.wrong_conditions, 0.5), quantile(t.wrong_conditions, 0.99),
+                    quantile(t.wrong_conditions, 1));
 }
 
 }  // namespace lorentz::cli

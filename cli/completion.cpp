@@ -1,4 +1,4 @@
-#include "cli/completion.hpp"
+#include "cli/services.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "cases/families/target.hpp"
-#include "cli/golden.hpp"
 #include "files/scene_file.hpp"
 #include "golden/sets.hpp"
 #include "question/engines.hpp"
@@ -24,44 +23,24 @@ struct Values {
   bool or_file = false;
 };
 
-std::vector<Word> engines() {
-  std::vector<Word> words;
-  for (const std::string& name : question::own_names()) words.push_back({name, "an engine"});
-  return words;
-}
-
-std::vector<Word> scenes() {
-  std::vector<Word> words;
-  for (const CatalogueEntry& entry : catalogue()) words.push_back({entry.name, "a scene of the catalogue"});
-  return words;
-}
-
-std::vector<Word> sets() {
-  std::vector<Word> words;
-  for (const golden::Set& set : golden::sets())
-    if (set.is_committed) words.push_back({set.name, set.description});
-  return words;
-}
-
-std::vector<Word> targets() {
-  std::vector<Word> words;
-  for (const cases::Target& target : cases::targets())
-    words.push_back({std::string(target.name()), std::string(target.description())});
-  return words;
-}
-
 // Chosen by the value's name in help: ENGINE, FILE, .., or the values themselves, a|b|c.
 Values values_of(const Option& option) {
   const std::string& type = option.type;
-  if (type == "ENGINE") return {engines()};
-  if (type == "SCENE") return {scenes(), true};
-  if (type == "SET") return {sets(), true};
-  if (type == "TARGET") return {targets()};
-  if (type == "FILE" || type == "FOLDER") return {{}, true};
-  Values values;
-  if (type.find('|') == std::string::npos) return values;
-  std::istringstream words(type);
-  for (std::string one; std::getline(words, one, '|');) values.words.push_back({one, ""});
+  Values values{{}, type == "SCENE" || type == "SET" || type == "FILE" || type == "FOLDER"};
+  const auto add = [&](std::string_view text, std::string_view meaning) {
+    values.words.push_back({std::string(text), std::string(meaning)});
+  };
+  if (type == "ENGINE")
+    for (const std::string& name : question::own_names()) add(name, "an engine");
+  if (type == "SCENE")
+    for (const CatalogueEntry& entry : catalogue()) add(entry.name, "a scene of the catalogue");
+  if (type == "SET")
+    for (const golden::Set& set : golden::sets())
+      if (set.is_committed) add(set.name, set.description);
+  if (type == "TARGET")
+    for (const cases::Target& target : cases::targets()) add(target.name(), target.description());
+  std::istringstream words(type.find('|') == std::string::npos ? "" : type);
+  for (std::string one; std::getline(words, one, '|');) add(one, "");
   return values;
 }
 
@@ -92,7 +71,7 @@ Values options_of(const Command& command) {
   Values values;
   for (const Option& option : command.options)
     for (const std::string& name : option.long_names())
-      if (!option.is_hidden()) values.words.push_back({"--" + name, option.help});
+      if (!option.is_hidden()) values.words.push_back({name, option.help});
   return values;
 }
 

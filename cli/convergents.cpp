@@ -2,7 +2,6 @@
 #include <lorentz/continued_fraction.hpp>
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/output.hpp"
 #include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"

@@ -5,7 +5,6 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/disagreement_file.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
 #include "question/examine.hpp"
@@ -19,7 +18,6 @@ using namespace question;
 
 namespace {
 
-// The example of Kraemer, Kryukov and Sanders: r = 0.1, x = (0, 0.445), directions from 1 to 89 degrees.
 std::vector<Question> questions_of(std::string_view kind, const Scene& scene,
                                    const std::vector<Query>& queries, std::size_t first = 0) {
   const auto place = std::make_shared<Place>(scene);
@@ -31,6 +29,7 @@ std::vector<Question> questions_of(std::string_view kind, const Scene& scene,
   return questions;
 }
 
+// The example of Kraemer, Kryukov and Sanders: r = 0.1, x = (0, 0.445), directions from 1 to 89 degrees.
 std::vector<Question> paper_example() {
   std::vector<Query> queries;
   for (int degrees = 1; degrees < 90; ++degrees) {
@@ -40,17 +39,11 @@ std::vector<Question> paper_example() {
   return questions_of("paper", unit_scene(2, 0.1), queries, 1);
 }
 
-// Flights on which the published algorithm skips discs.
-std::vector<Question> leaving_flights(int dimension, double radius, std::size_t count) {
-  return questions_of(
-      fmt::format("leaving-{}d/{}", dimension, radius), unit_scene(dimension, radius),
-      starts::free_starts(unit_scene(dimension, radius), starts::Kind::surface, starts::kDefaultSeed, count));
-}
-
-std::vector<Question> drawn(int dimension, double radius, std::size_t count) {
+std::vector<Question> drawn(const std::string& name, starts::Kind kind, int dimension, double radius,
+                            std::size_t count) {
   const Scene scene = unit_scene(dimension, radius);
-  return questions_of(fmt::format("drawn-{}d/{}", dimension, radius), scene,
-                      starts::free_starts(scene, starts::Kind::uniform, starts::kDefaultSeed, count));
+  return questions_of(fmt::format("{}-{}d/{}", name, dimension, radius), scene,
+                      starts::free_starts(scene, kind, starts::kDefaultSeed, count));
 }
 
 class DemoReport {
@@ -62,7 +55,7 @@ class DemoReport {
     answer_exactly(questions, Truth::oracle, terminal());
     const std::vector<EngineInfo> engines = engines_named({"classical", kPublished, "oracle"});
     RaceOptions options;
-    options.listener = terminal();
+    options.answerer.listener = terminal();
     const std::vector<Speed> speeds = race(questions, engines, options);
     for (std::size_t i = 0; i < engines.size(); ++i) {
       const Tally t = tally_of(engines[i], questions);
@@ -85,8 +78,7 @@ class DemoReport {
         "wrong time: of those right, the times that are off by more than 4 times what an ulp in each input "
         "makes of them.\n"
         "error: of the time of the hits it got right, in units in the last place (ulp) of a binary64.\n"
-        "The published algorithm was wrong {} times in {}; docs/published.md says why. To check "
-        "it:\n"
+        "The published algorithm was wrong {} times in {}; docs/published.md says why. To check it:\n"
         "lorentz demo --disagreements FILE writes these {} cases for any program to run again.\n",
         published_.wrong, published_.agree + published_.ill_posed + published_.wrong, published_.wrong));
   }
@@ -117,12 +109,14 @@ int act(const std::optional<std::string>& disagreements) {
       starts::kDefaultSeed));
   DemoReport report(disagreements);
   report.add("the paper's example, r = 0.1", paper_example());
+  using starts::Kind;
   for (const double r : {0.3, 0.1, 1e-2, 1e-3})
-    report.add(fmt::format("2D, drawn, r = {}", r), drawn(2, r, 5000));
-  for (const double r : {0.3, 0.2, 0.1})
-    report.add(fmt::format("2D, leaving a disc, r = {}", r), leaving_flights(2, r, 20000));
-  for (const double r : {0.3, 0.1, 1e-2}) report.add(fmt::format("3D, drawn, r = {}", r), drawn(3, r, 5000));
-  report.add("3D, drawn, r = 0.001", drawn(3, 1e-3, 100));
+    report.add(fmt::format("2D, drawn, r = {}", r), drawn("drawn", Kind::uniform, 2, r, 5000));
+  for (const double r : {0.3, 0.2, 0.1})  // on these flights the published algorithm skips discs
+    report.add(fmt::format("2D, leaving a disc, r = {}", r), drawn("leaving", Kind::surface, 2, r, 20000));
+  for (const double r : {0.3, 0.1, 1e-2})
+    report.add(fmt::format("3D, drawn, r = {}", r), drawn("drawn", Kind::uniform, 3, r, 5000));
+  report.add("3D, drawn, r = 0.001", drawn("drawn", Kind::uniform, 3, 1e-3, 100));
   report.show();
   return kDone;
 }

@@ -1,8 +1,6 @@
 #include "cli/disagreement_file.hpp"
 #include "src/exchange/exchange_write.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 #include <lorentz/exchange.hpp>
@@ -21,17 +19,13 @@ void DisagreementFile::begin(const std::shared_ptr<Place>& place) {
   file_->write(scene_);
 }
 
-void DisagreementFile::enter(const std::shared_ptr<Place>& place) {
-  if (place == place_) return;
-  append_scene_line(added_, place->scene());
-  place_ = place;
-}
-
 void DisagreementFile::add(const Judged& judged, const std::string& engine) {
   if (!file_) return;
   const auto& [question, reply, judgement] = judged;
-  enter(question.place);
-  const Components components(question.place->scene());
+  const Scene& scene = question.place->scene();
+  if (place_ != question.place) append_scene_line(added_, scene);
+  place_ = question.place;
+  const Components components(scene);
   const std::string_view verdict = judgement.verdict == oracle::Verdict::wrong ? "wrong"
                                    : judgement.wrong_time                      ? "wrong-time"
                                                                                : "ill-posed";

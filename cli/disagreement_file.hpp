@@ -16,8 +16,6 @@ class DisagreementFile {
   /// Writes nothing without a path. Throws FileError if the file cannot be written.
   explicit DisagreementFile(const std::optional<std::string>& path);
 
-  explicit operator bool() const { return file_.has_value(); }
-
   /// Writes the scene of the first place, so that the file is a stream even if nothing disagrees.
   void begin(const std::shared_ptr<question::Place>& place);
   void add(const question::Judged& judged, const std::string& engine);
@@ -32,8 +30,6 @@ class DisagreementFile {
   void close();
 
  private:
-  void enter(const std::shared_ptr<question::Place>& place);
-
   std::optional<WholeFile> file_;
   std::string added_, scene_;               // the line of the scene that was written last
   std::shared_ptr<question::Place> place_;  // of the scene that was added last

@@ -2,12 +2,11 @@
 #include <lorentz/batch.hpp>
 #include <lorentz/exchange.hpp>
 
+#include <algorithm>
 #include <cfenv>
 
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/output.hpp"
-#include "cli/versions.hpp"
 #include "fitness/examination.hpp"
 #include "report/manifest.hpp"
 #include "src/exchange/json_writer.hpp"
@@ -49,26 +48,20 @@ MachineReport diagnose() {
   return diagnosis;
 }
 
-std::vector<std::string> names(const std::vector<Use>& uses) {
+// The names of the uses for which the machine is fit, or of those for which it is not.
+std::vector<std::string> uses_of(const MachineReport& diagnosis, bool fit) {
   std::vector<std::string> names;
-  for (const Use use : uses) names.emplace_back(fitness::name_of(use));
-  return names;
-}
-
-std::vector<Use> fit_uses(const MachineReport& diagnosis) {
-  std::vector<Use> uses;
   for (const Use use : fitness::kUses)
-    if (std::find(diagnosis.unfit.begin(), diagnosis.unfit.end(), use) == diagnosis.unfit.end())
-      uses.push_back(use);
-  return uses;
+    if ((std::ranges::count(diagnosis.unfit, use) == 0) == fit) names.emplace_back(fitness::name_of(use));
+  return names;
 }
 
 std::string verdict(const MachineReport& diagnosis) {
   if (diagnosis.fit()) return "Fit: answers here are what they are everywhere.\n";
-  const std::vector<Use> fit = fit_uses(diagnosis);
+  const std::vector<std::string> fit = uses_of(diagnosis, true);
   return fmt::format("NOT FIT for {}.\n{}docs/doctor.md says what each finding means, and what helps.\n",
-                     fmt::join(names(diagnosis.unfit), "; "),
-                     fit.empty() ? "" : fmt::format("Fit for {}.\n", fmt::join(names(fit), "; ")));
+                     fmt::join(uses_of(diagnosis, false), "; "),
+                     fit.empty() ? "" : fmt::format("Fit for {}.\n", fmt::join(fit, "; ")));
 }
 
 std::string text_of(const MachineReport& diagnosis) {
@@ -89,8 +82,8 @@ std::string text_of(const MachineReport& diagnosis) {
 
 std::string json_of(const MachineReport& diagnosis) {
   return json::line_of([&](json::Members& object) {
-    object.add("fit", diagnosis.fit(), "fit_for", names(fit_uses(diagnosis)), "not_fit_for",
-               names(diagnosis.unfit), "version", diagnosis.manifest.version, "compiler",
+    object.add("fit", diagnosis.fit(), "fit_for", uses_of(diagnosis, true), "not_fit_for",
+               uses_of(diagnosis, false), "version", diagnosis.manifest.version, "compiler",
                diagnosis.manifest.compiler, "machine", diagnosis.manifest.machine, "instructions",
                diagnosis.instruction_sets, "findings",
                json::objects(diagnosis.findings,

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <lorentz/errors.hpp>
-#include "cli/golden.hpp"
 #include "files/scene_file.hpp"
 
 namespace lorentz::cli {

@@ -3,13 +3,10 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
-#include "cli/first_hit_columns.hpp"
-#include "cli/first_hit_proofs.hpp"
+#include "cli/first_hit.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/terminal.hpp"
-#include "files/messages.hpp"
 #include "files/scene_file.hpp"
 #include "question/answerer.hpp"
 #include "question/engines.hpp"
@@ -114,11 +111,11 @@ int act_on_columns(const FirstHitOptions& options, ColumnOrder::Format format) {
                       : options.detail ? "--detail"
                                        : "--prove") +
                      std::string(": only streams in JSON have it (--format ndjson)"));
-  const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
   ColumnOrder order{.format = format, .queries = queries_file(options.queries), .engine = engine};
   order.max_time = options.max_time;
-  order.jobs = jobs_of(options, engine), order.strict = options.strict;
-  order.scene = load_scene(*options.scene, options.radius, unknown);
+  order.jobs = jobs_of(options, engine);
+  order.unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
+  order.scene = load_scene(*options.scene, options.radius, order.unknown);
   return answer_columns(order);
 }
 
@@ -186,56 +183,52 @@ void check_proving(const FirstHitOptions& options) {
 
 int act(const FirstHitOptions& options) {
   check_proving(options);
-  switch (index_of_name(options.format, {"ndjson", "csv", "npy"}, "--format")) {
-    case 0:
-      return act_on_lines(options);
-    case 1:
-      return act_on_columns(options, ColumnOrder::Format::csv);
-    default:
-      return act_on_columns(options, ColumnOrder::Format::npy);
-  }
+  const std::size_t format = index_of_name(options.format, {"ndjson", "csv", "npy"}, "--format");
+  using Format = ColumnOrder::Format;
+  return format == 0 ? act_on_lines(options)
+                     : act_on_columns(options, format == 1 ? Format::csv : Format::npy);
 }
 
 }  // namespace
 
 Command first_hit_command() {
   auto options = std::make_shared<FirstHitOptions>();
-  return {"first-hit",
-          "Which obstacle is hit first? Queries to answers, line by line.",
-          {
-              {"queries", &options->queries, "FILE", "queries; - is standard input"},
-              {"-e,--engine", &options->engine, "ENGINE", "one of " + names_for_help()},
-              {"--scene", &options->scene, "SCENE",
-               "scene before the first scene line: a file, or a name of the catalogue"},
-              {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
-              {"--digits", Whole{&options->digits, 1, kMostDigits}, "N",
-               "also print the time with N significant decimal digits (oracle)"},
-              {"--max-time", Positive{&options->max_time}, "T",
-               "answer `later` if nothing is entered before time T"},
-              {"--detail", &options->detail, "",
-               "add the collision point, the outward normal and the impact parameter"},
-              {"--prove", &options->prove, "",
-               "add to each answer that is exactly right 40 digits of its time, and a proof that any of the "
-               "checkers goes through (docs/certificates.md); status 1 if one is not"},
-              {"--records", &options->records, "", "with --prove: write a golden set (docs/formats.md)"},
-              {"--format", &options->format, "ndjson|csv|npy",
-               "of queries and answers: ndjson (a stream), or columns of numbers: csv, npy (NumPy; "
-               "docs/formats.md), which need --scene"},
-              {"--jobs", Whole{&options->jobs, 1, 1024}, "N",
-               "threads, of batch, certified-batch and a library: the same answers"},
-              {"--strict", &options->strict, "", kStrictKeysHelp},
-              {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
-          },
+  return {
+      "first-hit",
+      "Which obstacle is hit first? Queries to answers, line by line.",
+      {
+          {"queries", &options->queries, "FILE", "queries; - is standard input"},
+          {"-e,--engine", &options->engine, "ENGINE", "one of " + names_for_help()},
+          {"--scene", &options->scene, "SCENE",
+           "scene before the first scene line: a file, or a name of the catalogue"},
+          {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
+          {"--digits", Whole{&options->digits, 1, kMostDigits}, "N",
+           "also print the time with N significant decimal digits (oracle)"},
+          {"--max-time", Positive{&options->max_time}, "T",
+           "answer `later` if nothing is entered before time T"},
+          {"--detail", &options->detail, "",
+           "add the collision point, the outward normal and the impact parameter"},
+          {"--prove", &options->prove, "",
+           "add to each answer that is exactly right 40 digits of its time, and a proof that any of the "
+           "checkers goes through (docs/certificates.md); status 1 if one is not"},
+          {"--records", &options->records, "", "with --prove: write a golden set (docs/formats.md)"},
+          {"--format", &options->format, "ndjson|csv|npy",
+           "of queries and answers: ndjson (a stream), or columns of numbers: csv, npy (NumPy; "
+           "docs/formats.md), which need --scene"},
+          {"--jobs", Whole{&options->jobs, 1, 1024}, "N",
+           "threads, of batch, certified-batch and a library: the same answers"},
+          {"--strict", &options->strict, "", kStrictKeysHelp},
+          {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
+      },
 
-          "Examples:\n"
-          R"(  echo '{"id":1,"x":[0,0.445],"v":[1,0.0175]}' | lorentz first-hit --scene square )"
-          "--radius 0.1\n  printf 'x1,x2,v1,v2\\n0,0.445,1,0.0175\\n' | lorentz first-hit --scene square "
-          "--format "
-          "csv\n  lorentz first-hit --scene square --format npy --engine batch --jobs 2 queries.npy > "
-          "answers.npy\n"
-          "  lorentz sample --scene square --radius 0.1 --count 3 | lorentz first-hit --prove --records | "
-          "lorentz golden verify -",
-          [options] { return act(*options); }};
+      "Examples:\n"
+      R"(  echo '{"id":1,"x":[0,0.445],"v":[1,0.0175]}' | lorentz first-hit --scene square )"
+      "--radius 0.1\n  printf 'x1,x2,v1,v2\\n0,0.445,1,0.0175\\n' | lorentz first-hit --scene square "
+      "--format csv\n  lorentz first-hit --scene square --format npy --engine batch --jobs 2 queries.npy > "
+      "answers.npy\n"
+      "  lorentz sample --scene square --radius 0.1 --count 3 | lorentz first-hit --prove --records | "
+      "lorentz golden verify -",
+      [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -1,13 +1,8 @@
-#include "cli/first_hit_columns.hpp"
-
-#include <algorithm>
-#include <memory>
+#include "cli/first_hit.hpp"
 
 #include <lorentz/exchange.hpp>
-#include "cli/exit_status.hpp"
 #include "cli/output.hpp"
 #include "files/messages.hpp"
-#include "files/unknown_keys.hpp"
 #include "question/column_engine.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
@@ -45,16 +40,12 @@ class Complaints {
   long bad_ = 0, beyond_ = 0;
 };
 
-UnknownKeys policy(const ColumnOrder& order) {
-  return order.strict ? UnknownKeys::errors : UnknownKeys::warned;
-}
-
 // The CSV format: its reader and the writer of its answers.
 class Csv {
  public:
   Csv(const ColumnOrder& order, std::string& out)
       : reader_(order.queries, order.scene,
-                unknown_columns(csv_query_columns(order.scene.dimension), policy(order))),
+                unknown_columns(csv_query_columns(order.scene.dimension), order.unknown)),
         components_(order.scene),
         out_(out) {
     append_csv_names(out_, order.scene.dimension, reader_.has_ids());
@@ -74,7 +65,7 @@ class Csv {
 class Npy {
  public:
   Npy(const ColumnOrder& order, std::string& out)
-      : reader_(order.queries, order.scene.dimension, unknown_columns(npy_query_fields(), policy(order))),
+      : reader_(order.queries, order.scene.dimension, unknown_columns(npy_query_fields(), order.unknown)),
         out_(out) {
     out_ += npy_answer_header(reader_.promised(), order.scene.dimension);
   }

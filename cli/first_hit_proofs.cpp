@@ -1,8 +1,6 @@
-#include "cli/first_hit_proofs.hpp"
+#include "cli/first_hit.hpp"
 
 #include <lorentz/exchange.hpp>
-#include "cli/app.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "files/messages.hpp"
@@ -12,23 +10,6 @@
 
 namespace lorentz::cli {
 namespace {
-
-// Calls with(maker, item) for each query, and other(item) for each line that is neither scene nor query. The
-// maker of proofs is created once per scene.
-template <class With, class Other>
-void each_query(QueryStream& stream, const With& with, const Other& other) {
-  std::optional<golden::Maker> maker;
-  for (StreamItem item; stream.next(item);) {
-    if (item.kind == StreamItem::Kind::scene) {
-      maker.reset();
-    } else if (item.kind == StreamItem::Kind::query) {
-      if (!maker) maker.emplace(*stream.scene());
-      with(*maker, item);
-    } else {
-      other(item);
-    }
-  }
-}
 
 // The proof; empty if it is too long for any checker.
 std::optional<golden::Proved> proved_by(const golden::Maker& maker, const Query& query) {
@@ -57,25 +38,29 @@ int answer_with_proofs(QueryStream& stream, question::Answerer& answerer) {
   Answer answer;
   long unproved = 0;
   answerer.on_reply([&](const question::Reply& reply) { answer = reply.answer; });
-  each_query(
-      stream,
-      [&](const golden::Maker& maker, const StreamItem& item) {
-        const Scene& scene = *stream.scene();
-        if (!answerer.is_in(scene)) answerer.set_scene(scene);
-        answerer.ask(item.id, item.query);
-        answerer.drain();
-        const std::optional<golden::Proved> proved = proved_by(maker, item.query);
-        if (proved && same_answer(answer, proved->exact)) {
-          append_proved_line(output.buffer(), item.id, *proved, scene);
-        } else {
-          ++unproved;
-          append_answer_line(output.buffer(), item.id, answer, scene);
-        }
-        output.flush_if_due();
-      },
-      [&](const StreamItem& item) {
-        append_answer_line(output.buffer(), item.id, Answer::error(item.message), 0);
-      });
+  std::optional<golden::Maker> maker;  // of the scene's proofs
+  for (StreamItem item; stream.next(item); output.flush_if_due()) {
+    if (item.kind == StreamItem::Kind::scene) {
+      maker.reset();
+      continue;
+    }
+    if (item.kind != StreamItem::Kind::query) {
+      append_answer_line(output.buffer(), item.id, Answer::error(item.message), 0);
+      continue;
+    }
+    const Scene& scene = *stream.scene();
+    if (!maker) maker.emplace(scene);
+    if (!answerer.is_in(scene)) answerer.set_scene(scene);
+    answerer.ask(item.id, item.query);
+    answerer.drain();
+    const std::optional<golden::Proved> proved = proved_by(*maker, item.query);
+    if (proved && same_answer(answer, proved->exact)) {
+      append_proved_line(output.buffer(), item.id, *proved, scene);
+    } else {
+      ++unproved;
+      append_answer_line(output.buffer(), item.id, answer, scene);
+    }
+  }
   answerer.finish();
   output.flush();
   if (unproved > 0) say("{} of the answers can't be proved: they have no certificate", unproved);

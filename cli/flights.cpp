@@ -5,7 +5,6 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
@@ -15,7 +14,6 @@
 #include "question/engines.hpp"
 #include "report/page.hpp"
 #include "runs/piece_store.hpp"
-#include "src/exchange/nearest_name.hpp"
 #include "starts/free_starts.hpp"
 #include "statistics/flights/ranks.hpp"
 #include "statistics/flights/report.hpp"
@@ -55,28 +53,19 @@ FlightsPlan plan_of(const FlightsOptions& options, const Scene& scene) {
   return plan;
 }
 
-// One of the runs that are flown one after the other.
-struct FlightsTask {
-  std::string scene_name;
-  std::optional<double> radius;  // set if several radii are given
-  FlightsPlan plan;
-};
-
-std::vector<FlightsTask> tasks_of(const FlightsOptions& options) {
-  std::vector<FlightsTask> tasks;
-  for (const ScanPlace& place : scan_places(options.scenes, options.radii, "flights are counted"))
-    tasks.push_back({place.name, place.radius, plan_of(options, place.scene)});
+// The runs that are flown one after the other, before they begin.
+std::vector<FlightsReport> tasks_of(const FlightsOptions& options) {
+  std::vector<FlightsReport> tasks;
+  for (const ScanPlace& place : scan_places(options.scenes, options.radii, "flights are counted")) {
+    const FlightsPlan plan = plan_of(options, place.scene);
+    tasks.push_back({place.name, place.radius, plan, Account::begun(plan), {}});
+  }
   if (tasks.size() == 1) tasks[0].radius.reset();
   if (tasks.size() > 1 &&
       (options.store || !options.parts.empty() || options.shard != FlightsOptions().shard))
     throw InputError(
         "--store, --add and --shard: counts are kept of one scene at one radius; run several one by one");
   return tasks;
-}
-
-flights::PictureStyle style_of(const FlightsOptions& options) {
-  const PictureSize size = picture_size(options.size);
-  return {options.title, size.width, size.height.value_or(size.width * 3 / 4)};
 }
 
 flights::FlightBounds bounds_of(const FlightsOptions& options) {
@@ -87,143 +76,92 @@ flights::FlightBounds bounds_of(const FlightsOptions& options) {
   return bounds;
 }
 
-// The account in a stored piece. It must be possible for this plan.
-Account account_in(const std::string& piece, const FlightsPlan& plan) {
-  Account account = Account::of(piece);
-  account.check(plan);
-  return account;
+// Adds the counts of a store, which must be possible for this plan, and reports how many there are.
+void add_store(const runs::PieceStore& store, const std::string& file, const FlightsPlan& plan,
+               Account& account) {
+  const std::uint64_t before = account.done.size();
+  store.each([&](const std::string& piece) {
+    try {
+      const Account kept = Account::of(piece);
+      kept.check(plan);
+      account.add(kept);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(fmt::format("cannot be added: {}", error.what()));
+    }
+  });
+  if (account.done.size() > before)
+    say("{}: {} of {} blocks are done", file, account.done.size() - before, plan.blocks());
 }
 
-// A run as resumed from its store and the stores of other shards.
-struct Begun {
-  Account account;
-  runs::PieceStore store;
-
-  Begun(const FlightsOptions& options, const FlightsPlan& plan)
-      : account(Account::begun(plan)), store(options.store, "flights", plan.words()) {
-    store.each(reader(plan));
-    if (store.is_file()) say_how_far(*options.store, plan);
-    for (const std::string& part : options.parts) {
-      runs::PieceStore(part, "flights", plan.words(), runs::Access::read).each(reader(plan));
-      say_how_far(part, plan);
-    }
-  }
-
- private:
-  std::uint64_t before = 0;  // blocks of the previous files
-
-  runs::ReadPiece reader(const FlightsPlan& plan) {
-    return [this, &plan](const std::string& piece) {
-      try {
-        account.add(account_in(piece, plan));
-      } catch (const std::invalid_argument& error) {
-        throw InputError(fmt::format("cannot be added: {}", error.what()));
-      }
-    };
-  }
-  void say_how_far(const std::string& file, const FlightsPlan& plan) {
-    if (account.done.size() > before)
-      say("{}: {} of {} blocks are done", file, account.done.size() - before, plan.blocks());
-    before = account.done.size();
-  }
-};
-
-// Draws the progress and writes to the store at intervals.
-class News {
- public:
-  News(runs::PieceStore* store, const FlightsPlan& plan, flights::Ranks* ranks)
-      : store_(store), progress_("flying", plan.count, 1), count_(plan.count), ranks_(ranks) {}
-
-  void operator()(const Account& account) {
-    const bool others = ranks_ && ranks_->rank() != 0;
-    if (!others) progress_.at(std::min(account.done.size() * flights::kBlock, count_));
+// A function that is true at once, and then every few seconds.
+auto store_clock() {
+  return [next = std::chrono::steady_clock::now()]() mutable {
     const auto now = std::chrono::steady_clock::now();
-    if (now < next_) return;
-    next_ = now + kBetweenStores;
-    if (others)
-      ranks_->report(account, false);
-    else if (store_->is_file())
-      store_->set((ranks_ ? ranks_->sum(account, false) : account).text());
-  }
-
- private:
-  runs::PieceStore* store_;  // only on rank 0
-  Progress progress_;
-  const std::uint64_t count_;
-  flights::Ranks* ranks_;
-  std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now();
-};
+    if (now < next) return false;
+    next = now + kBetweenStores;
+    return true;
+  };
+}
 
 // For the ranks other than 0: flies their share and reports it to rank 0.
 void fly_share(const FlightsPlan& plan, flights::FlightBounds bounds, flights::Ranks& ranks) {
   Account known, own = Account::begun(plan);
   ranks.share(known);
   bounds.done = known.done;
-  News news(nullptr, plan, &ranks);
-  flights::run(plan, bounds, own, [&](const Account& account) { news(account); });
+  auto is_due = store_clock();
+  flights::run(plan, bounds, own, [&](const Account& account) {
+    if (is_due()) ranks.report(account, false);
+  });
   ranks.report(own, true);
 }
 
-FlightsReport fly(const FlightsTask& task, const flights::FlightBounds& bounds, const FlightsOptions& options,
-                  flights::Ranks* ranks) {
+// Flies a task, resumed from its store and the stores of other shards.
+void fly(FlightsReport& task, const flights::FlightBounds& bounds, const FlightsOptions& options,
+         flights::Ranks* ranks) {
   const FlightsPlan& plan = task.plan;
-  Begun begun(options, plan);
-  FlightsReport result{task.scene_name, task.radius, plan, begun.account, {}};
-  if (ranks) ranks->share(result.account);
+  runs::PieceStore store(options.store, "flights", plan.words());
+  add_store(store, options.store.value_or(""), plan, task.account);
+  for (const std::string& part : options.parts)
+    add_store(runs::PieceStore(part, "flights", plan.words(), runs::Access::read), part, plan, task.account);
+  if (ranks) ranks->share(task.account);
   const auto start = std::chrono::steady_clock::now();
   {
-    News news(&begun.store, plan, ranks);
-    flights::run(plan, bounds, result.account, [&](const Account& account) { news(account); });
+    Progress progress("flying", plan.count, 1);
+    auto is_due = store_clock();
+    flights::run(plan, bounds, task.account, [&](const Account& account) {
+      progress.at(std::min(account.done.size() * flights::kBlock, plan.count));
+      if (is_due() && store.is_file()) store.set((ranks ? ranks->sum(account, false) : account).text());
+    });
   }
-  if (ranks) result.account = ranks->sum(result.account, true);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  begun.store.set(result.account.text());
-  say("{:.2f} s", *result.seconds);
-  return result;
+  if (ranks) task.account = ranks->sum(task.account, true);
+  task.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  store.set(task.account.text());
+  say("{:.2f} s", *task.seconds);
 }
 
-// The files with the results of all scenes and radii.
-class Files {
- public:
-  explicit Files(const FlightsOptions& options)
-      : style_(style_of(options)),
-        csv_(options.csv),
-        svg_(options.svg),
-        density_svg_(options.density_svg),
-        html_(options.html) {}
-  void write(const std::vector<FlightsReport>& reports) {
-    csv_.write([&] { return csv_of(reports); });
-    svg_.write([&] { return survival_svg(reports, style_); });
-    density_svg_.write([&] { return density_svg(reports, style_); });
-    html_.write([&] { return report::page(page_json(reports, command_line())); });
-  }
-
- private:
-  const flights::PictureStyle style_;
-  RequestedFile csv_, svg_, density_svg_, html_;
-};
-
-// Flies and reports each task in turn. After an interrupt, tasks without results are left out.
-int fly_all(const std::vector<FlightsTask>& tasks, const flights::FlightBounds& bounds,
+// Flies and reports each task in turn, and writes the files with the results of all. After an interrupt,
+// tasks without results are left out.
+int fly_all(std::vector<FlightsReport> tasks, const flights::FlightBounds& bounds,
             const FlightsOptions& options, flights::Ranks* ranks) {
-  Files files(options);
+  const PictureSize size = picture_size(options.size);
+  const flights::PictureStyle style{options.title, size.width, size.height.value_or(size.width * 3 / 4)};
+  RequestedFile csv(options.csv), svg(options.svg), density(options.density_svg), html(options.html);
   std::vector<FlightsReport> reports;
-  std::exception_ptr failure;
-  for (const FlightsTask& task : tasks) {
-    std::optional<FlightsReport> flown;
-    try {
-      flown = fly(task, bounds, options, ranks);
-    } catch (const InputError&) {  // earlier results are kept
-      failure = std::current_exception();
-      break;
+  const auto fly_each = [&] {
+    for (FlightsReport& task : tasks) {
+      fly(task, bounds, options, ranks);
+      if (Interrupt::came() && task.account.done.size() == 0) continue;
+      print(options.json ? task.json() : (reports.empty() ? "" : "\n") + task.table());
+      reports.push_back(std::move(task));
     }
-    FlightsReport& report = *flown;
-    if (Interrupt::came() && report.account.done.size() == 0) continue;
-    print(options.json ? report.json() : (reports.empty() ? "" : "\n") + report.table());
-    reports.push_back(std::move(report));
-  }
-  if (!reports.empty()) files.write(reports);
-  if (failure) std::rethrow_exception(failure);
+  };
+  keeping_results(fly_each, [&] {
+    if (reports.empty()) return;
+    csv.write([&] { return csv_of(reports); });
+    svg.write([&] { return survival_svg(reports, style); });
+    density.write([&] { return density_svg(reports, style); });
+    html.write([&] { return report::page(page_json(reports, command_line())); });
+  });
   if (!Interrupt::came()) return kDone;
   say("{}; {}{}", Interrupt::what(), reports.empty() ? "there is nothing to report; " : "",
       options.store ? "the same command goes on" : "without --store nothing is kept to go on with");
@@ -232,7 +170,7 @@ int fly_all(const std::vector<FlightsTask>& tasks, const flights::FlightBounds& 
 
 int act(const FlightsOptions& options) {
   if (options.html && !report::has_page()) report::page("");  // throws with the reason
-  const std::vector<FlightsTask> tasks = tasks_of(options);
+  const std::vector<FlightsReport> tasks = tasks_of(options);
   flights::FlightBounds bounds = bounds_of(options);
   const Interrupt interrupt;
   bounds.stop = &Interrupt::came();
@@ -242,7 +180,7 @@ int act(const FlightsOptions& options) {
     bounds.shard += bounds.shards * static_cast<std::uint64_t>(ranks->rank());
     bounds.shards *= static_cast<std::uint64_t>(ranks->size());
     if (ranks->rank() == 0) return fly_all(tasks, bounds, options, ranks.get());
-    for (const FlightsTask& task : tasks) fly_share(task.plan, bounds, *ranks);
+    for (const FlightsReport& task : tasks) fly_share(task.plan, bounds, *ranks);
     return kDone;
   } catch (const std::exception& error) {  // so that no rank waits for one that has ended
     say("{}", error.what());
@@ -263,8 +201,7 @@ Command flights_command() {
            kCommas},
           {"--radius", &options->radii, "R",
            "radius of every ball; several, with commas between them, are flown from the same drawn numbers: "
-           "each "
-           "gives what it gives alone",
+           "each gives what it gives alone",
            kCommas},
           {"--from,--start", &options->from, "uniform|surface",
            "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle, as from one "
@@ -285,8 +222,7 @@ Command flights_command() {
            "only the blocks of flights I modulo N, into --store; --add joins them"},
           {"--csv", &options->csv, "FILE",
            "the histograms, and theory, to a file; of several scenes or radii one table, with both in its "
-           "first "
-           "columns",
+           "first columns",
            kOutput},
           {"--svg", &options->svg, "FILE",
            "the picture: P(free path > t), theory drawn in; several scenes and radii in one", kOutput},

@@ -1,12 +1,16 @@
 // lorentz fuzz: runs or resumes a campaign, and reports.
 #include "cli/fuzz.hpp"
 
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+
 #include <lorentz/exchange.hpp>
-#include "cli/exit_status.hpp"
-#include "cli/fuzz_options.hpp"
-#include "cli/fuzz_progress.hpp"
+#include "cli/app.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
+#include "cli/progress.hpp"
 #include "cli/terminal.hpp"
 #include "fuzz/campaign/ranks.hpp"
 #include "fuzz/examine/answerers.hpp"
@@ -57,13 +61,6 @@ void take_down(const FuzzReport& report, bool times, FailureLedger& ledger) {
   }
 }
 
-void say_how_to_go_on(const FuzzOptions& options) {
-  if (options.store)
-    say("{}; this goes on: {}", Interrupt::what(), command_of(options));
-  else
-    say("{}; without --store nothing is kept to go on with", Interrupt::what());
-}
-
 // A campaign in its store, with its current progress.
 struct Opened {
   FuzzReport report;
@@ -108,6 +105,69 @@ Opened opened(Store& store, const fuzz::Plan& plan, const FuzzOptions& options) 
   return one;
 }
 
+// The store's journal. If stderr is a terminal, it shows a progress bar in seconds or in cases; if not, it
+// prints a line at intervals.
+class JournalWithProgress final : public fuzz::Journal {
+ public:
+  JournalWithProgress(Store& store, std::int64_t campaign, const fuzz::Bounds& bounds, std::size_t targets,
+                      double seconds_a_line)
+      : journal_(store, campaign),
+        most_seconds_(bounds.seconds),
+        by_time_(bounds.count > kMostCases),
+        targets_(targets),
+        seconds_a_line_(seconds_a_line),
+        next_line_(isatty(STDERR_FILENO) != 1 ? seconds_a_line : std::numeric_limits<double>::infinity()),
+        progress_(by_time_ ? "seconds" : "indices",
+                  by_time_ ? static_cast<std::size_t>(bounds.seconds) : bounds.count * targets, 1) {}
+
+  void record(const cases::Target& target, const fuzz::TargetTally& tally,
+              const std::vector<fuzz::Finding>& kept) override {
+    Met& met = met_[target.name()];
+    met = {tally.next, tally.cases, 0};
+    for (const auto& [sort, number] : tally.sorts) met.findings += number;
+    journal_.record(target, tally, kept);
+  }
+
+  void tick() override {
+    journal_.tick();
+    const double now = std::chrono::duration<double>(Progress::Clock::now() - start_).count();
+    std::size_t done = 0;
+    for (const auto& [target, met] : met_) done += met.next;
+    progress_.at(by_time_ ? static_cast<std::size_t>(now) : done, [&] { return summary(); });
+    if (now < next_line_) return;
+    next_line_ = now + seconds_a_line_;
+    const std::string of = std::isfinite(most_seconds_) ? fmt::format(" of {:.0f}", most_seconds_) : "";
+    say("{:.0f}{} s: {}", now, of, summary());
+  }
+
+ private:
+  struct Met {
+    std::uint64_t next = 0, cases = 0, findings = 0;
+  };
+
+  // Like "1234 cases, 5 findings, 7 of 33 targets".
+  std::string summary() const {
+    Met all;
+    std::size_t begun = 0;
+    for (const auto& [target, met] : met_) {
+      all.cases += met.cases;
+      all.findings += met.findings;
+      begun += met.cases > 0;
+    }
+    return fmt::format("{} cases, {} findings, {} of {} targets", all.cases, all.findings, begun, targets_);
+  }
+
+  fuzz::StoreJournal journal_;
+  const double most_seconds_;
+  const bool by_time_;
+  const std::size_t targets_;
+  const double seconds_a_line_;
+  double next_line_;
+  Progress progress_;
+  std::map<std::string_view, Met> met_;  // by target
+  Progress::Clock::time_point start_ = Progress::Clock::now();
+};
+
 // Runs the plan with the store and the other processes, and reports.
 int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan,
                  const question::MakeAnswerer& make_answerer, fuzz::Ranks* ranks) {
@@ -125,13 +185,15 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan,
   }
   report.findings = findings_of(store, campaign);
   print(options.json ? report.json() : report.text());
-  if (Interrupt::came()) say_how_to_go_on(options);
+  if (Interrupt::came())
+    say("{}; {}", Interrupt::what(),
+        options.store ? "this goes on: " + command_of(options)
+                      : "without --store nothing is kept to go on with");
   std::uint64_t cases = 0, indices = 0;
   for (const fuzz::TargetTally& tally : report.tallies) cases += tally.cases, indices += tally.next;
   if (cases == 0 && indices > 0 && !plan.scope.is_all()) {
     say("no case was asked: none of the first indices has a scene for --dimension and --scenes; take a "
-        "larger "
-        "--count");
+        "larger --count");
     return kBadInput;
   }
   const int status = exit_status(report, options.times, failed);

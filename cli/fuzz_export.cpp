@@ -3,9 +3,8 @@
 #include <map>
 
 #include <lorentz/exchange.hpp>
-#include "cli/exit_status.hpp"
+#include "cli/app.hpp"
 #include "cli/fuzz.hpp"
-#include "cli/fuzz_options.hpp"
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "cli/set_output.hpp"

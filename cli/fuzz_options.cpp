@@ -1,5 +1,5 @@
 // The options of lorentz fuzz and their meaning.
-#include "cli/fuzz_options.hpp"
+#include "cli/fuzz.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include <lorentz/exchange.hpp>
-#include <lorentz/margin.hpp>
 #include "cli/numbers.hpp"
 #include "files/messages.hpp"
 #include "question/answerer.hpp"

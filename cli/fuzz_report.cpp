@@ -5,7 +5,6 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/fuzz.hpp"
-#include "cli/fuzz_options.hpp"
 #include "files/messages.hpp"
 #include "question/engines.hpp"
 #include "report/claim_words.hpp"
@@ -57,6 +56,33 @@ std::string bounds(const FuzzReport& report) {
   return fmt::format(
       "wrong: 0 in {}: at most {:.2g} of such cases, with 95 %; variants and other words not counted\n", n,
       report::bound_of_none(n));
+}
+
+void add_target(json::Members& object, const std::string& name, const TargetTally& tally) {
+  object.add("target", name, "next", tally.next, "cases", tally.cases, "variants", tally.variants, "reworded",
+             tally.reworded, "fine", number_of(tally, Kind::fine));
+  for (const Kind kind : kCounted) {
+    std::string key(name_of(kind));
+    std::replace(key.begin(), key.end(), ' ', '_');
+    object.add_named(key, number_of(tally, kind));
+  }
+  const std::uint64_t n = answered(tally);
+  const bool none = number_of(tally, Kind::wrong) == 0 && n > 0;
+  object.add("binary64", tally.stages[0], "double_double", tally.stages[1], "exact", tally.stages[2],
+             "smallest_margin", json::finite(tally.margin), "wrong_at_most",
+             none ? std::optional(3.0 / static_cast<double>(n)) : std::nullopt);
+}
+
+// By how much the obstacle in question is hit or missed, if two answers differ.
+std::string reason_in(const fuzz::CaseText& text, NumberFormat precision) {
+  const fuzz::ReadCase one = fuzz::case_in(text);
+  const auto says_what = [](const Answer& answer) {
+    return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside ||
+           answer.outcome == Outcome::never;
+  };
+  if (!says_what(one.given) || !says_what(one.exact)) return "";
+  return report::reason_of(oracle::Margins(one.scene, precision), one.scene, one.query, one.exact, one.given,
+                           report::decisive_of(one.scene, one.query, one.exact, one.given), "");
 }
 
 }  // namespace
@@ -116,25 +142,6 @@ std::string FuzzReport::text() const {
   return out;
 }
 
-namespace {
-
-void add_target(json::Members& object, const std::string& name, const TargetTally& tally) {
-  object.add("target", name, "next", tally.next, "cases", tally.cases, "variants", tally.variants, "reworded",
-             tally.reworded, "fine", number_of(tally, Kind::fine));
-  for (const Kind kind : kCounted) {
-    std::string key(name_of(kind));
-    std::replace(key.begin(), key.end(), ' ', '_');
-    object.add_named(key, number_of(tally, kind));
-  }
-  const std::uint64_t n = answered(tally);
-  const bool none = number_of(tally, Kind::wrong) == 0 && n > 0;
-  object.add("binary64", tally.stages[0], "double_double", tally.stages[1], "exact", tally.stages[2],
-             "smallest_margin", json::finite(tally.margin), "wrong_at_most",
-             none ? std::optional(3.0 / static_cast<double>(n)) : std::nullopt);
-}
-
-}  // namespace
-
 void FuzzReport::add_targets(json::Members& object) const {
   object.add("version", manifest.version, "engine", manifest.engine, "seed", manifest.seed, "shard",
              manifest.shard, "options", manifest.options);
@@ -182,22 +189,6 @@ std::string table_of(const std::vector<FindingCause>& causes) {
                std::to_string(cause.findings), std::to_string(cause.targets.size()), cause.name});
   return table.text();
 }
-
-namespace {
-
-// By how much the obstacle in question is hit or missed, if two answers differ.
-std::string reason_in(const fuzz::CaseText& text, NumberFormat precision) {
-  const fuzz::ReadCase one = fuzz::case_in(text);
-  const auto says_what = [](const Answer& answer) {
-    return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside ||
-           answer.outcome == Outcome::never;
-  };
-  if (!says_what(one.given) || !says_what(one.exact)) return "";
-  return report::reason_of(oracle::Margins(one.scene, precision), one.scene, one.query, one.exact, one.given,
-                           report::decisive_of(one.scene, one.query, one.exact, one.given), "");
-}
-
-}  // namespace
 
 std::string text_of(const fuzz::CaseText& text, NumberFormat precision) {
   std::string out =

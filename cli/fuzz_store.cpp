@@ -4,10 +4,9 @@
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
+#include "cli/app.hpp"
 #include "cli/case_report.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/fuzz.hpp"
-#include "cli/fuzz_options.hpp"
 #include "cli/output.hpp"
 #include "files/beside.hpp"
 #include "report/claim_words.hpp"

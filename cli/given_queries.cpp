@@ -1,7 +1,6 @@
 #include "cli/given_queries.hpp"
 
 #include "files/messages.hpp"
-#include "files/scene_file.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
 

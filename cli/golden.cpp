@@ -1,19 +1,16 @@
-// lorentz golden: sets of cases with their exact answers and proofs.
-#include "cli/golden.hpp"
+// lorentz golden: sets of cases with their exact answers and proofs; lorentz golden list, index.
+#include "cli/app.hpp"
 
-#include <algorithm>
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
-#include "cli/exit_status.hpp"
 #include "cli/output.hpp"
-#include "files/data_folder.hpp"
+#include "cli/set_output.hpp"
 #include "golden/find_sets.hpp"
 #include "golden/reader.hpp"
 #include "golden/sets.hpp"
 #include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
-#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -45,8 +42,6 @@ int list(bool as_json) {
   return kDone;
 }
 
-}  // namespace
-
 Command golden_list_command() {
   auto json = std::make_shared<bool>(false);
   return {"list",
@@ -57,6 +52,21 @@ Command golden_list_command() {
           "Example:\n  lorentz golden list",
           [json] { return list(*json); }};
 }
+
+Command golden_index_command() {
+  auto folder = std::make_shared<std::string>();
+  return {"index",
+          "Writes index.json, schema.json and SHA256SUMS beside the sets in a folder.",
+          {{"folder", folder.get(), "FOLDER", "with sets, *.ndjson", kRequired}},
+          "Example:\n  mkdir mine; lorentz golden sample --count 20 ties > mine/ties.ndjson; "
+          "lorentz golden index mine",
+          [folder] {
+            write_beside_sets(*folder);
+            return kDone;
+          }};
+}
+
+}  // namespace
 
 Command golden_command() {
   return {

@@ -1,10 +1,5 @@
 // lorentz golden add: adds records of further queries to a set.
-#include <algorithm>
-
-#include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
-#include "cli/golden.hpp"
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
@@ -70,13 +65,11 @@ int act(const AddOptions& options) {
 
 Command golden_add_command() {
   auto options = std::make_shared<AddOptions>();
-  std::vector<Option> rows{
-      {"set", &options->set, "SET", "a file, or the name of a committed set", kRequired}};
-  std::ranges::move(options->questions.rows(), std::back_inserter(rows));
-  rows.push_back({"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads"});
-  rows.push_back({"-o,--output", &options->output, "FILE", kSetOutputHelp, kOutput});
   return {"add", "A set, and records of more queries: those that it has already are not answered again.",
-          rows,
+          joined(joined({{"set", &options->set, "SET", "a file, or the name of a committed set", kRequired}},
+                        options->questions.rows()),
+                 {{"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads"},
+                  {"-o,--output", &options->output, "FILE", kSetOutputHelp, kOutput}}),
           "Example:\n  lorentz sample --scene square --kind grazing --count 20 | lorentz golden add ties "
           "--queries - --tag mine",
           [options] { return act(*options); }};

@@ -1,15 +1,13 @@
 // lorentz golden check: checks an engine with golden sets.
 #include <algorithm>
-#include <filesystem>
 #include <map>
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
 #include <lorentz/verdict.hpp>
+#include "cli/app.hpp"
 #include "cli/claim_options.hpp"
 #include "cli/compare_table.hpp"
-#include "cli/exit_status.hpp"
-#include "cli/golden.hpp"
 #include "cli/known_failures.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
@@ -42,19 +40,8 @@ struct CheckOptions {
   bool strict = false, times = false, json = false, markdown = false;
 };
 
-struct Failure {
-  std::string set, id, tags, engine;
-  oracle::Judgement judgement;
-  std::optional<double> margin;
-  Answer expect, given;
-  Components components;
-  std::string reason;  // the reason as text
-  std::string claim;   // as command-line arguments
-};
-
 // One engine's tally for a set and for each of its tags.
 struct SetTally {
-  std::string description;
   std::vector<std::pair<std::string, std::string>> notes;  // about the tags
   Claim claim;
   std::string label;            // the name; also the precision if the set has one and the name does not
@@ -68,39 +55,74 @@ struct SetTally {
   std::size_t not_asked() const { return given_up_before + of_other_numbers; }
 };
 
-// The first records of a set, filtered by the beginning of the id.
+// The first records of a set, filtered by the beginning of the id. Those that do not consist of the engine's
+// numbers are left out and counted.
 Source records_of(const Source& records, const std::optional<std::string>& id, std::uint64_t first,
-                  Progress& progress) {
-  return [records, id, first, &progress, read = std::uint64_t{0}]() mutable -> std::optional<Question> {
+                  Progress& progress, std::size_t& of_other_numbers) {
+  return [=, &progress, &of_other_numbers, read = std::uint64_t{0}]() mutable -> std::optional<Question> {
     while (read < first) {
       std::optional<Question> question = records();
       progress.at(++read);
-      if (!question || !id || question->where.starts_with(*id)) return question;
+      if (!question) break;
+      if (id && !question->where.starts_with(*id)) continue;
+      if (question->place->has_numbers_for(question->query)) return question;
+      ++of_other_numbers;
     }
     return std::nullopt;
   };
 }
 
-// The records that consist of the engine's numbers; the others are counted.
-Source in_its_numbers(Source records, std::size_t& others) {
-  return [records = std::move(records), &others]() -> std::optional<Question> {
-    std::optional<Question> question = records();
-    for (; question && !question->place->has_numbers_for(question->query); question = records()) ++others;
-    return question;
-  };
+std::string short_answer(const Answer& answer, const Components& count) {
+  std::string text = json::text_of(json_of(answer, count));
+  text = text.substr(1, text.size() - 2);
+  constexpr std::size_t kLongest = 160;
+  return shortened(text, kLongest);
+}
+
+// The margin in the record, or a computed one if the record's is in ulps of another precision.
+std::optional<double> margin_of(const Question& question) {
+  if (question.margin || !question.is_query()) return question.margin;
+  const auto decision = question.place->margins().hardest_decision(question.query, question.exact);
+  return decision ? std::optional(decision->margin) : std::nullopt;
+}
+
+// A failure for people, with the command that asks again. `claim`: as arguments of that command.
+std::string describe(const Judged& judged, const std::string& engine, const std::string& set,
+                     const std::string& claim) {
+  const auto& [question, reply, judgement] = judged;
+  const Answer &expect = question.exact, &given = reply.answer;
+  const Place& place = *question.place;
+  const Components count(place.scene());
+  const std::string tags = fmt::format("{}", fmt::join(question.tags, ", "));
+  std::string text =
+      fmt::format("  {} {} ({}): expected {}, got {}\n    ", printable(set), printable(question.where),
+                  printable(tags), short_answer(expect, count), short_answer(given, count));
+  if (const auto margin = margin_of(question))
+    text += fmt::format("margin of the case: {:.4g} ulps; ", *margin);
+  const bool is_wrong = judgement.verdict == oracle::Verdict::wrong;
+  if (given.outcome == Outcome::hit && expect.outcome == Outcome::hit && given.obstacle == expect.obstacle)
+    text += fmt::format(
+        "{}: off by {:.3g} times what an ulp in each input makes of the time\n",
+        judgement.other_quantity ? "no time of that collision at all" : "a wrong time of the right obstacle",
+        judgement.departs);
+  else if (std::isfinite(judgement.departs) && is_wrong)
+    text += fmt::format("right only if the inputs moved by {:.4g} ulps\n", judgement.departs);
+  else if (judgement.verdict == oracle::Verdict::error)
+    text += "the question is a good one\n";
+  else
+    text += "no error in the inputs explains it\n";
+  if (question.is_query() && is_wrong)
+    text += report::reason_of(place.margins(), place.scene(), question.query, expect, given,
+                              judgement.obstacle, "    ");
+  return text + fmt::format("    again: lorentz golden check --engine {}{} --id {} {}\n",
+                            shell_quoted(engine), claim, shell_quoted(question.where), shell_quoted(set));
 }
 
 // Asks an engine the questions of sets, and keeps the results.
 class EngineCheck {
  public:
   EngineCheck(const EngineInfo& engine, const CheckOptions& options, const AnswererOptions& asking)
-      : engine_(engine.name),
-        ulps_(options.ulps.value_or(oracle::kDefaultUlps)),
-        options_(options.claim),
-        times_(options.times),
-        strict_(options.strict),
-        most_failures_(options.json ? 0 : static_cast<std::size_t>(options.failures)),
-        ledger_(options.files, options.files.known()) {
+      : engine_(engine.name), options_(options), ledger_(options.files, options.files.known()) {
     for (std::uint64_t job = 0; job < (engine.is_own() ? options.jobs : 1); ++job)
       answerers_.push_back(engine.answerer(asking));
   }
@@ -111,28 +133,30 @@ class EngineCheck {
     return !answerers_[0]->is_hopeless();
   }
 
-  SetTally run(const std::string& path, const std::optional<std::string>& id, std::uint64_t first) {
+  SetTally run(const std::string& path) {
     golden::Reader reader(path);
-    const Claim claim = options_.claim(reader.header().precision);
+    const golden::Header& header = reader.header();
+    const std::uint64_t first = options_.first.value_or(std::numeric_limits<std::uint64_t>::max());
+    const Claim claim = options_.claim.claim(header.precision);
     SetTally tally;
     tally.claim = claim;
     tally.claim_arguments = report::arguments_of(claim);
-    if (claim.precision == NumberFormat::binary64 && reader.header().precision != claim.precision)
+    if (claim.precision == NumberFormat::binary64 && header.precision != claim.precision)
       tally.claim_arguments += " --precision binary64";
-    tally.all.name = tally.label = reader.header().name;
-    if (const std::string precision = name_of(claim.precision);
-        !options_.precision && claim.precision != NumberFormat::binary64 && !tally.label.ends_with(precision))
+    tally.all.name = tally.label = header.name;
+    if (const std::string precision = name_of(claim.precision); !options_.claim.precision &&
+                                                                claim.precision != NumberFormat::binary64 &&
+                                                                !tally.label.ends_with(precision))
       tally.label += ", in " + precision;
-    tally.description = reader.header().description;
-    tally.notes = reader.header().tags;
-    Progress progress(engine_.c_str(), reader.header().count);
-    const Source records = in_its_numbers(
-        records_of(golden::questions_of(reader, claim), id, first, progress), tally.of_other_numbers);
+    tally.notes = header.tags;
+    Progress progress(engine_, header.count);
+    const Source records =
+        records_of(golden::questions_of(reader, claim), options_.id, first, progress, tally.of_other_numbers);
+    const double ulps = options_.ulps.value_or(oracle::kDefaultUlps);
     for (std::vector<Question> part; !(part = some_of(records, kTogether)).empty();)
-      examine(part, answerers_, ulps_, [&](const Judged& judged) { take(judged, path, tally); });
+      examine(part, answerers_, ulps, [&](const Judged& judged) { take(judged, path, tally); });
     tally.failed = answerers_[0]->failed();
-    const bool are_all = !id && first >= reader.header().count && tally.not_asked() == 0;
-    if (are_all) ledger_.end(tally.all.name);
+    if (!options_.id && first >= header.count && tally.not_asked() == 0) ledger_.end(tally.all.name);
     return tally;
   }
 
@@ -140,7 +164,7 @@ class EngineCheck {
     for (const auto& answerer : answerers_) answerer->finish();
     ledger_.finish(engine_);
   }
-  const std::vector<Failure>& failures() const { return failures_; }  ///< the first ones
+  const std::vector<std::string>& failures() const { return failures_; }  ///< the first ones
   std::size_t new_failures() const { return ledger_.new_failures(); }
 
  private:
@@ -154,83 +178,27 @@ class EngineCheck {
     }
     tally.all.count(judgement);
     for (const std::string& tag : question.tags) tally.by_tag[tag].count(judgement);
-    const bool is_new = ledger_.take(tally.all.name, question.where, failure_of(judgement, times_, strict_));
+    const bool is_new =
+        ledger_.take(tally.all.name, question.where, failure_of(judgement, options_.times, options_.strict));
     const bool is_lenient =
         judgement.verdict == oracle::Verdict::ill_posed || judgement.verdict == oracle::Verdict::undecided;
-    if (!is_new || is_lenient || failures_.size() >= most_failures_) return;
-    Place& place = *question.place;
-    failures_.push_back({set, question.where, fmt::format("{}", fmt::join(question.tags, ", ")), engine_,
-                         judgement, margin_of(question), question.exact, reply.answer, place.scene(), "",
-                         tally.claim_arguments});
-    if (question.is_query() && judgement.verdict == oracle::Verdict::wrong)
-      failures_.back().reason = report::reason_of(place.margins(), place.scene(), question.query,
-                                                  question.exact, reply.answer, judgement.obstacle, "    ");
-  }
-
-  // The margin in the record, or a computed one if the record's is in ulps of another precision.
-  static std::optional<double> margin_of(const Question& question) {
-    if (question.margin || !question.is_query()) return question.margin;
-    const auto decision = question.place->margins().hardest_decision(question.query, question.exact);
-    return decision ? std::optional(decision->margin) : std::nullopt;
+    if (!is_new || is_lenient || options_.json || failures_.size() >= options_.failures) return;
+    failures_.push_back(describe(judged, engine_, set, tally.claim_arguments));
   }
 
   const std::string engine_;
-  const double ulps_;
-  const ClaimOptions options_;
-  const bool times_, strict_;
-  const std::size_t most_failures_;
+  const CheckOptions& options_;
   FailureLedger ledger_;
   std::vector<std::unique_ptr<Answerer>> answerers_;  // one per thread
-  std::vector<Failure> failures_;
+  std::vector<std::string> failures_;
 };
 
 std::vector<std::string> cells_of(const std::string& set, const std::string& tag, const Tally& t) {
-  const auto number = [](std::size_t n) { return n ? std::to_string(n) : std::string("-"); };
-  return {set,
-          tag,
-          std::to_string(t.queries),
-          number(t.agree),
-          number(t.ill_posed),
-          number(t.wrong),
-          number(t.wrong_time),
-          number(t.undecided),
-          number(t.unsupported),
-          number(t.error)};
-}
-
-const std::vector<std::string> kColumns{"set",   "tag",        "records",   "agree",       "ill-posed",
-                                        "wrong", "wrong time", "undecided", "unsupported", "error"};
-
-std::string short_answer(const Answer& answer, const Components& count) {
-  std::string text = json::text_of(json_of(answer, count));
-  text = text.substr(1, text.size() - 2);
-  constexpr std::size_t kLongest = 160;
-  return shortened(text, kLongest);
-}
-
-std::string describe(const Failure& failure) {
-  std::string text =
-      fmt::format("  {} {} ({}): expected {}, got {}\n    ", printable(failure.set), printable(failure.id),
-                  printable(failure.tags), short_answer(failure.expect, failure.components),
-                  short_answer(failure.given, failure.components));
-  if (failure.margin) text += fmt::format("margin of the case: {:.4g} ulps; ", *failure.margin);
-  const bool of_time = failure.given.outcome == Outcome::hit && failure.expect.outcome == Outcome::hit &&
-                       failure.given.obstacle == failure.expect.obstacle;
-  if (of_time)
-    text += fmt::format("{}: off by {:.3g} times what an ulp in each input makes of the time\n",
-                        failure.judgement.other_quantity ? "no time of that collision at all"
-                                                         : "a wrong time of the right obstacle",
-                        failure.judgement.departs);
-  else if (std::isfinite(failure.judgement.departs) && failure.judgement.verdict == oracle::Verdict::wrong)
-    text += fmt::format("right only if the inputs moved by {:.4g} ulps\n", failure.judgement.departs);
-  else if (failure.judgement.verdict == oracle::Verdict::error)
-    text += "the question is a good one\n";
-  else
-    text += "no error in the inputs explains it\n";
-  return text + failure.reason +
-         fmt::format("    again: lorentz golden check --engine {}{} --id {} {}\n",
-                     shell_quoted(failure.engine), failure.claim, shell_quoted(failure.id),
-                     shell_quoted(failure.set));
+  std::vector<std::string> cells{set, tag, std::to_string(t.queries)};
+  for (const std::size_t n :
+       {t.agree, t.ill_posed, t.wrong, t.wrong_time, t.undecided, t.unsupported, t.error})
+    cells.push_back(n ? std::to_string(n) : "-");
+  return cells;
 }
 
 void add_counts(json::Members& object, const Tally& t) {
@@ -269,32 +237,29 @@ std::string json_of(const std::string& engine, const Claim& claim, const std::ve
   });
 }
 
-// The tally of all sets together.
-Tally total_of(const std::vector<SetTally>& tallies) {
-  Tally total;
-  for (const SetTally& set : tallies) total.add(set.all);
-  return total;
-}
-
 void show(const std::string& engine, const Claim& claim, const std::vector<SetTally>& tallies,
-          const std::vector<Failure>& failures, std::size_t not_asked) {
-  report::Table table(kColumns);
+          const std::vector<std::string>& failures, std::size_t not_asked) {
+  report::Table table({"set", "tag", "records", "agree", "ill-posed", "wrong", "wrong time", "undecided",
+                       "unsupported", "error"});
   for (const SetTally& set : tallies) {
     table.add(cells_of(set.label, "all", set.all));
     for (const auto& [tag, tally] : set.by_tag) table.add(cells_of("", tag, tally));
   }
   if (not_asked > 0) table.add(cells_of(fmt::format("{} sets not asked", not_asked), "", {}));
-  Tally total = total_of(tallies);
-  table.add(cells_of("total", "", total));
+  Tally total;
   std::size_t of_other_numbers = 0;
-  for (const SetTally& set : tallies) of_other_numbers += set.of_other_numbers;
+  for (const SetTally& set : tallies) {
+    total.add(set.all);
+    of_other_numbers += set.of_other_numbers;
+  }
+  table.add(cells_of("total", "", total));
   print(fmt::format("{}{}\n\n{}\n", engine, report::words_of(claim), table.text()));
   if (of_other_numbers > 0)
     print(fmt::format("{} records were not asked: their numbers are of another precision\n\n",
                       of_other_numbers));
   if (!failures.empty()) {
     print("The first failures:\n");
-    for (const Failure& failure : failures) print(describe(failure));
+    for (const std::string& failure : failures) print(failure);
     print("\n");
   }
   total.name = engine;
@@ -341,7 +306,7 @@ std::string summary_page(const std::vector<EngineInfo>& engines,
 
 // The tags on which an engine is wrong, with what their cases are designed to break.
 std::string faults_page(const std::string& engine, const std::vector<SetTally>& tallies,
-                        const std::vector<Failure>& failures) {
+                        const std::vector<std::string>& failures) {
   std::string rows;
   for (const SetTally& set : tallies)
     for (const auto& [tag, note] : set.notes) {
@@ -355,13 +320,8 @@ std::string faults_page(const std::string& engine, const std::vector<SetTally>& 
   page += "| set | tag | records | of these | what the tag is out to break |\n|---|---|---|---|---|\n" + rows;
   if (failures.empty()) return page;
   page += "\nThe first failures:\n\n```\n";
-  for (const Failure& failure : failures) page += describe(failure);
+  for (const std::string& failure : failures) page += failure;
   return page + "```\n";
-}
-
-int status_of(const EngineCheck& check, const std::vector<SetTally>& tallies) {
-  if (std::ranges::any_of(tallies, [](const SetTally& set) { return set.failed; })) return kFailed;
-  return check.new_failures() > 0 ? kDisagreement : kDone;
 }
 
 int act(CheckOptions options) {
@@ -372,7 +332,6 @@ int act(CheckOptions options) {
   options.claim.ask(engines);
   const Claim claim = options.claim.claim();
   const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
-  const std::uint64_t first = options.first.value_or(std::numeric_limits<std::uint64_t>::max());
   const std::vector<std::string> files = golden::find_sets(options.sets);
   int status = kDone;
   std::size_t records = 0;
@@ -387,14 +346,15 @@ int act(CheckOptions options) {
         say("{}: given up; {} sets were not asked", engine, files.size() - tallies.size());
         break;
       }
-      tallies.push_back(examination.run(file, options.id, first));
+      tallies.push_back(examination.run(file));
       const SetTally& its = tallies.back();
       records += its.all.queries + its.not_asked();
       if (its.given_up_before > 0)
         say("{}: given up in {}: {} records were not asked", engine, its.all.name, its.given_up_before);
     }
     examination.finish();
-    status = std::max(status, status_of(examination, tallies));
+    const bool failed = std::ranges::any_of(tallies, &SetTally::failed);
+    status = std::max<int>(status, failed ? kFailed : examination.new_failures() > 0 ? kDisagreement : kDone);
     if (options.json)
       print(json_of(engine, claim, tallies, files.size() - tallies.size()));
     else if (!options.markdown)

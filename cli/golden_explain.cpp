@@ -3,9 +3,8 @@
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
+#include "cli/app.hpp"
 #include "cli/case_report.hpp"
-#include "cli/exit_status.hpp"
-#include "cli/golden.hpp"
 #include "cli/output.hpp"
 #include "golden/find_sets.hpp"
 #include "golden/reader.hpp"
@@ -109,15 +108,13 @@ int act(const ExplainOptions& options) {
     throw InputError(fmt::format("{} records have ids that begin with {}; the first is {}", ids.size(),
                                  json_quoted(options.id), *ids.begin()));
   golden::Reader reader(place);
-  for (golden::ReadRecord read; reader.next(read);)
-    if (read.record.id.starts_with(options.id)) {
-      if (options.files.any() && !read.query)
-        throw InputError(
-            fmt::format("{}: the record is not a valid query, so there is nothing to draw", read.record.id));
-      if (options.files.any()) options.files.write(case_report(reader, read, options.files));
-      explain(reader, read, most);
-      break;
-    }
+  golden::ReadRecord read;
+  while (reader.next(read) && !read.record.id.starts_with(options.id)) continue;
+  if (options.files.any() && !read.query)
+    throw InputError(
+        fmt::format("{}: the record is not a valid query, so there is nothing to draw", read.record.id));
+  if (options.files.any()) options.files.write(case_report(reader, read, options.files));
+  explain(reader, read, most);
   return kDone;
 }
 

@@ -4,8 +4,7 @@
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/oracle.hpp>
-#include "cli/exit_status.hpp"
-#include "cli/golden.hpp"
+#include "cli/app.hpp"
 #include "cli/output.hpp"
 #include "golden/find_sets.hpp"
 #include "golden/reader.hpp"

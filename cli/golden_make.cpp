@@ -1,23 +1,17 @@
 // lorentz golden make: makes one set, or all committed sets.
-#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"
-#include "cli/exit_status.hpp"
-#include "cli/golden.hpp"
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
-#include "files/scene_file.hpp"
 #include "files/whole_file.hpp"
 #include "golden/index.hpp"
 #include "golden/production.hpp"
-#include "golden/seen.hpp"
 #include "golden/selection.hpp"
 #include "report/manifest.hpp"
 #include "src/exchange/nearest_name.hpp"
@@ -89,8 +83,7 @@ golden::RecordCounts make_file(const golden::Order& order, const std::string& pa
         {"commit", report::manifest_of(order.seed, command_line()).commit});  // its records may change
     runs::PieceStore kept(part, "golden make", plan);
     WholeFile file(path);
-    const std::string name = name_of(order);
-    Progress progress(name.c_str(), order.count, 1);
+    Progress progress(name_of(order), order.count, 1);
     counts = golden::produce(
         order, [&](std::string_view text) { file.write(text); },
         [&](std::uint64_t done) { progress.at(done); }, &kept);
@@ -137,8 +130,7 @@ int make_all(golden::Order order, const std::string& folder) {
 
 golden::RecordCounts make(const golden::Order& order, const std::string& output) {
   if (output != "-") return make_file(order, output);
-  const std::string name = name_of(order);
-  Progress progress(name.c_str(), order.count, 1);
+  Progress progress(name_of(order), order.count, 1);
   const auto write = [](std::string_view text) {
     print(text);
     if (std::ferror(stdout)) finish_output();
@@ -204,38 +196,35 @@ int act(const MakeOptions& options) {
 
 Command golden_make_command() {
   auto options = std::make_shared<MakeOptions>();
-  std::vector<Option> rows{{"--set", &options->set, "SET", "which set (lorentz golden list)"}};
-  std::ranges::move(options->questions.rows(), std::back_inserter(rows));
-  std::ranges::move(
-      std::vector<Option>{
-          {"--name", &options->name, "NAME", "of the set that --queries become (default: queries)"},
-          {"--precision", &options->precision, "binary64|binary32",
-           "of the numbers of scenes and queries: cases are hard in its ulps, which margins and conditions "
-           "count "
-           "(default: binary64)"},
-          {"--count", Whole{&options->count, 1, 1'000'000'000'000}, "N",
-           "how many records (default: as many as are committed, or would be)"},
-          {"--seed", Whole{&options->seed}, "N", "of the cases"},
-          {"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads"},
-          {"-o,--output", &options->output, "FILE",
-           "file to write (- is standard output); killed in between, the same command goes on where it was",
-           kOutput},
-          {"--all", &options->folder, "FOLDER",
-           "make all sets in this folder as they are committed, index.json, smoke/smoke.ndjson (a few "
-           "records of each tag) and "
-           "SHA256SUMS"}},
-      std::back_inserter(rows));
   return {
       "make",
       "Produces a set, of cases that are drawn or of queries that you have: the same, bit for bit, whatever "
       "--jobs.",
-      rows,
+      joined(joined({{"--set", &options->set, "SET", "which set (lorentz golden list)"}},
+                    options->questions.rows()),
+             {
+                 {"--name", &options->name, "NAME", "of the set that --queries become (default: queries)"},
+                 {"--precision", &options->precision, "binary64|binary32",
+                  "of the numbers of scenes and queries: cases are hard in its ulps, which margins and "
+                  "conditions count (default: binary64)"},
+                 {"--count", Whole{&options->count, 1, 1'000'000'000'000}, "N",
+                  "how many records (default: as many as are committed, or would be)"},
+                 {"--seed", Whole{&options->seed}, "N", "of the cases"},
+                 {"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads"},
+                 {"-o,--output", &options->output, "FILE",
+                  "file to write (- is standard output); killed in between, the same command goes on where "
+                  "it was",
+                  kOutput},
+                 {"--all", &options->folder, "FOLDER",
+                  "make all sets in this folder as they are committed, index.json, smoke/smoke.ndjson (a few "
+                  "records of each tag) and SHA256SUMS"},
+             }),
 
       "Every record was agreed by two oracles: walk, where it can go, and the checked certificate.\n"
       "Example:\n  lorentz golden make --set near-rational --count 1e3 --jobs 2 -o near-rational.ndjson\n"
       "  lorentz golden make --set grazing --precision binary32 -o grazing-binary32.ndjson\n"
-      "  lorentz sample --scene square --kind grazing --count 100 | lorentz golden make --queries - --tag "
-      "mine",
+      "  lorentz sample --scene square --kind grazing --count 100 | lorentz golden make --queries - "
+      "--tag mine",
       [options] { return act(*options); }};
 }
 

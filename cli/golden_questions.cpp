@@ -10,7 +10,6 @@
 #include "src/exchange/exchange_json.hpp"
 
 namespace lorentz::cli {
-
 namespace {
 
 bool is_name(const std::string& text) {
@@ -46,6 +45,36 @@ std::vector<std::pair<std::string, std::string>> tags_in(const std::vector<std::
     tags.push_back(tag);
   }
   return tags;
+}
+
+// The tags in the key `tags` of a query's line, except those that the program gives itself. Throws
+// InputError.
+std::vector<std::string> tags_in_line(const GivenQuery& given, const std::string& name) {
+  std::vector<std::string> tags;
+  if (given.line.find("\"tags\"") == given.line.npos) return tags;
+  try {
+    json::Document document;
+    document.open(given.line);
+    json::each_member(document.object(), [&](std::string_view key, json::Value value) {
+      if (key != "tags") return skip(value);
+      json::each_element(value.array(), [&](json::Value tag) { tags.emplace_back(tag.text()); });
+    });
+  } catch (const json::Error&) {
+    throw InputError(fmt::format("{}: query {}: tags: expected a list of texts", name, given.id));
+  }
+  for (const std::string& tag : tags)
+    if (!is_name(tag))
+      throw InputError(
+          fmt::format("{}: query {}: tags: {} is not a tag; expected small letters, digits and hyphens", name,
+                      given.id, json_quoted(tag)));
+  std::erase_if(tags, is_given_by_program);
+  return tags;
+}
+
+void add_tag(const std::string& tag, golden::SetQuestion& question, golden::Header& header) {
+  if (std::ranges::find(question.tags, tag) == question.tags.end()) question.tags.push_back(tag);
+  if (std::ranges::none_of(header.tags, [&](const auto& known) { return known.first == tag; }))
+    header.tags.emplace_back(tag, "given by the key tags of a query");
 }
 
 }  // namespace
@@ -86,40 +115,6 @@ void check_set_name(const std::string& name) {
     throw InputError("--name: " + json_quoted(name) +
                      " is not a name of a set; expected small letters, digits and hyphens");
 }
-
-namespace {
-
-// The tags in the key `tags` of a query's line, except those that the program gives itself. Throws
-// InputError.
-std::vector<std::string> tags_in_line(const GivenQuery& given, const std::string& name) {
-  std::vector<std::string> tags;
-  if (given.line.find("\"tags\"") == given.line.npos) return tags;
-  try {
-    json::Document document;
-    document.open(given.line);
-    json::each_member(document.object(), [&](std::string_view key, json::Value value) {
-      if (key != "tags") return skip(value);
-      json::each_element(value.array(), [&](json::Value tag) { tags.emplace_back(tag.text()); });
-    });
-  } catch (const json::Error&) {
-    throw InputError(fmt::format("{}: query {}: tags: expected a list of texts", name, given.id));
-  }
-  for (const std::string& tag : tags)
-    if (!is_name(tag))
-      throw InputError(
-          fmt::format("{}: query {}: tags: {} is not a tag; expected small letters, digits and hyphens", name,
-                      given.id, json_quoted(tag)));
-  std::erase_if(tags, is_given_by_program);
-  return tags;
-}
-
-void add_tag(const std::string& tag, golden::SetQuestion& question, golden::Header& header) {
-  if (std::ranges::find(question.tags, tag) == question.tags.end()) question.tags.push_back(tag);
-  if (std::ranges::none_of(header.tags, [&](const auto& known) { return known.first == tag; }))
-    header.tags.emplace_back(tag, "given by the key tags of a query");
-}
-
-}  // namespace
 
 golden::GivenQuestions questions_in(GivenQueries& queries, golden::Header header, std::size_t& others) {
   golden::GivenQuestions all(std::move(header));

@@ -1,10 +1,7 @@
 // lorentz golden merge, filter, sample: make a set from the records of other sets.
 #include <algorithm>
 
-#include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
-#include "cli/golden.hpp"
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "golden/find_sets.hpp"

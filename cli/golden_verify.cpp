@@ -1,9 +1,9 @@
 // lorentz golden verify: checks that the certificates of sets prove their answers.
+#include <algorithm>
 #include <set>
 
 #include <lorentz/exchange.hpp>
-#include "cli/exit_status.hpp"
-#include "cli/golden.hpp"
+#include "cli/app.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
 #include "golden/find_sets.hpp"
@@ -24,11 +24,9 @@ std::optional<std::string> flaw_in_set(const golden::Header& header, const golde
                                        std::set<std::string>& ids) {
   if (!ids.insert(record.id).second) return "the id came before";
   if (record.tags.empty()) return "it has no tag";
-  for (const std::string& tag : record.tags) {
-    bool known = false;
-    for (const auto& [name, note] : header.tags) known |= name == tag;
-    if (!known) return "the header does not explain its tag " + json_quoted(tag);
-  }
+  for (const std::string& tag : record.tags)
+    if (std::ranges::none_of(header.tags, [&](const auto& known) { return known.first == tag; }))
+      return "the header does not explain its tag " + json_quoted(tag);
   return std::nullopt;
 }
 

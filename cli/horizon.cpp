@@ -1,10 +1,9 @@
 // lorentz horizon: the infinite channels that a scene leaves open.
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
-#include "cli/search_progress.hpp"
+#include "cli/terminal.hpp"
 #include "files/scene_file.hpp"
 #include "report/horizon_report.hpp"
 

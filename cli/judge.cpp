@@ -8,7 +8,6 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/golden_questions.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/known_failures.hpp"
@@ -16,7 +15,7 @@
 #include "cli/progress.hpp"
 #include "cli/set_output.hpp"
 #include "cli/terminal.hpp"
-#include "files/text_file.hpp"
+#include "files/whole_file.hpp"
 #include "golden/production.hpp"
 #include "judge/baseline.hpp"
 #include "judge/judging.hpp"
@@ -43,7 +42,6 @@ struct JudgeOptions {
 
 int exit_status(const JudgeReport& report, const JudgeOptions& options) {
   const question::Tally t = report.total();
-  if (report.is_broken() || report.rows_given_up() > 0) return kFailed;
   if (t.wrong + t.error > 0 || (options.times && t.wrong_time > 0) ||
       (options.strict && t.ill_posed + t.undecided + t.missing + report.nonsense() > 0))
     return kDisagreement;
@@ -53,7 +51,7 @@ int exit_status(const JudgeReport& report, const JudgeOptions& options) {
 // The baseline: an earlier report, or known failures by row and id.
 struct BaselineFile {
   std::optional<judge::Baseline> report;
-  std::optional<KnownFailures> known;
+  std::optional<std::string> known;
 };
 
 BaselineFile baseline_of(const JudgeOptions& options) {
@@ -64,12 +62,11 @@ BaselineFile baseline_of(const JudgeOptions& options) {
   if (begin == text.npos || text[begin] == '{') return {judge::Baseline(text, name), {}};
   if (!options.questions)
     throw InputError("--baseline: failures by row and id need --questions, so that each run asks the same");
-  return {{}, KnownFailures(text, name)};
+  return {{}, text};
 }
 
 // Reports what is worse than in an earlier report. The exit status depends on that alone.
 int status_against(const judge::Baseline& baseline, const JudgeReport& report, const JudgeOptions& options) {
-  if (report.is_broken() || report.rows_given_up() > 0) return kFailed;
   const std::vector<std::string> worse = baseline.worse(report, options.times);
   const auto others = baseline.not_compared(report);
   const auto asked = std::ranges::count_if(report.rows, [](const auto& row) { return row.asked() > 0; });
@@ -84,11 +81,6 @@ int status_against(const judge::Baseline& baseline, const JudgeReport& report, c
   for (const std::string& one : worse) say("worse than in {}: {}", *options.files.baseline, one);
   if (worse.empty()) say("nothing is worse than in {}", *options.files.baseline);
   return worse.empty() ? kDone : kDisagreement;
-}
-
-int status_against(const FailureLedger& known, const JudgeReport& report) {
-  if (report.is_broken() || report.rows_given_up() > 0) return kFailed;
-  return known.new_failures() > 0 ? kDisagreement : kDone;
 }
 
 // The callback that records the failures of each row; empty if no file needs them.
@@ -204,7 +196,8 @@ int act(const JudgeOptions& options) {
   if (!Interrupt::came()) {
     for (const judge::ExaminedRow& row : report.rows) ledger.end(row.name);
     ledger.finish(options.engine);
-    if (ledger.has_baseline()) return status_against(ledger, report);
+    if (report.is_broken() || report.rows_given_up() > 0) return kFailed;
+    if (ledger.has_baseline()) return ledger.new_failures() > 0 ? kDisagreement : kDone;
     return baseline ? status_against(*baseline, report, options) : exit_status(report, options);
   }
   say("{}: this is what was found so far", Interrupt::what());

@@ -8,38 +8,8 @@
 
 #include <lorentz/errors.hpp>
 #include "cli/output.hpp"
-#include "files/text_file.hpp"
 
 namespace lorentz::cli {
-
-KnownFailures::KnownFailures(const std::string& text, const std::string& name) {
-  std::istringstream lines(text);
-  std::size_t number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    std::istringstream words(line.substr(0, line.find('#')));
-    RecordKey record;
-    if (!(words >> record.first)) continue;
-    if (!(words >> record.second))
-      throw InputError(fmt::format(
-          "{}:{}: expected a set and the id of a record, as in \"ties 9cbb135e0a1b2c3d\"", name, number));
-    known_.insert(record);
-  }
-}
-
-bool KnownFailures::is_new(const RecordKey& record, bool failed) {
-  const bool is_known = known_.contains(record);
-  if (is_known) asked_.insert(record);
-  if (is_known && !failed) stale_.push_back(record);
-  met_ += is_known && failed;
-  return failed && !is_known;
-}
-
-void KnownFailures::end(const std::string& set) {
-  for (auto record = known_.lower_bound({set, ""}); record != known_.end() && record->first == set; ++record)
-    if (!asked_.contains(*record)) stale_.push_back(*record);
-}
-
 namespace {
 
 std::string in_xml(const std::string& text) {
@@ -54,27 +24,49 @@ std::string in_xml(const std::string& text) {
   return out;
 }
 
+std::string baseline_text(const std::map<RecordKey, std::string>& failures) {
+  std::string text = "# Known failures: the set, the record's id, the verdict.\n";
+  for (const auto& [record, verdict] : failures)
+    text += fmt::format("{} {} {}\n", record.first, record.second, verdict);
+  return text;
+}
+
+// The set's name as one word of a line.
+std::string word_of(std::string set) {
+  for (char& c : set)
+    if (std::isspace(static_cast<unsigned char>(c)) || c == '#') c = '-';
+  return set.empty() ? "-" : set;
+}
+
+// Prints the first lines, and the number of further lines.
+void say_first(const std::vector<std::string>& lines) {
+  constexpr std::size_t kMost = 10;
+  for (std::size_t i = 0; i < std::min(lines.size(), kMost); ++i) say("{}", lines[i]);
+  if (lines.size() > kMost) say("and {} more", lines.size() - kMost);
+}
+
+// The records that a baseline names.
+std::set<RecordKey> records_in(const std::string& text, const std::string& name) {
+  std::set<RecordKey> records;
+  std::istringstream lines(text);
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    std::istringstream words(line.substr(0, line.find('#')));
+    RecordKey record;
+    if (!(words >> record.first)) continue;
+    if (!(words >> record.second))
+      throw InputError(fmt::format(
+          "{}:{}: expected a set and the id of a record, as in \"ties 9cbb135e0a1b2c3d\"", name, number));
+    records.insert(record);
+  }
+  return records;
+}
+
 }  // namespace
 
-void JUnit::add(const RecordKey& record, const std::optional<std::string>& failure) {
-  Suite& suite = suites_[record.first];
-  ++suite.cases, suite.failures += failure.has_value();
-  suite.text +=
-      fmt::format("    <testcase classname=\"{}\" name=\"{}\"", in_xml(record.first), in_xml(record.second));
-  suite.text += failure ? fmt::format("><failure message=\"{}\"/></testcase>\n", in_xml(*failure)) : "/>\n";
-}
-
-std::string JUnit::text(const std::string& engine) const {
-  std::string text =
-      fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"{}\">\n", in_xml(engine));
-  for (const auto& [name, suite] : suites_)
-    text += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n{}  </testsuite>\n",
-                        in_xml(name), suite.cases, suite.failures, suite.text);
-  return text + "</testsuites>\n";
-}
-
-std::optional<KnownFailures> FailureFiles::known() const {
-  return baseline ? std::optional(KnownFailures(text_of_file(*baseline), *baseline)) : std::nullopt;
+std::optional<std::string> FailureFiles::known() const {
+  return baseline ? std::optional(text_of_file(*baseline)) : std::nullopt;
 }
 
 Option FailureFiles::baseline_row(const std::string& baseline_help) {
@@ -116,61 +108,63 @@ std::optional<std::string> failure_of(const oracle::Judgement& judgement, bool t
   }
 }
 
-namespace {
-
-std::string baseline_text(const std::map<RecordKey, std::string>& failures) {
-  std::string text = "# Known failures: the set, the record's id, the verdict.\n";
-  for (const auto& [record, verdict] : failures)
-    text += fmt::format("{} {} {}\n", record.first, record.second, verdict);
-  return text;
-}
-
-// The set's name as one word of a line.
-std::string word_of(std::string set) {
-  for (char& c : set)
-    if (std::isspace(static_cast<unsigned char>(c)) || c == '#') c = '-';
-  return set.empty() ? "-" : set;
-}
-
-// Prints the first lines, and the number of further lines.
-void say_first(const std::vector<std::string>& lines) {
-  constexpr std::size_t kMost = 10;
-  for (std::size_t i = 0; i < std::min(lines.size(), kMost); ++i) say("{}", lines[i]);
-  if (lines.size() > kMost) say("and {} more", lines.size() - kMost);
-}
-
-}  // namespace
-
-FailureLedger::FailureLedger(const FailureFiles& files, std::optional<KnownFailures> known)
-    : known_(std::move(known)), baseline_file_(files.write_baseline), junit_file_(files.junit) {
-  if (files.junit) junit_.emplace();
-}
+FailureLedger::FailureLedger(const FailureFiles& files, const std::optional<std::string>& known)
+    : makes_junit_(files.junit.has_value()),
+      known_(known ? std::optional(records_in(*known, *files.baseline)) : std::nullopt),
+      baseline_file_(files.write_baseline),
+      junit_file_(files.junit) {}
 
 bool FailureLedger::take(const std::string& set, const std::string& id,
                          const std::optional<std::string>& failure) {
   const RecordKey record{word_of(set), id};
-  const bool is_new = known_ ? known_->is_new(record, failure.has_value()) : failure.has_value();
+  const bool is_known = known_ && known_->contains(record), is_new = failure && !is_known;
+  if (is_known) {
+    asked_.insert(record);
+    if (!failure) stale_.push_back(record);
+    met_ += failure.has_value();
+  }
   if (is_new) new_.push_back(fmt::format("new: {} {} {}", record.first, record.second, *failure));
   if (failure) failures_.emplace(record, *failure);
-  if (junit_) junit_->add(record, is_new ? failure : std::nullopt);
+  if (makes_junit_) add_case(record, is_new ? failure : std::nullopt);
   return is_new;
 }
 
 void FailureLedger::end(const std::string& set) {
-  if (known_) known_->end(word_of(set));
+  if (!known_) return;
+  const std::string word = word_of(set);
+  for (auto record = known_->lower_bound({word, ""}); record != known_->end() && record->first == word;
+       ++record)
+    if (!asked_.contains(*record)) stale_.push_back(*record);
 }
 
 void FailureLedger::finish(const std::string& engine) {
   if (known_) {
-    say("{} failures are known, {} are new", known_->number_met(), new_.size());
+    say("{} failures are known, {} are new", met_, new_.size());
     say_first(new_);
     std::vector<std::string> stale;
-    for (const auto& [set, id] : known_->stale())
+    for (const auto& [set, id] : stale_)
       stale.push_back(fmt::format("stale: {} {} fails no more; take it out of the baseline", set, id));
     say_first(stale);
   }
   baseline_file_.write([&] { return baseline_text(failures_); });
-  junit_file_.write([&] { return junit_->text(engine); });
+  junit_file_.write([&] { return junit_text(engine); });
+}
+
+void FailureLedger::add_case(const RecordKey& record, const std::optional<std::string>& failure) {
+  Suite& suite = suites_[record.first];
+  ++suite.cases, suite.failures += failure.has_value();
+  suite.text +=
+      fmt::format("    <testcase classname=\"{}\" name=\"{}\"", in_xml(record.first), in_xml(record.second));
+  suite.text += failure ? fmt::format("><failure message=\"{}\"/></testcase>\n", in_xml(*failure)) : "/>\n";
+}
+
+std::string FailureLedger::junit_text(const std::string& engine) const {
+  std::string text =
+      fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"{}\">\n", in_xml(engine));
+  for (const auto& [name, suite] : suites_)
+    text += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n{}  </testsuite>\n",
+                        in_xml(name), suite.cases, suite.failures, suite.text);
+  return text + "</testsuites>\n";
 }
 
 }  // namespace lorentz::cli

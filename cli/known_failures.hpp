@@ -17,47 +17,13 @@ namespace lorentz::cli {
 /// The key of a question: the set, row or target that asks it, and its id as a golden record.
 using RecordKey = std::pair<std::string, std::string>;
 
-/// A file of lines "SET ID", optionally followed by further text. # begins a comment.
-class KnownFailures {
- public:
-  /// `text`: the lines. `name`: the file's name in messages. Throws InputError with the line's number.
-  KnownFailures(const std::string& text, const std::string& name);
-
-  /// For a question that was asked: whether its failure is new. A known failure that did not happen is stale.
-  bool is_new(const RecordKey& record, bool failed);
-  /// Ends a set. Known failures of it that were not asked are stale.
-  void end(const std::string& set);
-
-  const std::vector<RecordKey>& stale() const { return stale_; }
-  std::size_t number_met() const { return met_; }
-
- private:
-  std::set<RecordKey> known_, asked_;
-  std::vector<RecordKey> stale_;
-  std::size_t met_ = 0;
-};
-
-/// XML in the format of JUnit: a suite for each set, a case for each question.
-class JUnit {
- public:
-  /// `failure`: the description of the failure; empty if the question passed.
-  void add(const RecordKey& record, const std::optional<std::string>& failure);
-  std::string text(const std::string& engine) const;
-
- private:
-  struct Suite {
-    std::size_t failures = 0, cases = 0;
-    std::string text;
-  };
-  std::map<std::string, Suite> suites_;
-};
-
 /// The options --baseline, --write-baseline and --junit.
 struct FailureFiles {
   std::optional<std::string> baseline, write_baseline, junit;
 
-  /// The failures in the baseline. Throws InputError and FileError.
-  std::optional<KnownFailures> known() const;
+  /// The text of the baseline: lines "SET ID", optionally followed by further text. # begins a comment. Throws
+  /// FileError.
+  std::optional<std::string> known() const;
 
   /// The rows of help. `baseline_help` replaces the usual text for --baseline.
   Option baseline_row(const std::string& baseline_help = "");
@@ -72,16 +38,18 @@ struct FailureFiles {
 /// ill-posed and undecided answers.
 std::optional<std::string> failure_of(const oracle::Judgement& judgement, bool times, bool strict);
 
-/// Records the failures of one engine, and writes the requested files.
+/// Records the failures of one engine, and writes the requested files: a baseline, and XML in the format of
+/// JUnit with a suite for each set and a case for each question.
 class FailureLedger {
  public:
-  /// Opens the requested files. Throws FileError.
-  FailureLedger(const FailureFiles& files, std::optional<KnownFailures> known);
+  /// `known`: the text of the baseline, if there is one. Opens the requested files. Throws FileError, and
+  /// InputError with the number of a bad line.
+  FailureLedger(const FailureFiles& files, const std::optional<std::string>& known);
 
-  /// Records a question that was asked, and returns whether its failure is new. Blanks in the set's name
-  /// become hyphens.
+  /// Records a question that was asked, and returns whether its failure is new. A known failure that did not
+  /// happen is stale. Blanks in the set's name become hyphens.
   bool take(const std::string& set, const std::string& id, const std::optional<std::string>& failure);
-  /// As KnownFailures::end.
+  /// Ends a set. Known failures of it that were not asked are stale.
   void end(const std::string& set);
 
   bool has_baseline() const { return known_.has_value(); }
@@ -91,10 +59,22 @@ class FailureLedger {
   void finish(const std::string& engine);
 
  private:
-  std::optional<KnownFailures> known_;
+  struct Suite {
+    std::size_t failures = 0, cases = 0;
+    std::string text;
+  };
+
+  void add_case(const RecordKey& record, const std::optional<std::string>& failure);
+  std::string junit_text(const std::string& engine) const;
+
+  const bool makes_junit_;
+  const std::optional<std::set<RecordKey>> known_;
+  std::set<RecordKey> asked_;  // of the known ones
+  std::vector<RecordKey> stale_;
+  std::size_t met_ = 0;  // known ones that failed again
   std::map<RecordKey, std::string> failures_;
   std::vector<std::string> new_;  // the lines that describe them
-  std::optional<JUnit> junit_;
+  std::map<std::string, Suite> suites_;
   RequestedFile baseline_file_, junit_file_;
 };
 

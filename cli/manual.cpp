@@ -1,4 +1,4 @@
-#include "cli/manual.hpp"
+#include "cli/services.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -76,10 +76,8 @@ std::string synopsis_of(const ManualPage& page) {
 std::string names_of(const Option& option) {
   if (option.is_argument()) return "\\fI" + escaped(option.name()) + "\\fR";
   std::string out;
-  for (const std::string& name : option.short_names())
-    out += (out.empty() ? "\\fB\\-" : ", \\fB\\-") + escaped(name) + "\\fR";
-  for (const std::string& name : option.long_names())
-    out += (out.empty() ? "\\fB\\-\\-" : ", \\fB\\-\\-") + escaped(name) + "\\fR";
+  for (const auto& names : {option.short_names(), option.long_names()})
+    for (const std::string& name : names) out += (out.empty() ? "\\fB" : ", \\fB") + escaped(name) + "\\fR";
   return out;
 }
 
@@ -184,9 +182,7 @@ std::string page_of(const ManualPage& page) {
 }
 
 void write_pages(const ManualPage& page, const std::filesystem::path& folder) {
-  WholeFile file((folder / (page.name() + ".1")).string());
-  file.write(page_of(page));
-  file.commit();
+  write_whole((folder / (page.name() + ".1")).string(), page_of(page));
   for (const Command& command : page.command.commands) write_pages(page.of(command), folder);
 }
 

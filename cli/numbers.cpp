@@ -8,9 +8,27 @@
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
-#include <lorentz/verdict.hpp>
 
 namespace lorentz::cli {
+namespace {
+
+double number(const std::string& text, const char* option) {
+  try {
+    return parse_number(text);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", option, error.what()));
+  }
+}
+
+double tolerance(const std::string& text, const char* option) {
+  const double ulps = number_from_zero(text, option);
+  if (ulps > oracle::kLargestMargin)
+    throw InputError(fmt::format("{}: {} is above {}, up to which margins are known", option, ulps,
+                                 oracle::kLargestMargin));
+  return ulps;
+}
+
+}  // namespace
 
 std::uint64_t whole_number(const std::string& text, const char* option, std::uint64_t least,
                            std::uint64_t most) {
@@ -31,18 +49,6 @@ std::uint64_t whole_number(const std::string& text, const char* option, std::uin
         fmt::format("{}: {} is not a whole number from {} to {}", option, json_quoted(text), least, most));
   return value;
 }
-
-namespace {
-
-double number(const std::string& text, const char* option) {
-  try {
-    return parse_number(text);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", option, error.what()));
-  }
-}
-
-}  // namespace
 
 std::pair<std::uint64_t, std::uint64_t> shard_in(const std::string& text) {
   const auto slash = text.find('/');
@@ -83,18 +89,6 @@ Vec vector_in(const std::string& text, const char* option) {
     throw InputError(fmt::format("{}: {} is not three numbers, like 1,0,2", option, json_quoted(text)));
   return {numbers[0], numbers[1], numbers[2]};
 }
-
-namespace {
-
-double tolerance(const std::string& text, const char* option) {
-  const double ulps = number_from_zero(text, option);
-  if (ulps > oracle::kLargestMargin)
-    throw InputError(fmt::format("{}: {} is above {}, up to which margins are known", option, ulps,
-                                 oracle::kLargestMargin));
-  return ulps;
-}
-
-}  // namespace
 
 void take_number(const Option& option, const std::string& text) {
   const std::string name = option.name();

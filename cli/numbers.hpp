@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include <lorentz/obstacle.hpp>
 #include <lorentz/vec.hpp>
 #include "cli/command.hpp"
 

@@ -3,10 +3,20 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <iostream>
 
 #include "src/problem/write_error.hpp"
 
 namespace lorentz::cli {
+
+void finish_output() {
+  static bool is_lost = false;  // reported only once
+  if (is_lost) return;
+  std::cout.flush();
+  const bool flushed = std::fflush(stdout) == 0;
+  is_lost = !flushed || std::ferror(stdout) || !std::cout;
+  if (is_lost) throw write_error("standard output", errno);
+}
 
 void Output::flush_if_due() {
   if (buffer_.size() >= (1 << 18) ||

@@ -13,14 +13,6 @@ using Kind = StreamItem::Kind;
 
 namespace {
 
-void read(ExchangeReader& reader, const LineReader::Line& line, const Scene* scene, StreamItem& item) {
-  reader.read_query_line(line, scene, item);
-}
-
-void read(ExchangeReader& reader, const LineReader::Line& line, const RationalScene* scene, StartItem& item) {
-  reader.read_start_line(line, scene, item);
-}
-
 std::optional<std::string> dependence_in(const Scene& scene) {
   return oracle::dependence_in(scene);
 }
@@ -96,7 +88,10 @@ bool SceneStream<AnItem, AScene>::next(AnItem& item) {
     }
     keys_.line = line.number;
     line_ = line.text;
-    read(reader_, line, scene(), item);
+    if constexpr (std::is_same_v<AnItem, StreamItem>)
+      reader_.read_query_line(line, scene(), item);
+    else
+      reader_.read_start_line(line, scene(), item);
     if (item.no_scene && bad_scene_line_ > 0)
       item.message = fmt::format("the scene in line {} was bad, so this query has none", bad_scene_line_);
     if (item.kind == Kind::scene) check_scene(item, line.number);

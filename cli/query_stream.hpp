@@ -2,7 +2,6 @@
 // read such streams use them.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 

@@ -4,7 +4,6 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
 #include "files/messages.hpp"
@@ -30,18 +29,47 @@ struct SampleOptions {
 
 enum class SampleFormat { ndjson, csv, npy };
 
-// The parsed options.
-struct SampleOrder {
-  Scene scene;
-  Kind kind;
-  SampleFormat format;
-  std::uint64_t count, seed;
-  NumberFormat precision;
+void append(QueryRows& rows, const Query& query, int dimension) {
+  ++rows.count;
+  for (int k = 0; k < dimension; ++k) {
+    rows.x[k].push_back(query.x[k]);
+    rows.v[k].push_back(query.v[k]);
+  }
+  if (!query.from) return;
+  rows.from_lattice.push_back(query.from->lattice);
+  rows.from_atom.push_back(query.from->atom);
+  for (int k = 0; k < dimension; ++k) rows.from_cell[k].push_back(query.from->cell[k].int64());
+}
 
-  bool leaves_obstacles() const { return kind == Kind::surface; }
-};
+// `with_from`: the starts leave obstacles.
+void append_front(std::string& out, SampleFormat format, std::uint64_t count, const Scene& scene,
+                  bool with_from) {
+  switch (format) {
+    case SampleFormat::ndjson:
+      return append_scene_line(out, scene);
+    case SampleFormat::csv:
+      return append_csv_query_names(out, scene.dimension, with_from);
+    case SampleFormat::npy:
+      out += npy_query_header(count, scene.dimension, with_from);
+  }
+}
 
-SampleOrder order_of(const SampleOptions& options) {
+void append_rows(std::string& out, SampleFormat format, const QueryRows& rows, std::uint64_t first,
+                 const Scene& scene) {
+  switch (format) {
+    case SampleFormat::ndjson:
+      for (std::size_t i = 0; i < rows.count; ++i)
+        append_query_line(out, std::to_string(first + i), rows.query(i, scene.dimension), scene);
+      return;
+    case SampleFormat::csv:
+      return append_csv_queries(out, rows, scene);
+    case SampleFormat::npy:
+      return append_npy_queries(out, rows, scene.dimension);
+  }
+}
+
+int act(const SampleOptions& options) {
+  constexpr std::uint64_t kRowsTogether = 1024;
   const Kind kind = starts::kind_named(options.kind, "--kind");
   const auto format =
       static_cast<SampleFormat>(index_of_name(options.format, {"ndjson", "csv", "npy"}, "--format"));
@@ -49,68 +77,21 @@ SampleOrder order_of(const SampleOptions& options) {
   const NumberFormat precision = number_format_named(options.precision);
   const Scene scene =
       rounded_scene(load_scene(options.scene, options.radius, unknown), precision, options.scene);
-  return {scene, kind, format, options.count, options.seed, precision};
-}
-
-void append(QueryRows& rows, const Query& query, const SampleOrder& order) {
-  ++rows.count;
-  for (int k = 0; k < order.scene.dimension; ++k) {
-    rows.x[k].push_back(query.x[k]);
-    rows.v[k].push_back(query.v[k]);
-  }
-  if (!order.leaves_obstacles()) return;
-  rows.from_lattice.push_back(query.from->lattice);
-  rows.from_atom.push_back(query.from->atom);
-  for (int k = 0; k < order.scene.dimension; ++k) rows.from_cell[k].push_back(query.from->cell[k].int64());
-}
-
-void append_front(std::string& out, const SampleOrder& order) {
-  const int d = order.scene.dimension;
-  switch (order.format) {
-    case SampleFormat::ndjson:
-      return append_scene_line(out, order.scene);
-    case SampleFormat::csv:
-      return append_csv_query_names(out, d, order.leaves_obstacles());
-    case SampleFormat::npy:
-      out += npy_query_header(order.count, d, order.leaves_obstacles());
-  }
-}
-
-void append_rows(std::string& out, const QueryRows& rows, std::uint64_t first, const SampleOrder& order) {
-  const int d = order.scene.dimension;
-  switch (order.format) {
-    case SampleFormat::ndjson:
-      for (std::size_t i = 0; i < rows.count; ++i)
-        append_query_line(out, std::to_string(first + i), rows.query(i, d), order.scene);
-      return;
-    case SampleFormat::csv:
-      return append_csv_queries(out, rows, order.scene);
-    case SampleFormat::npy:
-      return append_npy_queries(out, rows, d);
-  }
-}
-
-int act(const SampleOptions& options) {
-  constexpr std::uint64_t kRowsTogether = 1024;
-  const SampleOrder order = order_of(options);
-  const FreeStarts starts(order.scene, order.kind, order.seed, order.precision);
+  const FreeStarts starts(scene, kind, options.seed, precision);
   const question::Listener listener = terminal();
   Output output;
   QueryRows rows;
-  Query start;
-  append_front(output.buffer(), order);
-  for (std::uint64_t first = 0; first < order.count; first += rows.count) {
+  append_front(output.buffer(), format, options.count, scene, kind == Kind::surface);
+  for (std::uint64_t first = 0; first < options.count; first += rows.count) {
     rows.clear();
-    for (std::uint64_t i = first; i < std::min(first + kRowsTogether, order.count); ++i) {
-      starts.draw(i, start);
-      append(rows, start, order);
-    }
-    append_rows(output.buffer(), rows, first, order);
+    for (const Query& start : starts.some(first, std::min(kRowsTogether, options.count - first)))
+      append(rows, start, scene.dimension);
+    append_rows(output.buffer(), format, rows, first, scene);
     output.flush_if_due();
-    report(listener, "drawing", first + rows.count, order.count);
+    report(listener, "drawing", first + rows.count, options.count);
   }
   output.flush();
-  say("{}: {} {} starts (seed {})", options.scene, order.count, options.kind, order.seed);
+  say("{}: {} {} starts (seed {})", options.scene, options.count, options.kind, options.seed);
   return kDone;
 }
 
@@ -138,8 +119,7 @@ Command sample_command() {
       },
 
       "No start lies in an obstacle (but the one it leaves): that is decided exactly. The first N starts of "
-      "a "
-      "seed are the same whatever --count.\n"
+      "a seed are the same whatever --count.\n"
       "Examples:\n  lorentz sample --scene triangular --count 100 | lorentz first-hit --engine certified\n  "
       "lorentz sample --kind surface --radius 0.2 --format npy > starts.npy",
       [options] { return act(*options); }};

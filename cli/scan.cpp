@@ -1,11 +1,7 @@
 #include "cli/scan.hpp"
 
-#include <exception>
-
 #include <fmt/format.h>
 
-#include <lorentz/errors.hpp>
-#include "cli/exit_status.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "files/scene_file.hpp"
@@ -60,25 +56,22 @@ int scan(const ScanOptions& options, const std::string& what,
   RequestedFile csv(options.csv);
   std::string rows;
   int status = kDone;
-  std::exception_ptr failure;
-  for (const ScanPlace& place : places) {
-    std::optional<ScanFinding> found;
-    try {
-      found = find(place);
-    } catch (const InputError&) {
-      failure = std::current_exception();  // earlier results are kept
+  const auto find_each = [&] {
+    for (const ScanPlace& place : places) {
+      const std::optional<ScanFinding> found = find(place);
+      status = found && found->is_whole ? kDone : kFailed;
+      if (!found) return;
+      const bool is_first = &place == &places[0];
+      print((is_first || options.json ? "" : "\n") + found->text);
+      const std::string values =
+          fmt::format("{},{},", csv_field(place.name), place.radius ? fmt::format("{}", *place.radius) : "");
+      rows += places.size() == 1 ? found->csv : with_columns(found->csv, "scene,radius,", values, is_first);
+      if (status != kDone) return;
     }
-    status = found && found->is_whole ? kDone : kFailed;
-    if (!found) break;
-    const bool is_first = &place == &places[0];
-    print((is_first || options.json ? "" : "\n") + found->text);
-    const std::string values =
-        fmt::format("{},{},", csv_field(place.name), place.radius ? fmt::format("{}", *place.radius) : "");
-    rows += places.size() == 1 ? found->csv : with_columns(found->csv, "scene,radius,", values, is_first);
-    if (status != kDone) break;
-  }
-  if (!rows.empty()) csv.write([&] { return rows; });
-  if (failure) std::rethrow_exception(failure);
+  };
+  keeping_results(find_each, [&] {
+    if (!rows.empty()) csv.write([&] { return rows; });
+  });
   return status;
 }
 

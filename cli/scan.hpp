@@ -1,4 +1,5 @@
-// Statistics of several scenes, at several radii, one after the other: `lyapunov`, `diffusion`, `survival`.
+// Statistics of several scenes, at several radii, one after the other: `lyapunov`, `diffusion`, `survival`,
+// `flights`.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <lorentz/errors.hpp>
 #include <lorentz/scene.hpp>
 #include "cli/command.hpp"
 #include "starts/free_starts.hpp"
@@ -36,6 +38,18 @@ struct ScanPlace {
 /// Throws InputError and FileError.
 std::vector<ScanPlace> scan_places(const std::vector<std::string>& scenes,
                                    const std::vector<std::string>& radii, const std::string& what);
+
+/// Calls `work`, then `keep`: also if `work` ends with an InputError, so that the results before it are kept.
+template <class Work, class Keep>
+void keeping_results(const Work& work, const Keep& keep) {
+  try {
+    work();
+  } catch (const InputError&) {
+    keep();
+    throw;
+  }
+  keep();
+}
 
 /// The result for one place.
 struct ScanFinding {

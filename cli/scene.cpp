@@ -4,10 +4,8 @@
 #include <lorentz/exchange.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/output.hpp"
-#include "cli/scene_draw.hpp"
-#include "cli/search_progress.hpp"
+#include "cli/terminal.hpp"
 #include "files/data_folder.hpp"
 #include "files/scene_file.hpp"
 #include "report/horizon_report.hpp"

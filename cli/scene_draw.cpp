@@ -1,18 +1,17 @@
 // lorentz scene draw: the picture of a scene, with flights and open channels.
-#include "cli/scene_draw.hpp"
+#include "cli/app.hpp"
 
-#include <charconv>
 #include <filesystem>
+#include <sstream>
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/geometry.hpp>
 #include <lorentz/horizon.hpp>
-#include "cli/exit_status.hpp"
 #include "cli/file_options.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
-#include "cli/search_progress.hpp"
+#include "cli/terminal.hpp"
 #include "files/scene_file.hpp"
 #include "files/whole_file.hpp"
 #include "pictures/scene_drawing.hpp"
@@ -33,19 +32,16 @@ struct SceneDrawOptions {
   bool no_legend = false;
 };
 
-// Whether the file exists and is not an SVG, so that overwriting it would lose other data. An empty file does
-// not count.
-bool is_other_than_svg(const std::string& file) {
-  const std::string start = beginning_of(file);
-  return !start.empty() && (start[0] != '<' || start.find("<svg") == std::string::npos);
-}
-
-// No program opens a file x.png that contains an SVG.
+// No program opens a file x.png that contains an SVG. Overwriting a file that is not an SVG would lose other
+// data; an empty file does not count.
 void refuse_other_formats(const std::string& file) {
   const std::string extension = std::filesystem::path(file).extension();
   for (const char* other : {".png", ".jpg", ".jpeg", ".gif", ".pdf", ".eps", ".ps"})
     if (extension == other)
       throw InputError(file + ": pictures are drawn as SVG; name the file so, and convert it (rsvg-convert)");
+  const std::string start = file == "-" ? "" : beginning_of(file);
+  if (!start.empty() && (start[0] != '<' || start.find("<svg") == std::string::npos))
+    throw InputError(file + ": is not an SVG, and is left as it is; remove it, or name another file");
 }
 
 // The flights of a query stream, up to the first query in a different scene from that of the first query.
@@ -83,32 +79,22 @@ std::vector<DrawnFlight> flights_of(QueryStream& stream, std::optional<Scene>& s
   return flights;
 }
 
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts{""};
-  for (const char c : text)
-    if (c == at)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  return parts;
-}
-
 std::optional<std::array<double, 4>> window_of(const SceneDrawOptions& options) {
   if (!options.window) return std::nullopt;
-  const std::vector<std::string> parts = split(*options.window, ',');
-  std::array<double, 4> window{};
-  bool good = parts.size() == 4;
-  for (std::size_t i = 0; good && i < 4; ++i) try {
-      window[i] = parse_number(parts[i]);
-    } catch (const InputError&) {
-      good = false;
-    }
-  if (!good || !(window[0] < window[2]) || !(window[1] < window[3]))
+  std::vector<double> numbers;
+  std::istringstream parts(*options.window);
+  try {
+    for (std::string part; std::getline(parts, part, ',');) numbers.push_back(parse_number(part));
+  } catch (const InputError&) {
+    numbers.clear();
+  }
+  if (numbers.size() != 4 || options.window->ends_with(',') || !(numbers[0] < numbers[2]) ||
+      !(numbers[1] < numbers[3]))
     throw InputError(fmt::format("--window: {} is not X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1",
                                  json_quoted(*options.window)));
-  if (!(window[2] - window[0] < 1e300) || !(window[3] - window[1] < 1e300))
+  if (!(numbers[2] - numbers[0] < 1e300) || !(numbers[3] - numbers[1] < 1e300))
     throw InputError("--window: is too large");
-  return window;
+  return std::array{numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
 std::string indices_of(const std::array<Integer, 3>& indices, int dimension) {
@@ -168,9 +154,6 @@ int draw(const SceneDrawOptions& options) {
   drawing_options.width = size.width, drawing_options.height = size.height.value_or(0);
   const std::size_t most = options.channels.value_or(0);
   refuse_other_formats(options.output);
-  if (options.output != "-" && is_other_than_svg(options.output))
-    throw InputError(options.output +
-                     ": is not an SVG, and is left as it is; remove it, or name another file");
   std::optional<Scene> scene;
   if (options.scene) scene = load_scene(*options.scene, options.radius);
   std::vector<DrawnFlight> flights;
@@ -186,13 +169,10 @@ int draw(const SceneDrawOptions& options) {
   if (most > 0) drawing_options.ways = ways_of(*scene, most);
   const Drawing drawing = draw_scene(*scene, drawing_options, flights);
   for (const std::string& remark : drawing.remarks) say("{}", remark);
-  if (options.output == "-") {
+  if (options.output == "-")
     print(drawing.svg);
-  } else {
-    WholeFile file(options.output);
-    file.write(drawing.svg);
-    file.commit();
-  }
+  else
+    write_whole(options.output, drawing.svg);
   return bad ? kBadInput : kDone;
 }
 

@@ -6,7 +6,6 @@
 #include <lorentz/errors.hpp>
 #include "cli/output.hpp"
 #include "files/data_folder.hpp"
-#include "files/text_file.hpp"
 #include "golden/find_sets.hpp"
 #include "golden/index.hpp"
 #include "src/exchange/exchange_json.hpp"

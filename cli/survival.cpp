@@ -81,8 +81,7 @@ Command survival_command() {
              }),
 
       "Each start is followed with certainty (lorentz trajectory), and each arithmetic until it hits "
-      "another\n"
-      "obstacle. docs/itineraries.md has figures.\n"
+      "another\nobstacle. docs/itineraries.md has figures.\n"
       "Example:\n  lorentz survival --scene square --radius 0.1 --count 1000 --svg survival.svg",
       [options] { return act(*options); }};
 }

@@ -1,8 +1,9 @@
-// The listener that reports progress and messages of the work to the user's terminal.
+// The progress and the messages of the work, on the user's terminal.
 #pragma once
 
 #include <memory>
 
+#include <lorentz/horizon.hpp>
 #include "cli/progress.hpp"
 #include "files/messages.hpp"
 #include "question/listener.hpp"
@@ -21,6 +22,18 @@ inline question::Listener terminal() {
       if (done >= total) bar.reset();
     };
   return listener;
+}
+
+/// A progress bar of a horizon search on stderr if that is a terminal. The bar disappears with the last copy
+/// of the returned function.
+inline oracle::SearchProgress search_progress() {
+  if (isatty(STDERR_FILENO) != 1) return {};
+  return [bar = std::make_shared<std::unique_ptr<Progress>>(), begun = Progress::Clock::now()](
+             const std::string& what, std::size_t done, std::size_t total) {
+    if (!*bar || (*bar)->what() != what || (*bar)->total() != total)
+      *bar = std::make_unique<Progress>(what, total, 1, begun);
+    (*bar)->at(done);
+  };
 }
 
 }  // namespace lorentz::cli

@@ -1,9 +1,7 @@
 // lorentz trajectory: certified itineraries from the starts of a stream, and engines compared with them.
-#include <cmath>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
@@ -103,7 +101,7 @@ std::string in_table(const Id& id) {
 class StartReport {
  public:
   StartReport(Output& out, const TrajectoryOptions& options) : out_(out), options_(options) {
-    if (options.csv) csv_ = std::make_unique<WholeFile>(*options.csv);
+    if (options.csv) csv_.emplace(*options.csv);
   }
 
   void begin(const Id& id, const Components& count) {
@@ -158,49 +156,26 @@ class StartReport {
  private:
   Output& out_;
   const TrajectoryOptions& options_;
-  std::unique_ptr<WholeFile> csv_;
+  std::optional<WholeFile> csv_;
   Id id_;
   Components components_ = 0;
   int columns_ = 0;
   std::uint64_t number_ = 0;
 };
 
-void append_error(std::string& out, const Id& id, const std::string& message) {
-  json::append(out, [&](json::Members& line) {
-    line.add("id", json::Raw{id}, "outcome", "error", "message", message);
-  });
-  out += '\n';
+// Adds the end of the path, and the engine's path from the point where they separate.
+void end_drawing(pictures::PathDrawing& drawing, const Arrival& arrival, Rival* rival,
+                 const std::string& engine) {
+  if (arrival.end == JourneyEnd::time && arrival.x.size() == 2)
+    drawing.path.push_back({*nearest_decimal(arrival.x[0]), *nearest_decimal(arrival.x[1]), 0});
+  if (arrival.end == JourneyEnd::never && arrival.v.size() == 2)
+    drawing.escape = {*nearest_decimal(arrival.v[0]), *nearest_decimal(arrival.v[1]), 0};
+  if (!rival || !rival->diverged()) return;
+  rival->go_on(arrival.collisions);
+  drawing.other = rival->path();
+  drawing.parting = *rival->diverged();
+  drawing.other_name = engine;
 }
-
-// The picture of the first start: its path, and the engine's path from the point where they separate.
-class Picture {
- public:
-  void begin(const RationalScene& scene, const Start& start) {
-    drawing_.scene = oracle::nearest(scene);
-    drawing_.path.push_back(oracle::nearest(start).x);
-  }
-  void collision(const CertifiedCollision& c) {
-    ++drawing_.collisions;
-    drawing_.path.push_back(survival::place_of(drawing_.scene, c));
-  }
-
-  void end(const Arrival& arrival, Rival* rival, const std::string& engine) {
-    if (arrival.end == JourneyEnd::time && arrival.x.size() == 2)
-      drawing_.path.push_back({*nearest_decimal(arrival.x[0]), *nearest_decimal(arrival.x[1]), 0});
-    if (arrival.end == JourneyEnd::never && arrival.v.size() == 2)
-      drawing_.escape = {*nearest_decimal(arrival.v[0]), *nearest_decimal(arrival.v[1]), 0};
-    if (!rival || !rival->diverged()) return;
-    rival->go_on(arrival.collisions);
-    drawing_.other = rival->path();
-    drawing_.parting = *rival->diverged();
-    drawing_.other_name = engine;
-  }
-
-  std::string svg() const { return pictures::draw_path(drawing_); }
-
- private:
-  pictures::PathDrawing drawing_;
-};
 
 struct TrajectoryRun {
   const TrajectoryOptions& options;
@@ -208,26 +183,29 @@ struct TrajectoryRun {
   const Journey& journey;
   Precision precision;
   StartReport& report;
-  std::optional<Picture> picture;
-  bool drawn = false, failed = false;
+  std::optional<pictures::PathDrawing> picture;  // of the first start
+  bool failed = false;
 };
 
 void follow(TrajectoryRun& run, const Id& id, const RationalScene& scene, const Start& start) {
   std::unique_ptr<Rival> rival;
   if (run.engine) rival = std::make_unique<Rival>(*run.engine, run.precision, scene, start, terminal());
-  Picture* picture = nullptr;
-  if (run.options.svg && !run.drawn) {
+  pictures::PathDrawing* picture = nullptr;
+  if (run.options.svg && !run.picture) {
     if (scene.dimension != 2) throw InputError("--svg: draws paths in two dimensions");
-    run.drawn = true;
     picture = &run.picture.emplace();
-    picture->begin(scene, start);
+    picture->scene = oracle::nearest(scene);
+    picture->path.push_back(oracle::nearest(start).x);
   }
   run.report.begin(id, oracle::nearest(scene));
   const Arrival arrival =
       Itinerary(scene).follow(start, run.journey, [&](const CertifiedCollision& collision) {
         if (rival) rival->meet(collision);
         run.report.collision(collision, rival.get());
-        if (picture) picture->collision(collision);
+        if (picture) {
+          ++picture->collisions;
+          picture->path.push_back(survival::place_of(picture->scene, collision));
+        }
         return true;
       });
   if (Interrupt::came()) return;  // an interrupt is not the end of a trajectory
@@ -237,12 +215,11 @@ void follow(TrajectoryRun& run, const Id& id, const RationalScene& scene, const 
                                           : std::nullopt);
   run.report.end(arrival, rival.get());
   run.failed |= rival && rival->failed();
-  if (picture) picture->end(arrival, rival.get(), run.options.engine.value_or(""));
-  if (arrival.end == JourneyEnd::undecided) {
+  if (picture) end_drawing(*picture, arrival, rival.get(), run.options.engine.value_or(""));
+  if (arrival.end == JourneyEnd::undecided)
     say("start {}: undecided at collision {} with {} bits (--max-bits allows more; a line that touches an "
         "obstacle, or two obstacles that are entered at once, no precision decides)",
         id, arrival.collisions + 1, arrival.bits);
-  }
 }
 
 int act(const TrajectoryOptions& options) {
@@ -259,14 +236,15 @@ int act(const TrajectoryOptions& options) {
   const Interrupt interrupt;
   bool refused = false;
   for (StartItem item; !Interrupt::came() && stream.next(item);) {
-    if (item.kind == StreamItem::Kind::bad) append_error(output.buffer(), item.id, item.message);
+    if (item.kind == StreamItem::Kind::bad)
+      append_answer_line(output.buffer(), item.id, Answer::error(item.message), 0);
     if (item.kind != StreamItem::Kind::query) continue;
     try {
       follow(run, item.id, *stream.scene(), item.start);
     } catch (const InputError& error) {
       refused = true;
       say("{}: start {}: {}", stream.lines().name(), item.id, error.what());
-      append_error(output.buffer(), item.id, error.what());
+      append_answer_line(output.buffer(), item.id, Answer::error(error.what()), 0);
     }
   }
   try {
@@ -275,7 +253,7 @@ int act(const TrajectoryOptions& options) {
     if (!Interrupt::came()) throw;
   }
   report.commit();
-  if (run.picture) svg.write([&] { return run.picture->svg(); });
+  if (run.picture) svg.write([&] { return pictures::draw_path(*run.picture); });
   if (Interrupt::came()) {
     say("{}: the last start has no end", Interrupt::what());
     return kFailed;

@@ -1,6 +1,7 @@
-#include "cli/versions.hpp"
-
+// The libraries that the program is linked with.
 #include <fmt/format.h>
+
+#include <CLI/Version.hpp>
 
 #include <lorentz/batch.hpp>
 #include <lorentz/exchange.hpp>
@@ -25,7 +26,7 @@ std::vector<std::string> library_versions() {
     }
     versions.push_back(names);
   }
-  versions.push_back(parser_library());
+  versions.push_back(std::string("CLI11 ") + CLI11_VERSION);
   versions.push_back(
       fmt::format("fmt {}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100));
   return versions;

@@ -2,11 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <vector>
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/itinerary.hpp>
@@ -17,11 +13,8 @@
 #include "src/problem/safe_text.hpp"
 
 namespace lorentz {
-namespace {
 
 namespace fs = std::filesystem;
-
-}  // namespace
 
 std::vector<CatalogueEntry> catalogue() {
   std::vector<CatalogueEntry> entries;
@@ -45,11 +38,11 @@ std::string find_scene(const std::string& name_or_file) {
   const bool is_name = name_or_file.find('/') == std::string::npos;
   const fs::file_status status = fs::status(name_or_file, error);
   if (fs::exists(status) && !(is_name && fs::is_directory(status))) return name_or_file;
-  if (is_name)
-    for (const CatalogueEntry& entry : catalogue())
-      if (entry.name == name_or_file) return entry.file;
   std::vector<std::string> names;
-  for (const CatalogueEntry& entry : catalogue()) names.push_back(entry.name);
+  for (const CatalogueEntry& entry : catalogue()) {
+    if (is_name && entry.name == name_or_file) return entry.file;
+    names.push_back(entry.name);
+  }
   const std::string shown = shortened(name_or_file, 200);
   if (fs::is_directory(status)) throw FileError(shown + ": is a directory; a scene is a file");
   if (names.empty())

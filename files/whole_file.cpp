@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <filesystem>
 
+#include <lorentz/line_reader.hpp>
 #include "src/problem/write_error.hpp"
 
 namespace lorentz {
@@ -56,6 +57,13 @@ void write_whole(const std::string& path, std::string_view text) {
   WholeFile file(path);
   file.write(text);
   file.commit();
+}
+
+std::string text_of_file(const std::string& path) {
+  std::string text;
+  LineReader lines(path);
+  for (LineReader::Line line; lines.next(line);) text.append(line.text) += '\n';
+  return text;
 }
 
 }  // namespace lorentz

@@ -55,4 +55,7 @@ class RequestedFile {
 /// Writes a file with this text, whole or not at all. Throws FileError.
 void write_whole(const std::string& path, std::string_view text);
 
+/// The whole text of a file, or of standard input for "-". Throws FileError.
+std::string text_of_file(const std::string& path);
+
 }  // namespace lorentz

@@ -21,17 +21,9 @@ Symptom examine_digests(const std::vector<Digest>& found, const std::vector<Dige
 }
 
 const char* name_of(Use use) {
-  switch (use) {
-    case Use::engines:
-      return "the binary64 engines, paths and starts";
-    case Use::oracle:
-      return "exact answers";
-    case Use::certificates:
-      return "certificates";
-    case Use::itineraries:
-      return "certified trajectories";
-  }
-  return "";
+  constexpr const char* kNames[] = {"the binary64 engines, paths and starts", "exact answers", "certificates",
+                                    "certified trajectories"};
+  return kNames[static_cast<int>(use)];
 }
 
 std::vector<Symptom> examine_arithmetic() {

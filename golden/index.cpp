@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include "files/whole_file.hpp"
@@ -66,12 +67,13 @@ std::string sum_of(const std::string& file) {
 }
 
 void add_set(json::Members& object, const std::string& folder, const std::string& name) {
-  const std::string file = (std::filesystem::path(folder) / name).string();
+  const std::string file = (fs::path(folder) / name).string();
   Reader reader(file);
   const Header& header = reader.header();
   std::set<std::string> kinds, notations;
   std::set<int> dimensions;
-  std::size_t outcomes[3] = {}, errors = 0, with_others = 0, needing = 0, scene = 0;
+  std::map<Outcome, std::size_t> outcomes;
+  std::size_t with_others = 0, needing = 0, scene = 0;
   for (ReadRecord read; reader.next(read);) {
     if (reader.scene_number() != scene) {
       see_scene(reader.scene(), kinds), see_notation(reader.scene_line(), notations);
@@ -80,16 +82,14 @@ void add_set(json::Members& object, const std::string& folder, const std::string
     scene = reader.scene_number();
     see_notation(read.text, notations);
     see_cells(read, notations);
-    const Outcome outcome = read.record.expect.outcome;
-    ++(outcome == Outcome::error ? errors : outcomes[static_cast<int>(outcome)]);
+    ++outcomes[read.record.expect.outcome];
     with_others += !read.record.acceptable.empty();
     needing += needs_judge(read.record);
   }
   object.add("name", header.name, "file", name, "sha256", sum_of(file), "description", header.description,
              "count", header.count, "precision", name_of(header.precision), "dimensions", dimensions);
-  object.add("hit", outcomes[static_cast<int>(Outcome::hit)], "never",
-             outcomes[static_cast<int>(Outcome::never)], "inside",
-             outcomes[static_cast<int>(Outcome::inside)], "error", errors);
+  object.add("hit", outcomes[Outcome::hit], "never", outcomes[Outcome::never], "inside",
+             outcomes[Outcome::inside], "error", outcomes[Outcome::error]);
   object.add("with_acceptable", with_others, "needs_judge", needing, "scenes", kinds, "notations", notations,
              "tags", [&](json::Members& tags) {
                for (const auto& [tag, note] : header.tags) tags.add_named(tag, note);

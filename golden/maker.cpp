@@ -1,15 +1,8 @@
 #include "golden/maker.hpp"
-#include "src/exchange/json_writer.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include <lorentz/certificate_check.hpp>
-#include <lorentz/margin.hpp>
-#include <lorentz/oracle.hpp>
-#include <lorentz/prover.hpp>
-#include <lorentz/verdict.hpp>
-#include <lorentz/walk.hpp>
 #include "golden/seen.hpp"
 #include "src/problem/same_answer.hpp"
 
@@ -47,74 +40,49 @@ std::optional<std::string> flaw_of_form(const Record& record) {
 
 }  // namespace
 
-struct Maker::Impl {
-  Scene scene;
-  std::string scene_line;
-  NumberFormat precision;
-  oracle::Oracle oracle;
-  oracle::Walk walk;
-  oracle::Margins margins;
-  oracle::Judge judge;
-  oracle::Prover prover;
-  oracle::CertificateCheck check;
-
-  Others others;
-
-  Impl(const Scene& scene, std::string line, Others those, NumberFormat its_precision)
-      : scene(scene),
-        scene_line(std::move(line)),
-        precision(its_precision),
-        oracle(scene),
-        walk(scene, kWalkCells),
-        margins(scene, its_precision),
-        judge(scene, {its_precision, {}}),
-        prover(scene),
-        check(scene),
-        others(std::move(those)) {}
-
-  Answer walked(const Query& query) const { return others.walk ? others.walk(query) : walk.first_hit(query); }
-  oracle::Certificate proof(const Query& query, const Answer& answer) const {
-    return others.prove ? others.prove(query, answer) : prover.prove(query, answer);
-  }
-
-  // Returns the hardest decision.
-  std::optional<oracle::HardestDecision> measure(const Query& query, Record& record) const {
-    const auto decision = margins.hardest_decision(query, record.expect);
-    if (decision) record.margin = decision->margin;
-    record.comment = comment_on(decision, scene);
-    if (record.expect.outcome != Outcome::hit) return decision;
-    record.condition = margins.condition(query, record.expect);
-    record.time_change = margins.time_change(query, record.expect);
-    return decision;
-  }
-
-  // Adds the other acceptable answers, or the tag that says that a judge is needed.
-  void excuse(const Query& query, Record& record) const {
-    if (auto excused = judge.excused(query, record.expect, kExcusedUlps, kMostAcceptable))
-      record.acceptable = std::move(*excused);
-    else
-      record.tags.emplace_back(kNeedsJudge);
-  }
-};
-
-Maker::Maker(const Scene& scene, Others others, NumberFormat precision)
-    : Maker(scene, scene_line_of(scene), std::move(others), precision) {}
 Maker::Maker(const Scene& scene, std::string scene_line, Others others, NumberFormat precision)
-    : impl_(std::make_unique<const Impl>(scene, std::move(scene_line), std::move(others), precision)) {}
-Maker::Maker(Maker&&) noexcept = default;
-Maker::~Maker() = default;
+    : scene_(scene),
+      scene_line_(std::move(scene_line)),
+      precision_(precision),
+      others_(std::move(others)),
+      oracle_(scene),
+      walk_(scene, kWalkCells),
+      margins_(scene, precision),
+      judge_(scene, {precision, {}}),
+      prover_(scene),
+      check_(scene) {}
 
-const std::string& Maker::scene_line() const {
-  return impl_->scene_line;
+Answer Maker::walked(const Query& query) const {
+  return others_.walk ? others_.walk(query) : walk_.first_hit(query);
+}
+
+// Returns the hardest decision.
+std::optional<oracle::HardestDecision> Maker::measure(const Query& query, Record& record) const {
+  const auto decision = margins_.hardest_decision(query, record.expect);
+  if (decision) record.margin = decision->margin;
+  record.comment = comment_on(decision, scene_);
+  if (record.expect.outcome != Outcome::hit) return decision;
+  record.condition = margins_.condition(query, record.expect);
+  record.time_change = margins_.time_change(query, record.expect);
+  return decision;
+}
+
+// Adds the other acceptable answers, or the tag that says that a judge is needed.
+void Maker::excuse(const Query& query, Record& record) const {
+  if (auto excused = judge_.excused(query, record.expect, kExcusedUlps, kMostAcceptable))
+    record.acceptable = std::move(*excused);
+  else
+    record.tags.emplace_back(kNeedsJudge);
 }
 
 Proved Maker::prove(const Query& query) const {
   oracle::Request request;
   request.digits = kDigits;
-  Proved proved{impl_->oracle.first_hit(query, request), {}};
-  proved.certificate = impl_->proof(query, proved.exact);
+  Proved proved{oracle_.first_hit(query, request), {}};
+  proved.certificate =
+      others_.prove ? others_.prove(query, proved.exact) : prover_.prove(query, proved.exact);
   bool too_long = false;
-  const auto why = impl_->check.refutation(query, proved.exact, proved.certificate, &too_long);
+  const auto why = check_.refutation(query, proved.exact, proved.certificate, &too_long);
   if (too_long)
     throw ProofTooLong("no checker goes through the proof, which " + *why + ":\n" + asked_of(query));
   if (why)
@@ -124,13 +92,13 @@ Proved Maker::prove(const Query& query) const {
 }
 
 std::string Maker::asked_of(const Query& query) const {
-  return impl_->scene_line + "\n{" + question_of(query, impl_->scene) + "}";
+  return scene_line_ + "\n{" + question_of(query, scene_) + "}";
 }
 
 MadeRecord Maker::make(std::string question, const std::optional<Query>& query) const {
   MadeRecord made;
   Record& record = made.record;
-  record.id = id_of(impl_->scene_line, question);
+  record.id = id_of(scene_line_, question);
   record.question = std::move(question);
   if (!query) {
     record.expect = Answer::error("no query");
@@ -139,38 +107,37 @@ MadeRecord Maker::make(std::string question, const std::optional<Query>& query) 
   Proved proved = prove(*query);
   record.expect = std::move(proved.exact);
   record.certificate = std::move(proved.certificate);
-  const Answer walked = impl_->walked(*query);
+  const Answer walked = this->walked(*query);
   made.walked = walked.outcome != Outcome::undecided;
   if (made.walked && !same_answer(walked, record.expect))
     throw std::logic_error("walk does not agree with the oracle:\n" + asked_of(*query));
-  made.hardest = impl_->measure(*query, record);
-  impl_->excuse(*query, record);
+  made.hardest = measure(*query, record);
+  excuse(*query, record);
   return made;
 }
 
 std::optional<std::string> Maker::flaw_of(const Record& record, const std::optional<Query>& query,
                                           bool ask_walk, int format) const {
-  if (record.id != id_of(impl_->scene_line, record.question))
+  if (record.id != id_of(scene_line_, record.question))
     return "the id does not belong to the question (it is made from the scene's line and the question as "
-           "they are "
-           "written: blanks and digits count)";
+           "they are written: blanks and digits count)";
   if (auto why = flaw_of_form(record)) return why;
   if (!query || record.expect.outcome == Outcome::error) {
     if (!query && record.expect.outcome == Outcome::error) return std::nullopt;
     return query ? "this is a query; `error` does not answer it"
                  : "this is not a query; its only answer is `error`";
   }
-  if (!consists_of(impl_->scene, impl_->precision) || !consists_of(*query, impl_->precision))
-    return std::string("its numbers are not of ") + name_of(impl_->precision);
+  if (!consists_of(scene_, precision_) || !consists_of(*query, precision_))
+    return std::string("its numbers are not of ") + name_of(precision_);
   if (!record.certificate) return "it has no certificate";
-  if (auto why = impl_->check.refutation(*query, record.expect, *record.certificate)) return why;
+  if (auto why = check_.refutation(*query, record.expect, *record.certificate)) return why;
   Record again;
   again.expect = record.expect;
-  impl_->measure(*query, again);
+  measure(*query, again);
   if (again.margin != record.margin) return "its margin is another one";
   if (again.condition != record.condition) return "its condition is another one";
   if (format > 1) {
-    impl_->excuse(*query, again);
+    excuse(*query, again);
     if (again.time_change != record.time_change) return "its time_change is another one";
     if (again.comment != record.comment) return "its comment says something else";
     if (!std::ranges::equal(again.acceptable, record.acceptable, is_same) ||
@@ -178,7 +145,7 @@ std::optional<std::string> Maker::flaw_of(const Record& record, const std::optio
       return "other answers are acceptable";
   }
   if (ask_walk) {
-    const Answer walked = impl_->walked(*query);
+    const Answer walked = this->walked(*query);
     if (walked.outcome != Outcome::undecided && !same_answer(walked, record.expect))
       return "walk says otherwise";
   }

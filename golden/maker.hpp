@@ -3,10 +3,14 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 
+#include <lorentz/certificate_check.hpp>
 #include <lorentz/errors.hpp>
 #include <lorentz/margin.hpp>
+#include <lorentz/oracle.hpp>
+#include <lorentz/prover.hpp>
+#include <lorentz/verdict.hpp>
+#include <lorentz/walk.hpp>
 #include "golden/record.hpp"
 
 namespace lorentz::golden {
@@ -38,15 +42,14 @@ struct Others {
 /// Makes records for the questions of one scene. Margins and conditions count in ulps of `precision`.
 class Maker {
  public:
-  explicit Maker(const Scene& scene, Others others = {}, NumberFormat precision = NumberFormat::binary64);
+  explicit Maker(const Scene& scene, Others others = {}, NumberFormat precision = NumberFormat::binary64)
+      : Maker(scene, scene_line_of(scene), std::move(others), precision) {}
   /// For a scene that a set contains in this line; ids depend on its text.
   Maker(const Scene& scene, std::string scene_line, Others others = {},
         NumberFormat precision = NumberFormat::binary64);
-  Maker(Maker&&) noexcept;
-  ~Maker();
 
   /// The scene's line, without the line end.
-  const std::string& scene_line() const;
+  const std::string& scene_line() const { return scene_line_; }
 
   /// Throws std::logic_error if the check refutes the proof; and ProofTooLong.
   Proved prove(const Query& query) const;
@@ -64,9 +67,20 @@ class Maker {
 
  private:
   std::string asked_of(const Query& query) const;
+  Answer walked(const Query& query) const;
+  std::optional<oracle::HardestDecision> measure(const Query& query, Record& record) const;
+  void excuse(const Query& query, Record& record) const;
 
-  struct Impl;
-  std::unique_ptr<const Impl> impl_;
+  const Scene scene_;
+  const std::string scene_line_;
+  const NumberFormat precision_;
+  const Others others_;
+  const oracle::Oracle oracle_;
+  const oracle::Walk walk_;
+  const oracle::Margins margins_;
+  const oracle::Judge judge_;
+  const oracle::Prover prover_;
+  const oracle::CertificateCheck check_;
 };
 
 }  // namespace lorentz::golden

@@ -7,9 +7,9 @@
 #include <charconv>
 #include <condition_variable>
 #include <exception>
-#include <map>
 #include <mutex>
 #include <sstream>
+#include <stop_token>
 #include <thread>
 #include <unordered_set>
 
@@ -81,14 +81,7 @@ class BatchQueue {
   BatchQueue(const Order& order, std::uint64_t first) : order_(order), next_(first), wanted_(first) {
     for (std::uint64_t i = 0; i < order.jobs; ++i) threads_.emplace_back([this] { work(); });
   }
-  ~BatchQueue() {
-    {
-      const std::lock_guard lock(mutex_);
-      closed_ = true;
-    }
-    changed_.notify_all();
-    for (std::thread& thread : threads_) thread.join();
-  }
+  ~BatchQueue() { stop_.request_stop(); }
   BatchQueue(const BatchQueue&) = delete;
   BatchQueue& operator=(const BatchQueue&) = delete;
 
@@ -106,8 +99,8 @@ class BatchQueue {
  private:
   void work() {
     for (std::unique_lock lock(mutex_);;) {
-      changed_.wait(lock, [&] { return closed_ || failure_ || next_ < wanted_ + 4 * order_.jobs; });
-      if (closed_ || failure_) return;
+      changed_.wait(lock, stop_.get_token(), [&] { return failure_ || next_ < wanted_ + 4 * order_.jobs; });
+      if (stop_.stop_requested() || failure_) return;
       const std::uint64_t number = next_++;
       lock.unlock();
       try {
@@ -126,10 +119,10 @@ class BatchQueue {
   std::uint64_t next_, wanted_;
   std::map<std::uint64_t, Batch> ready_;
   std::exception_ptr failure_;
-  bool closed_ = false;
   std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<std::thread> threads_;
+  std::condition_variable_any changed_;
+  std::stop_source stop_;
+  std::vector<std::jthread> threads_;
 };
 
 // The state of a production: everything that it needs to be resumed as if nothing had happened.
@@ -151,19 +144,11 @@ void count(RecordCounts& counts, const MadeRecord& made) {
   ++counts.records;
   counts.needing_judge += needs_judge(made.record);
   counts.walked += made.walked;
-  switch (made.record.expect.outcome) {
-    case Outcome::hit:
-      ++counts.hits;
-      break;
-    case Outcome::inside:
-      ++counts.insides;
-      break;
-    case Outcome::never:
-      ++counts.nevers;
-      break;
-    default:
-      ++counts.errors;
-  }
+  const Outcome outcome = made.record.expect.outcome;
+  ++(outcome == Outcome::hit      ? counts.hits
+     : outcome == Outcome::inside ? counts.insides
+     : outcome == Outcome::never  ? counts.nevers
+                                  : counts.errors);
 }
 
 // Makes the missing batches. `write` gets the text of one batch at a time; `state` then includes that batch.
@@ -229,23 +214,22 @@ bool GivenQuestions::add(SetQuestion question) {
 }
 
 Header header_of(const Order& order) {
+  Header header;
   if (order.given) {
-    Header header = order.given->header;
-    header.count = order.count;
+    header = order.given->header;
     if (order.given->look) header.tags.insert(header.tags.end(), seen_tags().begin(), seen_tags().end());
-    header.tags.emplace_back(kNeedsJudge, kNeedsJudgeNote);
-    return header;
+  } else {
+    const Set& set = *order.set;
+    header = {.name = set.name,
+              .description = set.description,
+              .version = LORENTZ_VERSION,
+              .precision = set.precision};
+    const bool is_wide = set.precision == NumberFormat::binary64;
+    header.generator = fmt::format("lorentz golden make --set {}{} --count {} --seed {}", set.family,
+                                   is_wide ? "" : " --precision binary32", order.count, order.seed);
+    for (const cases::Tag& tag : set.tags) header.tags.emplace_back(tag.name, tag.note);
   }
-  const Set& set = *order.set;
-  Header header{.name = set.name,
-                .description = set.description,
-                .version = LORENTZ_VERSION,
-                .count = order.count,
-                .precision = set.precision};
-  const bool is_wide = set.precision == NumberFormat::binary64;
-  header.generator = fmt::format("lorentz golden make --set {}{} --count {} --seed {}", set.family,
-                                 is_wide ? "" : " --precision binary32", order.count, order.seed);
-  for (const cases::Tag& tag : set.tags) header.tags.emplace_back(tag.name, tag.note);
+  header.count = order.count;
   header.tags.emplace_back(kNeedsJudge, kNeedsJudgeNote);
   return header;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <lorentz/line_reader.hpp>
@@ -37,29 +38,25 @@ NumberFormat read_precision(json::Value value, const std::string& key) {
 
 Header read_header(json::Value value) {
   Header header;
-  bool has_format = false, has_count = false, has_tags = false;
+  const std::map<std::string_view, std::string*> texts{{"name", &header.name},
+                                                       {"description", &header.description},
+                                                       {"generator", &header.generator},
+                                                       {"version", &header.version}};
+  std::set<std::string> missing{"format", "count", "tags"};
   json::each_member(value.object(), [&](std::string_view name, json::Value member) {
     const std::string key(name);
-    if (key == "format") {
+    missing.erase(key);
+    if (const auto text = texts.find(name); text != texts.end()) {
+      *text->second = read_text(member, key);
+    } else if (key == "format") {
       header.format = read_index(member, key);
       if (header.format < 1 || header.format > kFormat)
         throw InputError("format: only formats 1 and 2 are known here");
-      has_format = true;
-    } else if (key == "name") {
-      header.name = read_text(member, key);
-    } else if (key == "description") {
-      header.description = read_text(member, key);
-    } else if (key == "generator") {
-      header.generator = read_text(member, key);
-    } else if (key == "version") {
-      header.version = read_text(member, key);
     } else if (key == "precision") {
       header.precision = read_precision(member, key);
     } else if (key == "count") {
       header.count = static_cast<std::uint64_t>(read_count(member, key));
-      has_count = true;
     } else if (key == "tags") {
-      has_tags = true;
       json::each_member(member.object(), [&](std::string_view tag, json::Value note) {
         header.tags.emplace_back(tag, read_text(note, "tags"));
       });
@@ -67,7 +64,7 @@ Header read_header(json::Value value) {
       skip(member);
     }
   });
-  if (!has_format || !has_count || !has_tags) throw InputError("the header needs format, count and tags");
+  if (!missing.empty()) throw InputError("the header needs format, count and tags");
   return header;
 }
 

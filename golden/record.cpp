@@ -1,5 +1,7 @@
 #include "golden/record.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
 #include <openssl/sha.h>
@@ -51,12 +53,7 @@ std::string sha256(std::string_view text) {
   unsigned char digest[SHA256_DIGEST_LENGTH];
   if (EVP_Digest(text.data(), text.size(), digest, nullptr, EVP_sha256(), nullptr) != 1)
     throw std::runtime_error("SHA-256 failed");
-  std::string hexadecimal;
-  for (const unsigned char byte : digest) {
-    hexadecimal += "0123456789abcdef"[byte >> 4];
-    hexadecimal += "0123456789abcdef"[byte & 15];
-  }
-  return hexadecimal;
+  return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
 std::string scene_line_of(const Scene& scene) {
@@ -67,10 +64,7 @@ std::string scene_line_of(const Scene& scene) {
 }
 
 std::string id_of(std::string_view scene_line, std::string_view question) {
-  std::string text(scene_line);
-  text += '\n';
-  text += question;
-  return sha256(text).substr(0, 16);
+  return sha256(fmt::format("{}\n{}", scene_line, question)).substr(0, 16);
 }
 
 std::string id_of(const Scene& scene, const Query& query) {

@@ -1,7 +1,6 @@
 #include "golden/seen.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,8 +39,7 @@ double smallest_radius(const Scene& scene) {
 
 // The sine of the angle between two vectors; NaN for a zero vector.
 double sine_between(const Vec& a, const Vec& b) {
-  const Vec cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  return length(cross) / length(a) / length(b);
+  return length(cross(a, b)) / length(a) / length(b);
 }
 
 // True if v is along a small vector of a lattice, or nearly.

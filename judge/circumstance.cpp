@@ -1,12 +1,103 @@
-#include "judge/circumstance.hpp"
-
+// Features of questions, and what distinguishes the questions on which an engine fails.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+
+#include <lorentz/geometry.hpp>
+#include "judge/findings.hpp"
+#include "question/radii.hpp"
+#include "src/exchange/exchange_number.hpp"
 
 namespace lorentz::judge {
+
+using question::smallest_semiaxis;
+
+namespace {
+
+double shortest_vector(const Scene& scene) {
+  double shortest = length(scene.lattices[0].vectors[0]);
+  for (const Lattice& lattice : scene.lattices)
+    for (int i = 0; i < scene.dimension; ++i) shortest = std::min(shortest, length(lattice.vectors[i]));
+  return shortest;
+}
+
+double smallest_radius(const Scene& scene) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for_each_atom(scene, [&](const Atom& atom) {
+    smallest = std::min(smallest, smallest_semiaxis(atom, scene.dimension));
+  });
+  return smallest;
+}
+
+// The nearest binary64 number; an infinity beyond its range.
+double as_double(const Integer& number) {
+  return *nearest_decimal(number.decimal());
+}
+
+// The largest number in the cells that a question is about; kNone if there are none, as for `never`.
+double largest_number(const Question& question) {
+  double largest = Features::kNone;
+  const auto see = [&](const ObstacleId& obstacle) {
+    for (const Integer& number : obstacle.cell) largest = std::fmax(largest, std::fabs(as_double(number)));
+  };
+  if (names_obstacle(question.exact)) see(question.exact.obstacle);
+  if (question.query.from) see(*question.query.from);
+  return largest;
+}
+
+// The only obstacle of a scene; nothing if there are several.
+std::optional<ObstacleId> lone_obstacle(const Scene& scene) {
+  const Lattice& first = scene.lattices[0];
+  const bool is_lone =
+      scene.lattices.size() == 1 && first.atoms.size() == 1 && first.rank(scene.dimension) == 0;
+  return is_lone ? std::optional(ObstacleId{}) : std::nullopt;
+}
+
+// Sets the distance from x to the obstacle's centre, in its radii (for an ellipsoid, the smallest semiaxis).
+void measure_from(const Question& question, const ObstacleId& obstacle, Features& its) {
+  const Scene& scene = question.place->scene();
+  const Lattice& lattice = scene.lattices[static_cast<std::size_t>(obstacle.lattice)];
+  const Atom& atom = lattice.atoms[static_cast<std::size_t>(obstacle.atom)];
+  Vec centre = atom.position;
+  for (int i = 0; i < lattice.rank(scene.dimension); ++i)
+    centre = plus(centre, as_double(obstacle.cell[i]), lattice.vectors[i]);
+  const Vec away = plus(centre, -1, question.query.x);
+  its.distance = std::hypot(away[0], away[1], away[2]) / smallest_semiaxis(atom, scene.dimension);
+}
+
+}  // namespace
+
+Features features_of(const Question& question, const std::optional<ObstacleId>& in_question) {
+  const Scene& scene = question.place->scene();
+  const Query& query = question.query;
+  const double unit = shortest_vector(scene);
+  Features its;
+  its.in_space = scene.dimension == 3;
+  for (int i = 0; i < scene.dimension; ++i) its.zero_component |= query.v[i] == 0;
+  its.leaving = query.from.has_value();
+  its.several_lattices = scene.lattices.size() > 1;
+  for (const Lattice& lattice : scene.lattices) its.several_atoms |= lattice.atoms.size() > 1;
+  for_each_atom(scene, [&](const Atom& atom) { its.ellipsoids |= !atom.is_ball(); });
+  its.other_cell = !is_unit_scene(scene);
+  its.never = question.exact.outcome == Outcome::never;
+  its.radius = smallest_radius(scene) / unit;
+  its.start = length(query.x) / unit;
+  its.cell = largest_number(question);
+  its.speed = length(query.v);
+  if (const auto obstacle = in_question ? in_question : lone_obstacle(scene))
+    measure_from(question, *obstacle, its);
+  if (question.exact.outcome != Outcome::hit) return its;
+  const double flown = question.exact.time.value_or(Features::kNone) * its.speed;
+  its.flight = flown / unit;
+  const ObstacleId& hit = question.exact.obstacle;
+  const Atom& atom =
+      scene.lattices[static_cast<std::size_t>(hit.lattice)].atoms[static_cast<std::size_t>(hit.atom)];
+  its.flight_in_radii = flown / smallest_semiaxis(atom, scene.dimension);
+  its.depth = -question.place->margins().approach(query, question.exact.obstacle).gap;
+  return its;
+}
+
 namespace {
 
 constexpr double kCommon = 0.5, kByChance = 1e-3;
@@ -29,78 +120,59 @@ std::vector<Predicate> plain_predicates() {
           {"where nothing is ever hit", [](const Features& f) { return f.never; }}};
 }
 
-using Quantity = double Features::*;
+// A limit on a quantity: the least power of ten above all failing questions, the greatest power of ten that
+// they reach, or the greatest power of two, for lengths in radii, if it is far, because nothing cancels nearby.
+enum class LimitSide { below, from, from_afar };
+struct Limit {
+  double Features::*quantity;
+  LimitSide bound;
+  const char* text;  // with the limit, or with the exponent of two
+};
+constexpr Limit kLimits[] = {
+    {&Features::depth, LimitSide::below, "where the line enters the obstacle by less than {:g} of its radii"},
+    {&Features::radius, LimitSide::below, "at radii below {:g} lattice vectors"},
+    {&Features::radius, LimitSide::from, "at radii of {:g} lattice vectors or more"},
+    {&Features::flight, LimitSide::from, "after flights of {:g} lattice vectors or more"},
+    {&Features::flight, LimitSide::below, "on flights shorter than {:g} lattice vectors"},
+    {&Features::start, LimitSide::from, "from starts {:g} lattice vectors or more from the origin"},
+    {&Features::cell, LimitSide::from, "in far cells, with numbers of {:g} or more"},
+    {&Features::distance, LimitSide::from_afar,
+     "from starts 2^{:g} radii or more from the obstacle in question"},
+    {&Features::flight_in_radii, LimitSide::from_afar, "after flights of 2^{:g} radii or more"},
+    {&Features::speed, LimitSide::below, "at velocities shorter than {:g}"},
+    {&Features::speed, LimitSide::from, "at velocities of length {:g} or more"}};
 
-// "below 1e-9", with the least power of ten above all failing questions. Nothing if one of them lacks the
-// quantity, or if that power is `says_nothing` or more.
-std::optional<Predicate> where_below(const std::vector<Features>& failing, Quantity quantity,
-                                     const char* text,
-                                     double says_nothing = std::numeric_limits<double>::infinity()) {
-  double most = 0;
+// The exponent of the limit, for the largest or the smallest of the failing questions.
+double exponent_of(LimitSide bound, double extreme) {
+  if (bound == LimitSide::from_afar) return std::ilogb(extreme);
+  return std::floor(std::log10(extreme)) + (bound == LimitSide::below ? 1 : 0);
+}
+
+// Nothing if a failing question lacks the quantity, or if the limit says nothing: that a line enters by less
+// than a radius, or that what is not far is far.
+std::optional<Predicate> predicate_for(const Limit& its, const std::vector<Features>& failing) {
+  constexpr double kFar = 10;
+  const auto quantity = its.quantity;
+  const bool is_below = its.bound == LimitSide::below, is_far = its.bound == LimitSide::from_afar,
+             is_of_depth = quantity == &Features::depth;
+  double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const Features& f : failing) {
     if (!(f.*quantity >= 0)) return std::nullopt;
-    most = std::max(most, f.*quantity);
+    least = std::min(least, f.*quantity), most = std::max(most, f.*quantity);
   }
-  if (!(most > 0) || !std::isfinite(most)) return std::nullopt;
-  const double limit = std::pow(10, std::floor(std::log10(most)) + 1);
-  if (limit >= says_nothing) return std::nullopt;
-  return Predicate{fmt::format(fmt::runtime(text), limit),
-                   [=](const Features& f) { return f.*quantity < limit; }};
-}
-
-std::optional<Predicate> least(Quantity quantity, double limit, const std::string& text) {
-  return Predicate{text, [=](const Features& f) { return f.*quantity >= limit; }};
-}
-
-// The smallest value; nothing if one of the questions lacks the quantity.
-std::optional<double> smallest(const std::vector<Features>& failing, Quantity quantity) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const Features& f : failing) {
-    if (!(f.*quantity > 0)) return std::nullopt;
-    smallest = std::min(smallest, f.*quantity);
-  }
-  return std::isfinite(smallest) ? std::optional(smallest) : std::nullopt;
-}
-
-// The greatest power of ten that all failing questions reach.
-std::optional<Predicate> from(const std::vector<Features>& failing, Quantity quantity, const char* text) {
-  const auto reached = smallest(failing, quantity);
-  if (!reached) return std::nullopt;
-  const double limit = std::pow(10, std::floor(std::log10(*reached)));
-  return least(quantity, limit, fmt::format(fmt::runtime(text), limit));
-}
-
-// The greatest power of two that all failing questions reach, for lengths in radii, if it is far, because
-// nothing cancels nearby.
-std::optional<Predicate> from_afar(const std::vector<Features>& failing, Quantity quantity,
-                                   const char* text) {
-  constexpr int kFar = 10;
-  const auto reached = smallest(failing, quantity);
-  const int exponent = reached ? std::ilogb(*reached) : 0;
-  if (exponent < kFar) return std::nullopt;
-  return least(quantity, std::ldexp(1, exponent), fmt::format(fmt::runtime(text), exponent));
+  const double extreme = is_below ? most : least;
+  if (!(extreme > 0) || !std::isfinite(extreme)) return std::nullopt;
+  const double exponent = exponent_of(its.bound, extreme), limit = std::pow(is_far ? 2 : 10, exponent);
+  if ((is_of_depth && limit >= 1) || (is_far && exponent < kFar)) return std::nullopt;
+  return Predicate{fmt::format(fmt::runtime(its.text), is_far ? exponent : limit),
+                   [=](const Features& f) { return is_below ? f.*quantity < limit : f.*quantity >= limit; },
+                   is_of_depth};
 }
 
 std::vector<Predicate> predicates_for(const std::vector<Features>& failing) {
   std::vector<Predicate> all = plain_predicates();
-  if (auto depth = where_below(failing, &Features::depth,
-                               "where the line enters the obstacle by less than {:g} of its radii", 1)) {
-    depth->is_of_depth = true;
-    all.push_back(*depth);
-  }
-  for (auto& one :
-       {where_below(failing, &Features::radius, "at radii below {:g} lattice vectors"),
-        from(failing, &Features::radius, "at radii of {:g} lattice vectors or more"),
-        from(failing, &Features::flight, "after flights of {:g} lattice vectors or more"),
-        where_below(failing, &Features::flight, "on flights shorter than {:g} lattice vectors"),
-        from(failing, &Features::start, "from starts {:g} lattice vectors or more from the origin"),
-        from(failing, &Features::cell, "in far cells, with numbers of {:g} or more"),
-        from_afar(failing, &Features::distance,
-                  "from starts 2^{} radii or more from the obstacle in question"),
-        from_afar(failing, &Features::flight_in_radii, "after flights of 2^{} radii or more"),
-        where_below(failing, &Features::speed, "at velocities shorter than {:g}"),
-        from(failing, &Features::speed, "at velocities of length {:g} or more")})
-    if (one) all.push_back(*one);
+  for (const Limit& limit : kLimits)
+    if (const auto one = predicate_for(limit, failing)) all.push_back(*one);
   return all;
 }
 

@@ -70,30 +70,55 @@ Fault of_another_answer(const Question& question, const Answer& given,
   return graded(Cause::never_for_grazing, Cause::never_for_hit, approach.gap);
 }
 
+// How a sentence about a cause ends: by less than which power of ten of its radii an obstacle is entered or
+// missed, by up to which part of them, or by how many radii along the ray a time is off.
+enum class SentenceEnd { none, below, part, along };
+
 struct CauseWords {
-  std::string_view name, title;
+  std::string_view name, title, sentence;
+  SentenceEnd end = SentenceEnd::none;
+  std::string_view how = "";  ///< before the part
 };
-constexpr std::array<CauseWords, kCauses> kCauseWords{{
-    {"passed-over-grazing", "names a later obstacle than one it grazes"},
-    {"passed-over", "passes through an obstacle"},
-    {"never-for-grazing", "misses what it grazes"},
-    {"never-for-hit", "misses what it hits"},
-    {"false-hit-grazing", "hits what it misses by a hair"},
-    {"false-hit", "hits what it misses"},
-    {"behind", "hits what lies behind the start"},
-    {"leaving", "hits the obstacle that it leaves"},
-    {"inside-unseen", "starts inside unseen"},
-    {"inside-not-so", "says inside, and starts outside"},
-    {"inside-another", "starts inside several, and names another"},
-    {"tie", "names the other of a tie"},
-    {"no-obstacle", "names an obstacle that does not exist"},
-    {"not-the-time", "another quantity as the time"},
-    {"wrong-time", "wrong time"},
-    {"refused", "refuses a valid question"},
-    {"no-answer", "died or silent"},
-    {"bad-line", "bad lines"},
-    {"answers-nonsense", "answers an invalid question"},
-}};
+constexpr CauseWords kCauseWords[]{
+    {"passed-over-grazing", "names a later obstacle than one it grazes",
+     "passes over obstacles that the line enters", SentenceEnd::below},
+    {"passed-over", "passes through an obstacle",
+     "passes over the obstacle that is hit first, and names a later one", SentenceEnd::part, "entered"},
+    {"never-for-grazing", "misses what it grazes", "says never of lines that enter obstacles",
+     SentenceEnd::below},
+    {"never-for-hit", "misses what it hits", "says never where an obstacle is hit", SentenceEnd::part,
+     "entered"},
+    {"false-hit-grazing", "hits what it misses by a hair", "hits obstacles that the line misses",
+     SentenceEnd::below},
+    {"false-hit", "hits what it misses", "hits an obstacle that the line misses", SentenceEnd::part,
+     "missed"},
+    {"behind", "hits what lies behind the start", "hits an obstacle that lies behind the start"},
+    {"leaving", "hits the obstacle that it leaves",
+     "hits the obstacle that the particle leaves (from), which is to be ignored"},
+    {"inside-unseen", "starts inside unseen", "does not see that the start lies inside an obstacle",
+     SentenceEnd::part, "inside"},
+    {"inside-not-so", "says inside, and starts outside",
+     "says inside of an obstacle that the start lies outside of", SentenceEnd::part, "outside"},
+    {"inside-another", "starts inside several, and names another",
+     "names one of several obstacles that contain the start, but not the first in the order (lattice, atom, "
+     "cell)"},
+    {"tie", "names the other of a tie",
+     "names one of several obstacles that are entered at the same time, but not the first in the order "
+     "(lattice, atom, cell)"},
+    {"no-obstacle", "names an obstacle that does not exist",
+     "names an obstacle that the scene does not have"},
+    {"not-the-time", "another quantity as the time",
+     "gives, for the right obstacle, something else than the time at which it is entered",
+     SentenceEnd::along},
+    {"wrong-time", "wrong time",
+     "gives times of the right obstacle that are off by more than rounding of the inputs explains",
+     SentenceEnd::along},
+    {"refused", "refuses a valid question", "calls a valid question an error"},
+    {"no-answer", "died or silent", "gives no answer: it dies, falls silent, or leaves the question out"},
+    {"bad-line", "bad lines", "writes lines that are not answers"},
+    {"answers-nonsense", "answers an invalid question", "answers invalid questions, where error is right"},
+};
+static_assert(std::size(kCauseWords) == static_cast<std::size_t>(Cause::answers_nonsense) + 1);
 
 const CauseWords& words_for(Cause cause) {
   return kCauseWords[static_cast<std::size_t>(cause)];
@@ -153,69 +178,18 @@ std::string_view name_of(Severity severity) {
   return kSeverityNames[static_cast<int>(severity)];
 }
 
-std::string power_of_ten_above(double x) {
-  return fmt::format("{:g}", std::pow(10, std::floor(std::log10(x)) + 1));
-}
-
 std::string sentence_of(Cause cause, std::optional<double> by_radii) {
-  const auto up_to = [&](const char* what, const char* how) {
-    return by_radii ? fmt::format("{} ({} by up to {:.3g} of its radii)", what, how, *by_radii)
-                    : std::string(what);
-  };
-  const auto below = [&](const char* what) {
-    return by_radii && *by_radii > 0
-               ? fmt::format("{} by less than {} of their radii", what, power_of_ten_above(*by_radii))
-               : fmt::format("{} at one point only", what);
-  };
-  const auto along = [&](const char* what) {
-    return by_radii && std::isfinite(*by_radii)
-               ? fmt::format("{}, by up to {:.3g} radii along the ray", what, *by_radii)
-               : std::string(what);
-  };
-  switch (cause) {
-    case Cause::passed_over_grazing:
-      return below("passes over obstacles that the line enters");
-    case Cause::passed_over:
-      return up_to("passes over the obstacle that is hit first, and names a later one", "entered");
-    case Cause::never_for_grazing:
-      return below("says never of lines that enter obstacles");
-    case Cause::never_for_hit:
-      return up_to("says never where an obstacle is hit", "entered");
-    case Cause::false_hit_grazing:
-      return below("hits obstacles that the line misses");
-    case Cause::false_hit:
-      return up_to("hits an obstacle that the line misses", "missed");
-    case Cause::behind:
-      return "hits an obstacle that lies behind the start";
-    case Cause::leaving:
-      return "hits the obstacle that the particle leaves (from), which is to be ignored";
-    case Cause::inside_unseen:
-      return up_to("does not see that the start lies inside an obstacle", "inside");
-    case Cause::inside_not_so:
-      return up_to("says inside of an obstacle that the start lies outside of", "outside");
-    case Cause::inside_another:
-      return "names one of several obstacles that contain the start, but not the first in the order "
-             "(lattice, atom, cell)";
-    case Cause::tie:
-      return "names one of several obstacles that are entered at the same time, but not the first in the "
-             "order (lattice, atom, cell)";
-    case Cause::no_obstacle:
-      return "names an obstacle that the scene does not have";
-    case Cause::not_the_time:
-      return along("gives, for the right obstacle, something else than the time at which it is entered");
-    case Cause::wrong_time:
-      return along(
-          "gives times of the right obstacle that are off by more than rounding of the inputs explains");
-    case Cause::refused:
-      return "calls a valid question an error";
-    case Cause::no_answer:
-      return "gives no answer: it dies, falls silent, or leaves the question out";
-    case Cause::bad_line:
-      return "writes lines that are not answers";
-    case Cause::answers_nonsense:
-      return "answers invalid questions, where error is right";
-  }
-  return "";
+  const CauseWords& its = words_for(cause);
+  std::string text(its.sentence);
+  if (its.end == SentenceEnd::below)
+    text += by_radii && *by_radii > 0 ? fmt::format(" by less than {:g} of their radii",
+                                                    std::pow(10, std::floor(std::log10(*by_radii)) + 1))
+                                      : " at one point only";
+  if (its.end == SentenceEnd::part && by_radii)
+    text += fmt::format(" ({} by up to {:.3g} of its radii)", its.how, *by_radii);
+  if (its.end == SentenceEnd::along && by_radii && std::isfinite(*by_radii))
+    text += fmt::format(", by up to {:.3g} radii along the ray", *by_radii);
+  return text;
 }
 
 }  // namespace lorentz::judge

@@ -37,7 +37,6 @@ enum class Cause {
   bad_line,           ///< an external engine wrote an invalid line in place of the answer
   answers_nonsense    ///< an invalid question was answered
 };
-inline constexpr int kCauses = 19;
 
 /// What is to blame for a finding, in the order of reports.
 enum class Blame { engine, ended, protocol, rounding };
@@ -78,8 +77,5 @@ std::string_view name_of(Severity severity);
 /// "passes over obstacles that the line enters by less than 1e-09 of their radii": describes all answers with
 /// this cause. `by_radii`: the largest among them.
 std::string sentence_of(Cause cause, std::optional<double> by_radii);
-
-/// The least power of ten above x > 0, as text.
-std::string power_of_ten_above(double x);
 
 }  // namespace lorentz::judge

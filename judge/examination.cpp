@@ -140,48 +140,43 @@ void Examination::leave(Place& place, ExaminedRow& row) const {
   row.last_failure = last_fault_;
 }
 
-std::optional<Diagnosis> Examination::diagnosed(const Question& question, const Reply& reply,
-                                                const Judgement& judgement) {
-  auto diagnosis = diagnosis_of(question, reply.answer, judgement);
-  if (diagnosis && reply.origin == Origin::bad_line) diagnosis->cause = Cause::bad_line;
-  return diagnosis;
-}
-
 Judgement Examination::judgement_of(const Question& question, const Reply& reply) const {
   if (reply.is_fault()) return {Verdict::missing};
   return question::judgement_of(question, reply.answer, ulps_);
 }
 
-std::optional<Example> Examination::departing(const Question& question, const Reply& reply) const {
+std::optional<Example> Examination::departing(const Question& question, const Reply& reply,
+                                              const Judgement& judgement) const {
   if (!reply.was_asked()) return std::nullopt;
-  const Judgement judgement = judgement_of(question, reply);
-  const auto diagnosis = diagnosed(question, reply, judgement);
-  return diagnosis ? std::optional(Example{question, reply.answer, judgement, *diagnosis, last_words_})
-                   : std::nullopt;
+  auto diagnosis = diagnosis_of(question, reply.answer, judgement);
+  if (!diagnosis) return std::nullopt;
+  if (reply.origin == Origin::bad_line) diagnosis->cause = Cause::bad_line;
+  return Example{question, reply.answer, judgement, *diagnosis, last_words_};
 }
 
 void Examination::take(const Question& question, const Reply& reply, ExaminedRow& row) {
   if (!reply.was_asked()) return leave(*question.place, row);
   const Judgement judgement = judgement_of(question, reply);
   if (reply.is_fault()) last_fault_ = reply.answer.message;
-  const auto diagnosis = diagnosed(question, reply, judgement);
-  const bool is_nonsense = diagnosis && diagnosis->severity == Severity::nonsense;
+  const auto example = departing(question, reply, judgement);
+  const bool is_nonsense = example && example->diagnosis.severity == Severity::nonsense;
   if (is_nonsense)
     ++row.nonsense;
   else
     row.tally.count(judgement);
   if (on_judged_ && !is_nonsense) on_judged_(row.name, question, judgement);
   question.place->note(judgement.verdict == Verdict::unsupported);
-  if (diagnosis) findings_.add({question, reply.answer, judgement, *diagnosis, last_words_}, row.name);
+  if (example) findings_.add(*example, row.name);
   const auto off = judgement.ulps ? question::radii_off(question, reply.answer) : std::nullopt;
   if (off) row.max_radii = std::max(row.max_radii.value_or(0), *off);
   if (!question.is_query() || row.tally.queries > kCompared) return;
   const Features features = features_of(
       question, names_obstacle(question.exact) ? std::optional(question.exact.obstacle) : std::nullopt);
-  if (!diagnosis && judgement.verdict == Verdict::agree) findings_.add_right(features);
-  const bool is_about_another = diagnosis && !judgement.wrong_time && diagnosis->by_radii;
-  const double call = is_about_another ? *diagnosis->by_radii : features.depth;
-  const double sizes[kMeasures] = {call, features.distance, features.flight, features.start, features.radius};
+  if (!example && judgement.verdict == Verdict::agree) findings_.add_right(features);
+  const bool is_about_another = example && !judgement.wrong_time && example->diagnosis.by_radii;
+  const double call = is_about_another ? *example->diagnosis.by_radii : features.depth;
+  const double sizes[kMeasures.size()] = {call, features.distance, features.flight, features.start,
+                                          features.radius};
   for (std::size_t i = 0; i < curves_.size(); ++i) curves_[i].add(sizes[i], judgement.verdict, off);
 }
 
@@ -195,14 +190,15 @@ std::vector<Finding> Examination::findings() const {
 std::optional<Example> Examination::example_of(const Question& question) {
   answerer_->try_again();
   ask({question});
-  return replies_.empty() ? std::nullopt : departing(question, replies_[0]);
+  if (replies_.empty()) return std::nullopt;
+  return departing(question, replies_[0], judgement_of(question, replies_[0]));
 }
 
 Examination::Repeated Examination::repeat(const Question& question, std::size_t copies, Diagnosis like) {
   ask(std::vector<Question>(copies, question));
   Repeated repeated{{}, replies_.size() == copies};
   for (std::size_t i = 0; i < replies_.size() && !repeated.failed; ++i) {
-    const auto example = departing(question, replies_[i]);
+    const auto example = departing(question, replies_[i], judgement_of(question, replies_[i]));
     if (example && example->diagnosis.cause == like.cause && example->diagnosis.severity == like.severity)
       repeated.failed = i + 1;
   }

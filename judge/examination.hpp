@@ -1,6 +1,7 @@
 // Asks one engine questions from many sources, each for a while, and records the results.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -10,11 +11,11 @@
 #include <vector>
 
 #include "judge/findings.hpp"
-#include "judge/measures.hpp"
 #include "question/answerer.hpp"
 #include "question/engines.hpp"
 #include "question/examine.hpp"
 #include "question/tally.hpp"
+#include "report/calls.hpp"
 
 namespace lorentz::judge {
 
@@ -26,6 +27,15 @@ using Look = std::function<void(const Question&, const Answer& given)>;
 
 /// Sees the judgement on each answer of all rows.
 using OnJudged = std::function<void(const std::string& row, const Question&, const oracle::Judgement&)>;
+
+/// What makes a question hard: the measures by which an engine's answers are counted.
+inline constexpr std::array kMeasures{
+    "radii by which the line enters or misses the obstacle in question",
+    "radii from the start to the obstacle in question", "length of the flight, in lattice vectors",
+    "distance of the start from the origin, in lattice vectors", "smallest radius, in lattice vectors"};
+
+/// One curve for each measure.
+using Curves = std::array<report::Calls, kMeasures.size()>;
 
 /// One kind of difficulty, and the engine's results there.
 struct ExaminedRow {
@@ -110,10 +120,9 @@ class Examination {
   double ask(const std::vector<Question>& questions);
   void take(const Question& question, const Reply& reply, ExaminedRow& row);
   void leave(Place& place, ExaminedRow& row) const;
-  static std::optional<Diagnosis> diagnosed(const Question& question, const Reply& reply,
-                                            const oracle::Judgement& judgement);
   oracle::Judgement judgement_of(const Question& question, const Reply& reply) const;
-  std::optional<Example> departing(const Question& question, const Reply& reply) const;
+  std::optional<Example> departing(const Question& question, const Reply& reply,
+                                   const oracle::Judgement& judgement) const;
 
   const double ulps_;
   const Claim claim_;

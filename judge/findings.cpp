@@ -64,35 +64,31 @@ std::string Finding::explanation() const {
 }
 
 void Findings::add(const Example& example, const std::string& row) {
-  Finding& its =
-      findings_
-          .try_emplace({example.diagnosis.severity, example.diagnosis.cause}, Finding{example, {}, 0, {}})
-          .first->second;
-  ++its.by_row[row];
-  if (its.count++ == 0) its.where = example.question.where;
-  if (example.diagnosis.by_radii)
-    its.by_radii = std::max(its.by_radii.value_or(0), *example.diagnosis.by_radii);
-  if (example.question.is_query() && its.features.size() < kMostFeatures)
-    its.features.push_back(features_in(example));
-  if (complexity_of(example.question) >= complexity_of(its.simplest.question)) return;
-  its.simplest = example;
-  its.where = example.question.where;
+  const auto key = std::make_pair(example.diagnosis.severity, example.diagnosis.cause);
+  Finding one{example, example.question.where, 1, {}, {{row, 1}}};
+  if (example.diagnosis.by_radii) one.by_radii = std::max(0.0, *example.diagnosis.by_radii);
+  const auto before = findings_.find(key);
+  const bool has_enough = before != findings_.end() && before->second.features.size() >= kMostFeatures;
+  if (example.question.is_query() && !has_enough) one.features.push_back(features_in(example));
+  add(key, one);
 }
 
 void Findings::add(const Findings& others) {
   right_.insert(right_.end(), others.right_.begin(), others.right_.end());
-  for (const auto& [key, other] : others.findings_) {
-    const auto [place, is_new] = findings_.try_emplace(key, other);
-    if (is_new) continue;
-    Finding& its = place->second;
-    its.count += other.count;
-    for (const auto& [row, count] : other.by_row) its.by_row[row] += count;
-    if (other.by_radii) its.by_radii = std::max(its.by_radii.value_or(0), *other.by_radii);
-    its.features.insert(its.features.end(), other.features.begin(), other.features.end());
-    if (complexity_of(other.simplest.question) >= complexity_of(its.simplest.question)) continue;
-    its.simplest = other.simplest;
-    its.where = other.where;
-  }
+  for (const auto& [key, other] : others.findings_) add(key, other);
+}
+
+void Findings::add(const std::pair<Severity, Cause>& key, const Finding& other) {
+  const auto [place, is_new] = findings_.try_emplace(key, other);
+  if (is_new) return;
+  Finding& its = place->second;
+  its.count += other.count;
+  for (const auto& [row, count] : other.by_row) its.by_row[row] += count;
+  if (other.by_radii) its.by_radii = std::max(its.by_radii.value_or(0), *other.by_radii);
+  its.features.insert(its.features.end(), other.features.begin(), other.features.end());
+  if (complexity_of(other.simplest.question) >= complexity_of(its.simplest.question)) return;
+  its.simplest = other.simplest;
+  its.where = other.where;
 }
 
 std::vector<Finding> Findings::all(const Asked& asked) const {

@@ -1,11 +1,23 @@
 #include "judge/free_paths.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
 #include <limits>
+
+#include "files/scene_file.hpp"
+#include "judge/questions.hpp"
+#include "statistics/theory/laws.hpp"
 
 namespace lorentz::judge {
 namespace {
+
+struct Where {
+  const char* scene;
+  double radius;
+};
+constexpr Where kWhere[] = {{"square", 0.1}, {"square", 0.01}, {"cubic", 0.1}};
+constexpr std::size_t kFlights = 30'000;  // in all
 
 // How far a particle gets according to an answer; nothing if the answer does not say.
 std::optional<double> path_of(const Answer& answer) {
@@ -64,6 +76,64 @@ std::optional<PathPoint> FreePaths::farthest_apart() const {
   for (const PathPoint& point : points())
     if (point.apart() > (farthest ? farthest->apart() : 0)) farthest = point;
   return farthest;
+}
+
+std::string FlownScene::name() const {
+  return fmt::format("{}, r = {:g}", scene, radius);
+}
+
+std::string FlownScene::text() const {
+  std::string text = fmt::format("{}: {} flights, mean {:.4g} (exact {:.4g}", name(), paths.flights(),
+                                 paths.mean(), paths.exact_mean());
+  if (const auto mean = flights::mean_free_path_of(read_scene(scene, radius)).value)
+    text += fmt::format("; of infinitely many {:.4g}", *mean);
+  text += ")";
+  if (const auto farthest = paths.farthest_apart())
+    return text + fmt::format(", P(tau > {:.3g}) is {:.3g} where {:.3g} is exact", farthest->t,
+                              farthest->survival, farthest->exact);
+  return text + ", P(tau > t) exact";
+}
+
+report::FreePathCurve FlownScene::curve(const std::string& engine) const {
+  report::FreePathCurve curve{scene, engine, radius, "surface", "", {}};
+  const flights::Laws laws = flights::laws_of(read_scene(scene, radius), flights::Ensemble::surface);
+  if (!laws.laws.empty()) curve.law = fmt::format("{}, {}", laws.laws[0].name, laws.laws[0].when);
+  for (const PathPoint& point : paths.points()) {
+    report::FreePathCurve::CurvePoint shown{point.t, point.survival, point.exact, {}};
+    if (!laws.laws.empty()) shown.theory = laws.laws[0].survival(point.t);
+    curve.points.push_back(shown);
+  }
+  return curve;
+}
+
+std::vector<FlownScene> fly_free_paths(Examination& examination, std::uint64_t seed, double seconds) {
+  std::vector<NamedPlace> places;
+  std::vector<FlownScene> flown;
+  for (const auto& [scene, radius] : kWhere) {
+    flown.push_back({scene, radius, {}});
+    places.push_back({flown.back().name(), place_for(read_scene(scene, radius), examination.claim())});
+  }
+  const auto look = [&](const Question& question, const Answer& given) {
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (question.place == places[i].place) flown[i].paths.add(question, given);
+  };
+  examination.run(
+      {"free paths", "from collision to collision: starts on obstacles, by the cosine law", false},
+      drawn(places, starts::Kind::surface, seed, kFlights), seconds, look);
+  std::erase_if(flown, [](const FlownScene& scene) { return scene.paths.flights() == 0; });
+  return flown;
+}
+
+std::string free_path_fault(const std::vector<FlownScene>& scenes) {
+  std::optional<PathPoint> farthest;
+  std::string where;
+  for (const FlownScene& scene : scenes)
+    if (const auto point = scene.paths.farthest_apart();
+        point && (!farthest || point->apart() > farthest->apart()))
+      farthest = point, where = scene.name();
+  if (!farthest) return "";
+  return fmt::format("P(free path > {:.3g}) {:.3g} where {:.3g} is exact ({})", farthest->t,
+                     farthest->survival, farthest->exact, where);
 }
 
 }  // namespace lorentz::judge

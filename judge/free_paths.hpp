@@ -1,17 +1,16 @@
-// The free paths that an engine computes, and the exact ones of the same starts.
+// The free paths that an engine computes, compared with the exact ones of the same starts and with theory.
 #pragma once
 
 #include <cmath>
 
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "question/question.hpp"
+#include "judge/examination.hpp"
+#include "report/curves.hpp"
 
 namespace lorentz::judge {
-
-using question::Place;
-using question::Question;
 
 /// P(free path > t) twice, by the engine and exactly. Both are of the same flights, so any difference is due
 /// to the engine.
@@ -43,5 +42,25 @@ class FreePaths {
 
   std::vector<double> given_, exact_;  // infinite: nothing is ever hit
 };
+
+/// The flights in one scene.
+struct FlownScene {
+  std::string scene;
+  double radius = 0;
+  FreePaths paths;
+
+  std::string name() const;
+  /// "square, r = 0.1: 2000 flights, mean 4.68 (exact 4.68, theory 4.6858)", and how far P(tau > t) is off.
+  std::string text() const;
+  report::FreePathCurve curve(const std::string& engine) const;
+};
+
+/// Flies in a few scenes, from collision to collision, for at most `seconds`. Returns the flights of each
+/// scene in which the engine flew.
+std::vector<FlownScene> fly_free_paths(Examination& examination, std::uint64_t seed, double seconds);
+
+/// Says how far the engine's P(tau > t) is from the exact one in the scene where the distance is largest;
+/// empty if it is exact in all scenes.
+std::string free_path_fault(const std::vector<FlownScene>& scenes);
 
 }  // namespace lorentz::judge

@@ -5,16 +5,16 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 
 #include <lorentz/exchange.hpp>
 #include "files/messages.hpp"
-#include "judge/repetition.hpp"
-#include "judge/verdict_text.hpp"
+#include "judge/simplest.hpp"
 #include "pictures/finding_drawing.hpp"
 #include "report/claim_words.hpp"
-#include "report/finding_json.hpp"
 #include "report/manifest.hpp"
 #include "report/primitive.hpp"
+#include "report/query_text.hpp"
 #include "report/reason.hpp"
 #include "report/table.hpp"
 #include "src/exchange/exchange_write.hpp"
@@ -236,21 +236,13 @@ std::string largest_ulp(const question::Tally& t) {
 
 std::vector<std::string> cells_of(const question::Tally& t, std::size_t nonsense,
                                   const std::optional<double>& radii) {
-  const auto number = [](std::size_t n) { return n ? std::to_string(n) : std::string("-"); };
-  return {t.name,
-          std::to_string(t.queries),
-          number(t.agree),
-          number(t.ill_posed),
-          number(t.wrong),
-          number(t.wrong_time),
-          number(t.undecided),
-          number(t.unsupported),
-          number(t.error),
-          number(t.missing),
-          number(nonsense),
-          radii ? fmt::format("{:.2g}", *radii) : "-",
-          largest_ulp(t),
-          t.speed.ns_per_query > 0 ? fmt::format("{:.0f}", t.speed.ns_per_query) : "-"};
+  std::vector<std::string> cells{t.name, std::to_string(t.queries)};
+  for (const std::size_t number : {t.agree, t.ill_posed, t.wrong, t.wrong_time, t.undecided, t.unsupported,
+                                   t.error, t.missing, nonsense})
+    cells.push_back(number ? std::to_string(number) : "-");
+  cells.insert(cells.end(), {radii ? fmt::format("{:.2g}", *radii) : "-", largest_ulp(t),
+                             t.speed.ns_per_query > 0 ? fmt::format("{:.0f}", t.speed.ns_per_query) : "-"});
+  return cells;
 }
 
 enum class RowState { asked, unsupported, no_time, given_up, other_numbers };
@@ -278,25 +270,25 @@ std::string given_up_lines(const JudgeReport& report) {
   return text;
 }
 
+// "unsupported: drawn ball, golden ties"; nothing if there are no such rows.
+std::string line_of(RowState state, const char* what, const JudgeReport& report) {
+  std::vector<std::string> names;
+  for (const ExaminedRow& row : report.rows)
+    if (state_of(row, report) == state) names.push_back(row.name);
+  return names.empty() ? "" : fmt::format("{}: {}\n", what, fmt::join(names, ", "));
+}
+
 std::string table_of(const JudgeReport& report) {
   report::Table table(kColumns);
-  std::vector<std::string> unsupported, no_time, other_numbers;
-  for (const ExaminedRow& row : report.rows) {
-    const RowState state = state_of(row, report);
-    if (state == RowState::unsupported) unsupported.push_back(row.name);
-    if (state == RowState::no_time) no_time.push_back(row.name);
-    if (state == RowState::other_numbers) other_numbers.push_back(row.name);
+  for (const ExaminedRow& row : report.rows)
     if (row.tally.unsupported < row.asked()) table.add(cells_of(row.tally, row.nonsense, row.max_radii));
-  }
   question::Tally total = report.total();
   total.name = "all";
   table.add(cells_of(total, report.nonsense(), report.max_radii()));
-  std::string text = table.text();
-  if (!unsupported.empty()) text += fmt::format("unsupported: {}\n", fmt::join(unsupported, ", "));
-  if (!no_time.empty()) text += fmt::format("not asked, no time: {}\n", fmt::join(no_time, ", "));
-  if (!other_numbers.empty())
-    text += fmt::format("not asked, numbers of another precision: {}\n", fmt::join(other_numbers, ", "));
-  return text + given_up_lines(report);
+  return table.text() + line_of(RowState::unsupported, "unsupported", report) +
+         line_of(RowState::no_time, "not asked, no time", report) +
+         line_of(RowState::other_numbers, "not asked, numbers of another precision", report) +
+         given_up_lines(report);
 }
 
 void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& report) {
@@ -311,8 +303,6 @@ void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& r
   object.add("max_ulp", t.timed_hits ? json::finite(t.max_ulp()) : std::nullopt, "ns_per_query",
              t.speed.ns_per_query > 0 ? json::finite(t.speed.ns_per_query) : std::nullopt);
 }
-
-constexpr Measure kOtherMeasures[] = {Measure::distance, Measure::flight, Measure::start, Measure::radius};
 
 }  // namespace
 
@@ -341,8 +331,8 @@ std::string JudgeReport::json() const {
   for (const FlownScene& scene : flown) paths.push_back(scene.curve(engine.name));
   return json::line_of([&](json::Members& page) {
     page.add("format", 1, "kind", "judge", "title", engine.name + ", judged", "manifest",
-             report::manifest_of(seed, command), "engine", engine.name, "library", library_text(*this),
-             "verdict", verdict(), "line", line());
+             report::manifest_of(seed, command), "engine", engine.name, "library", library(), "verdict",
+             verdict(), "line", line());
     report::add_claim(page, claim);
     page.add("summary", [this](json::Members& object) {
       const ThreeLines its = summary();
@@ -363,8 +353,8 @@ std::string JudgeReport::json() const {
                add_finding(one, finding, *this);
              }));
     page.add("calls", curves[0], "curves",
-             json::objects(kOtherMeasures, [this](json::Members& one, Measure measure) {
-               one.add("by", name_of(measure), "decades", curves[static_cast<std::size_t>(measure)]);
+             json::objects(std::span(kMeasures).subspan(1), [this](json::Members& one, const auto& measure) {
+               one.add("by", measure, "decades", curves[&measure - kMeasures.data()]);
              }));
     page.add("free_paths", paths);
   });

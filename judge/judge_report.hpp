@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "judge/examination.hpp"
-#include "judge/judge_paths.hpp"
+#include "judge/free_paths.hpp"
 #include "question/engines.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::judge {
 
@@ -19,29 +20,36 @@ struct ThreeLines {
   const Finding* finding = nullptr;  ///< this fault; null if there is none
 };
 
-struct JudgeReport {
-  question::EngineInfo engine;
-  std::uint64_t seed = 0;
-  std::string command;  ///< the shell line that was typed
-  std::vector<ExaminedRow> rows;
-  std::vector<Finding> findings;
-  Curves curves;
+/// What is judged, and by what.
+struct JudgeTerms {
+  question::EngineInfo engine = {};
+  /// What the engine reports about itself, if it was asked.
   std::optional<question::Introduction> introduction = {};
+  std::string command = {};  ///< the shell line as typed
+  std::uint64_t seed = starts::kDefaultSeed;
+  double ulps = oracle::kDefaultUlps;  ///< the tolerance k
+  Claim claim = {};
+  bool times = false;   ///< wrong times count
+  bool strict = false;  ///< answers to invalid questions count
+};
+
+struct JudgeReport : JudgeTerms {
+  std::vector<ExaminedRow> rows = {};
+  std::vector<Finding> findings = {};
+  Curves curves = {};
   std::optional<double> own_ns = {};  ///< per query, in the engine's own calls, if it reports that
-  std::vector<FlownScene> flown;
+  std::vector<FlownScene> flown = {};
   double timeout = 0;       ///< seconds of silence after which an external engine has failed
   double start_up = 0;      ///< seconds that an external engine took to start
   double first_answer = 0;  ///< seconds until its first answer
-  std::optional<double> ns_per_query, ns_of_reduction;            ///< on the same drawn flights
-  std::optional<double> processor_ns, processor_ns_of_reduction;  ///< the same in processor time
-  std::string speed_of;                                           ///< which flights these were
-  bool misbehaved = false;             ///< an external engine failed or misbehaved at least once
-  bool was_stopped = false;            ///< before all questions were asked
-  bool times = false;                  ///< wrong times count
-  Claim claim = {};                    ///< by which it was judged
-  double ulps = oracle::kDefaultUlps;  ///< the tolerance k
-  bool strict = false;                 ///< answers to invalid questions count
+  std::optional<double> ns_per_query = {}, ns_of_reduction = {};            ///< on the same drawn flights
+  std::optional<double> processor_ns = {}, processor_ns_of_reduction = {};  ///< the same in processor time
+  std::string speed_of = {};                                                ///< which flights these were
+  bool misbehaved = false;   ///< an external engine failed or misbehaved at least once
+  bool was_stopped = false;  ///< before all questions were asked
 
+  /// "Ball 1.2", if the engine reports its name.
+  std::optional<std::string> library() const;
   question::Tally total() const;
   /// Answers to invalid questions, which are not in the total.
   std::size_t nonsense() const;
@@ -62,5 +70,8 @@ struct JudgeReport {
   std::string text() const;
   std::string json() const;
 };
+
+/// A number with two digits, or with all digits before the point.
+std::string two_digits(double a);
 
 }  // namespace lorentz::judge

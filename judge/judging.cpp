@@ -7,14 +7,11 @@
 
 #include <fmt/format.h>
 
-#include <lorentz/exchange.hpp>
-
 #include "files/scene_file.hpp"
 #include "golden/find_sets.hpp"
 #include "golden/reader.hpp"
-#include "judge/judge_paths.hpp"
+#include "judge/free_paths.hpp"
 #include "judge/questions.hpp"
-#include "judge/repetition.hpp"
 #include "judge/simplest.hpp"
 #include "question/race.hpp"
 
@@ -46,11 +43,11 @@ constexpr TimePlan kWhole{15, 8, 3, 24, 58, 4, 12, 4000}, kQuick{4, 2.5, 1, 3.5,
 // The scenes of the catalogue that are examined, and their radii; scenes without radii keep their own sizes.
 struct Scenery {
   const char* scene;
-  std::vector<const char*> radii;
+  std::vector<double> radii;
 };
-const std::vector<Scenery> kSceneries{{"square", {"0.3", "0.1", "0.01", "0.001", "1e-06"}},
-                                      {"cubic", {"0.3", "0.1", "0.01", "0.001"}},
-                                      {"triangular", {"0.1", "0.001"}},
+const std::vector<Scenery> kSceneries{{"square", {0.3, 0.1, 0.01, 0.001, 1e-6}},
+                                      {"cubic", {0.3, 0.1, 0.01, 0.001}},
+                                      {"triangular", {0.1, 0.001}},
                                       {"oblique", {}},
                                       {"honeycomb", {}},
                                       {"fcc", {}},
@@ -63,16 +60,11 @@ const std::vector<Scenery> kSceneries{{"square", {"0.3", "0.1", "0.01", "0.001",
                                       {"ball", {}}};
 
 std::vector<NamedPlace> places_of(const Scenery& scenery, const Claim& claim) {
-  const auto place = [&](const std::optional<std::string>& radius) {
-    const std::string name =
-        radius ? fmt::format("{}, r = {}", scenery.scene, *radius) : std::string(scenery.scene);
-    return NamedPlace{name, place_for(read_scene(scenery.scene, radius ? std::optional(parse_number(*radius))
-                                                                       : std::nullopt),
-                                      claim)};
-  };
+  if (scenery.radii.empty()) return {{scenery.scene, place_for(read_scene(scenery.scene, {}), claim)}};
   std::vector<NamedPlace> places;
-  for (const char* radius : scenery.radii) places.push_back(place(radius));
-  if (places.empty()) places.push_back(place(std::nullopt));
+  for (const double radius : scenery.radii)
+    places.push_back({fmt::format("{}, r = {:g}", scenery.scene, radius),
+                      place_for(read_scene(scenery.scene, radius), claim)});
   return places;
 }
 
@@ -163,16 +155,14 @@ void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examinat
   }
 }
 
-// The engine that is examined, and the terms.
+// The order, and how its engine is asked.
 struct Terms {
-  question::EngineInfo engine;
-  double ulps;
-  Claim claim;
+  const JudgeOrder& order;
   question::AnswererOptions answerer;
   const std::atomic<bool>& stop;
 
   std::unique_ptr<Examination> examination() const {
-    return std::make_unique<Examination>(engine, answerer, ulps, stop, claim);
+    return std::make_unique<Examination>(order.engine, answerer, order.ulps, stop, order.claim);
   }
   /// An examination without a listener.
   std::unique_ptr<Examination> silent_examination() const {
@@ -215,7 +205,7 @@ void recheck_all(std::vector<Finding>& findings, const Terms& terms, double seco
 // Finds the simplest case of each finding.
 void simplify(std::vector<Finding>& findings, Examination& examination, const Terms& terms, double seconds,
               double first_answer) {
-  if (!terms.engine.runs_apart()) return find_simplest(findings, examination, seconds);
+  if (!terms.order.engine.runs_apart()) return find_simplest(findings, examination, seconds);
   find_simplest(findings, examination, seconds / 2);
   recheck_all(findings, terms, seconds / 2, first_answer);
 }
@@ -224,14 +214,12 @@ void simplify(std::vector<Finding>& findings, Examination& examination, const Te
 
 // The square and cubic lattice at r = 0.1, if the engine answered there; else the first place where it did.
 std::vector<const NamedPlace*> places_to_race_in(const std::vector<NamedPlace>& places) {
-  std::vector<const NamedPlace*> chosen;
+  std::vector<const NamedPlace*> answered, chosen;
   for (const NamedPlace& place : places)
-    if ((place.name == "square, r = 0.1" || place.name == "cubic, r = 0.1") && place.place->was_answered() &&
-        !place.place->is_beyond_engine())
-      chosen.push_back(&place);
-  for (const NamedPlace& place : places)
-    if (chosen.empty() && place.place->was_answered() && !place.place->is_beyond_engine())
-      chosen.push_back(&place);
+    if (place.place->was_answered() && !place.place->is_beyond_engine()) answered.push_back(&place);
+  for (const NamedPlace* place : answered)
+    if (place->name == "square, r = 0.1" || place->name == "cubic, r = 0.1") chosen.push_back(place);
+  if (chosen.empty() && !answered.empty()) chosen.push_back(answered.front());
   return chosen;
 }
 
@@ -262,13 +250,12 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
   if (chosen.empty()) return;
   const std::size_t count = affordable(report, kRounds, seconds);
   const Countdown until(kTooLong * (seconds + report.start_up) + terms.answerer.timeout);
-  question::RaceOptions options{kRounds, terms.answerer.timeout, terms.answerer.listener};
-  options.start_timeout = terms.answerer.start_timeout;
-  options.enough = [&] { return terms.stop || until.left() == 0; };
+  question::RaceOptions options{kRounds, terms.answerer};
+  options.answerer.enough = [&] { return terms.stop || until.left() == 0; };
   const std::vector<question::Speed> speeds =
       question::race(questions_to_race_in(chosen, report.seed, count),
                      {report.engine, question::engine_named("reduction")}, options);
-  const bool is_cut = report.engine.runs_apart() && options.enough();
+  const bool is_cut = report.engine.runs_apart() && options.answerer.enough();
   if (speeds[0].failed || is_cut) return;
   report.ns_per_query = speeds[0].ns_per_query;
   report.own_ns = speeds[0].own_ns;
@@ -283,14 +270,14 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
 
 // If the order has no timeout, it is much longer than any answer should take here, and a small part of the
 // whole time. A program's first answer may take as long as elsewhere.
-Terms terms_of(const JudgeOrder& order, const TimePlan& plan, const std::atomic<bool>& stop) {
+question::AnswererOptions options_of(const JudgeOrder& order, const TimePlan& plan) {
   constexpr double kShortest = 2, kPart = 0.1;
-  Terms terms{order.engine, order.ulps, order.claim, {}, stop};
   const double most = question::AnswererOptions::kDefaultTimeout;
-  terms.answerer.timeout = order.timeout.value_or(std::clamp(kPart * plan.seconds(), kShortest, most));
-  terms.answerer.start_timeout = most;
-  terms.answerer.listener = order.listener;
-  return terms;
+  question::AnswererOptions options;
+  options.timeout = order.timeout.value_or(std::clamp(kPart * plan.seconds(), kShortest, most));
+  options.start_timeout = most;
+  options.listener = order.listener;
+  return options;
 }
 
 // Asks everything in turn; returns the places.
@@ -332,16 +319,8 @@ std::size_t number_of_rows(NumberFormat precision) {
 
 JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   const TimePlan plan = plan_of(order);
-  const Terms terms = terms_of(order, plan, stop);
-  JudgeReport report;
-  report.engine = order.engine;
-  report.command = order.command;
-  report.claim = order.claim;
-  report.introduction = order.introduction;
-  report.ulps = order.ulps;
-  report.times = order.times;
-  report.strict = order.strict;
-  report.seed = order.seed;
+  const Terms terms{order, options_of(order, plan), stop};
+  JudgeReport report{order};
   report.timeout = terms.answerer.timeout;
   const std::unique_ptr<Examination> examination = terms.examination();
   if (plan.questions) {

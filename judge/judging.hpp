@@ -6,29 +6,18 @@
 #include <optional>
 #include <string>
 
-#include <lorentz/verdict.hpp>
 #include "judge/judge_report.hpp"
-#include "starts/free_starts.hpp"
 
 namespace lorentz::judge {
 
 /// What to examine, and how.
-struct JudgeOrder {
-  question::EngineInfo engine;
-  /// What the engine reports about itself, if it was asked.
-  std::optional<question::Introduction> introduction = {};
-  std::string command;         ///< as typed, for the report
-  bool quick = false;          ///< fewer flights in less time
-  std::optional<double> time;  ///< approximate seconds in all; nothing: the usual time
+struct JudgeOrder : JudgeTerms {
+  bool quick = false;               ///< fewer flights in less time
+  std::optional<double> time = {};  ///< approximate seconds in all; nothing: the usual time
   /// The number of questions of each row, instead of a time: every machine asks the same.
   std::optional<std::size_t> questions = {};
-  std::uint64_t seed = starts::kDefaultSeed;
-  unsigned jobs = 1;  ///< threads of the campaign; one if questions are counted
-  double ulps = oracle::kDefaultUlps;
-  Claim claim = {};
-  std::optional<double> timeout;  ///< for an external engine; nothing: a tenth of the time
-  bool times = false;             ///< wrong times count
-  bool strict = false;            ///< answers to invalid questions count
+  unsigned jobs = 1;                   ///< threads of the campaign; one if questions are counted
+  std::optional<double> timeout = {};  ///< for an external engine; nothing: a tenth of the time
   question::Listener listener = {};
   std::function<void(const std::string& row)> on_progress = {};  ///< called often, with the name of the row
   OnJudged on_judged = {};  ///< called for each answer, if questions are counted

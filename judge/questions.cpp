@@ -56,25 +56,6 @@ class Drawn {
   std::vector<starts::FreeStarts> starts_;
 };
 
-class Golden {
- public:
-  Golden(const std::string& path, const Claim& claim)
-      : reader_(path), records_(golden::questions_of(reader_, claim)) {}
-
-  std::optional<Question> next() {
-    std::optional<Question> question;
-    do question = records_();
-    while (question &&
-           (question->place->is_beyond_engine() || !question->place->has_numbers_for(question->query)));
-    if (question) question->where = fmt::format("golden {}, {}", reader_.header().name, question->where);
-    return question;
-  }
-
- private:
-  golden::Reader reader_;
-  const question::Source records_;
-};
-
 class CampaignQuestions {
  public:
   CampaignQuestions(std::uint64_t seed, const fuzz::Scope& scope, Fairness fairness, unsigned part,
@@ -171,7 +152,15 @@ Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint
 }
 
 Source golden_set(const std::string& path, const Claim& claim) {
-  return source_of<Golden>(path, claim);
+  const auto reader = std::make_shared<golden::Reader>(path);
+  return [reader, records = golden::questions_of(*reader, claim)] {
+    std::optional<Question> question;
+    do question = records();
+    while (question &&
+           (question->place->is_beyond_engine() || !question->place->has_numbers_for(question->query)));
+    if (question) question->where = fmt::format("golden {}, {}", reader->header().name, question->where);
+    return question;
+  };
 }
 
 Source campaign(std::uint64_t seed, const fuzz::Scope& scope, Fairness fairness, unsigned part,

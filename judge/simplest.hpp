@@ -1,5 +1,8 @@
-// Finds the simplest case that goes wrong in the same way.
+// Finds the simplest case that goes wrong in the same way, and whether it does so by itself.
 #pragma once
+
+#include <functional>
+#include <memory>
 
 #include "judge/examination.hpp"
 
@@ -10,5 +13,13 @@ namespace lorentz::judge {
 /// finding, so that all statements about the finding also hold for its case. The example is returned
 /// unchanged if there is nothing to shrink, or if the engine does not repeat its fault.
 Example simplest(const Finding& finding, Examination& examination, double seconds);
+
+/// The largest number of questions in a row.
+inline constexpr std::size_t kMostRepetitions = 1000;
+
+/// Asks new starts of the program the finding's simplest question, alone and then kMostRepetitions times in a
+/// row, each for at most `seconds`, and records the result in the finding. `start` makes an examination that
+/// has asked nothing yet.
+void recheck(Finding& finding, const std::function<std::unique_ptr<Examination>()>& start, double seconds);
 
 }  // namespace lorentz::judge

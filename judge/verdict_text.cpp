@@ -1,12 +1,11 @@
 // The verdict on an engine, in three lines and in one.
-#include "judge/verdict_text.hpp"
+#include "judge/judge_report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "judge/judge_report.hpp"
 #include "report/claim_words.hpp"
 #include "report/manifest.hpp"
 #include "report/reason.hpp"
@@ -20,9 +19,9 @@ std::string two_digits(double a) {
   return a < 9.95 || a >= 1e6 ? fmt::format("{:.2g}", a) : fmt::format("{:.0f}", a);
 }
 
-std::optional<std::string> library_text(const JudgeReport& report) {
-  if (!report.introduction || report.introduction->name.empty()) return std::nullopt;
-  const question::Introduction& its = *report.introduction;
+std::optional<std::string> JudgeReport::library() const {
+  if (!introduction || introduction->name.empty()) return std::nullopt;
+  const question::Introduction& its = *introduction;
   return printable(its.name) + (its.version.empty() ? "" : " ") + printable(its.version);
 }
 
@@ -118,19 +117,23 @@ bool condemns(const Finding& finding, const JudgeReport& report) {
   }
 }
 
-template <class Holds>
-const Finding* first_that(const JudgeReport& report, const Holds& holds) {
-  const auto place = std::find_if(report.findings.begin(), report.findings.end(), holds);
-  return place == report.findings.end() ? nullptr : &*place;
+// The first finding that condemns the engine, else the first that rounding does not excuse; null if there is
+// neither.
+const Finding* worst_of(const JudgeReport& report) {
+  const auto first_that = [&](const auto& holds) {
+    const auto place = std::ranges::find_if(report.findings, holds);
+    return place == report.findings.end() ? nullptr : &*place;
+  };
+  const Finding* worst = first_that([&](const Finding& f) { return condemns(f, report); });
+  return worst ? worst : first_that([](const Finding& f) { return f.severity() != Severity::ill_posed; });
 }
 
 // The kinds of fault that condemn the engine, and the first of them: the most frequent of the worst.
 std::string faults_text(const JudgeReport& report) {
-  const auto kinds = std::count_if(report.findings.begin(), report.findings.end(),
-                                   [&](const Finding& finding) { return condemns(finding, report); });
+  const auto kinds =
+      std::ranges::count_if(report.findings, [&](const Finding& f) { return condemns(f, report); });
   if (kinds == 0) return "";
-  const std::string main =
-      first_that(report, [&](const Finding& f) { return condemns(f, report); })->summary();
+  const std::string main = worst_of(report)->summary();
   return kinds == 1 ? main : fmt::format("{} kinds of fault, above all: {}", kinds, main);
 }
 
@@ -172,7 +175,7 @@ std::string nonsense_text(const JudgeReport& report) {
 // ---- Three lines
 
 std::string name_text(const JudgeReport& report) {
-  const auto library = library_text(report);
+  const auto library = report.library();
   return library ? fmt::format("{} ({})", *library, report.engine.name) : report.engine.name;
 }
 
@@ -221,14 +224,6 @@ std::string how_bad_text(const JudgeReport& report) {
   add(all.undecided, "undecided");
   if (report.was_stopped) parts.push_back("interrupted");
   return fmt::format("{}", fmt::join(parts, "; "));
-}
-
-// The first finding that condemns the engine, else the first that rounding does not excuse; null if there is
-// neither.
-const Finding* worst_of(const JudgeReport& report) {
-  const Finding* worst = first_that(report, [&](const Finding& f) { return condemns(f, report); });
-  return worst ? worst
-               : first_that(report, [](const Finding& f) { return f.severity() != Severity::ill_posed; });
 }
 
 std::string nothing_wrong_text(const JudgeReport& report) {

@@ -2,7 +2,6 @@
 
 #include <limits>
 #include <string>
-#include <variant>
 
 #include <lorentz/errors.hpp>
 
@@ -60,46 +59,36 @@ Detail detail_of(const ExactScene<D>& scene, const ExactQuery<D>& query, const E
 }
 
 template <std::size_t D>
-class Problem {
- public:
-  explicit Problem(const Scene& scene) : scene_(scene) {}
-
-  Answer first_hit(const Query& query, const Request& request) const {
-    const ExactQuery<D> exact(scene_, query);
-    const Sighting<D> seen = first_entry(scene_, exact);
-    if (seen.around) return Answer::inside(*seen.around);
-    return answer_to(exact, seen.earliest, request);
-  }
-
-  bool is_free(const Query& query) const { return !smallest_around(scene_, ExactQuery<D>(scene_, query)); }
-
- private:
-  Answer answer_to(const ExactQuery<D>& exact, const Earliest<D>& earliest, const Request& request) const {
-    if (!earliest.found()) return request.max_time ? Answer::later() : Answer::never();
-    const ExactEntry<D>& entry = earliest.entry();
-    const Quadratic time = exact.time_of(entry);
-    if (request.max_time && compare(time, *request.max_time) >= 0) return Answer::later();
-    Answer answer = Answer::hit({entry.lattice, entry.atom, to_cell(entry.n)}, round_to_binary64(time));
-    if (request.digits > 0) answer.time_decimal = round_to_decimal(time, request.digits);
-    if (request.detail) answer.detail = detail_of(scene_, exact, entry);
-    return answer;
-  }
-
-  ExactScene<D> scene_;
-};
+Answer first_hit(const ExactScene<D>& scene, const ExactQuery<D>& query, const Request& request) {
+  const Sighting<D> seen = first_entry(scene, query);
+  if (seen.around) return Answer::inside(*seen.around);
+  if (!seen.earliest.found()) return request.max_time ? Answer::later() : Answer::never();
+  const ExactEntry<D>& entry = seen.earliest.entry();
+  const Quadratic time = query.time_of(entry);
+  if (request.max_time && compare(time, *request.max_time) >= 0) return Answer::later();
+  Answer answer = Answer::hit({entry.lattice, entry.atom, to_cell(entry.n)}, round_to_binary64(time));
+  if (request.digits > 0) answer.time_decimal = round_to_decimal(time, request.digits);
+  if (request.detail) answer.detail = detail_of(scene, query, entry);
+  return answer;
+}
 
 }  // namespace
 
 struct Oracle::Impl {
   Scene scene;
-  std::variant<Problem<2>, Problem<3>> problem;
+  AnyExactScene exact_scene;
+
+  /// The result of work(scene, query), both exact.
+  template <class Work>
+  auto with(const Query& query, const Work& work) const {
+    return std::visit(
+        [&]<std::size_t D>(const ExactScene<D>& exact) { return work(exact, ExactQuery<D>(exact, query)); },
+        exact_scene);
+  }
 };
 
-Oracle::Oracle(const Scene& scene) {
-  using Exact = std::variant<Problem<2>, Problem<3>>;
-  impl_ = std::make_unique<const Impl>(
-      Impl{scene, scene.dimension == 2 ? Exact(Problem<2>(scene)) : Exact(Problem<3>(scene))});
-}
+Oracle::Oracle(const Scene& scene)
+    : impl_(std::make_unique<const Impl>(Impl{scene, any_exact_scene(scene)})) {}
 
 Oracle::Oracle(Oracle&&) noexcept = default;
 Oracle& Oracle::operator=(Oracle&&) noexcept = default;
@@ -110,13 +99,15 @@ Answer Oracle::first_hit(const Query& query, const Request& request) const {
     throw InputError("digits: needs from 0 to " + std::to_string(kMostDigits));
   const double max_time = request.max_time.value_or(std::numeric_limits<double>::infinity());
   if (auto flaw = flaw_of(query, impl_->scene, max_time)) return Answer::error(*flaw);
-  return std::visit([&](const auto& problem) { return problem.first_hit(query, request); }, impl_->problem);
+  return impl_->with(
+      query, [&](const auto& scene, const auto& exact) { return oracle::first_hit(scene, exact, request); });
 }
 
 bool Oracle::is_free(const Vec& x) const {
   const Query query{x, {1, 0, 0}, {}};
   checked(query, impl_->scene);
-  return std::visit([&](const auto& problem) { return problem.is_free(query); }, impl_->problem);
+  return impl_->with(query,
+                     [](const auto& scene, const auto& exact) { return !smallest_around(scene, exact); });
 }
 
 std::string oracle_libraries() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -25,6 +26,9 @@ struct Extent {
   void include(const Vec& point, double margin = 0);
   bool contains(const Vec& point, double margin) const;
   Vec centre() const;
+  double width() const { return high[0] - low[0]; }
+  double height() const { return high[1] - low[1]; }
+  double diagonal() const { return std::hypot(width(), height()); }
 };
 
 /// An obstacle in the picture.
@@ -117,7 +121,26 @@ const char* way_colour(std::size_t number);
 /// { M y : |y| <= 1 } for the matrix with rows m1, m2, as an ellipse (a projection of an ellipsoid is one).
 EllipseShape ellipse_of(const Vec& m1, const Vec& m2);
 
+/// The outline of an obstacle seen from afar, in the unit of length; angles towards +up.
+EllipseShape shadow_of(const Atom& atom, int dimension, const Vec& right, const Vec& up);
+
+/// The same on paper, where y points down: a dot of radius `smallest` if it is smaller.
+EllipseShape to_scale(const EllipseShape& shape, double scale, double smallest = 0);
+
 inline constexpr double kMargin = 24;
+
+/// A window on the plane, on paper, with y upwards.
+struct PaperWindow {
+  Extent box;
+  double scale = 1;  ///< pixels per unit of length
+  double left = kMargin, top = kMargin;
+
+  Point operator()(const Vec& p) const {
+    return {left + scale * (p[0] - box.low[0]), top + scale * (box.high[1] - p[1])};
+  }
+  double width() const { return scale * box.width(); }
+  double height() const { return scale * box.height(); }
+};
 
 /// Pictures by dimension.
 Drawing draw_scene_2d(const Scene& scene, const DrawOptions& options,

@@ -30,7 +30,8 @@ FindingCase::FindingCase(const Scene& its_scene, const Query& its_query, const A
       margins(its_scene),
       surroundings(its_scene),
       along(unit(its_query.v)) {
-  find_issue(decisive);
+  if (given) compare_answers(decisive);
+  if (issue == Issue::none) take_hardest_decision();
 }
 
 bool FindingCase::names_obstacle(const Answer& answer) const {
@@ -58,12 +59,7 @@ std::string FindingCase::name_of(const ObstacleId& id) const {
 }
 
 double FindingCase::in_radii(double way) const {
-  return way * length(mapped(to_ball(atom_of(obstacle), scene.dimension), along));
-}
-
-void FindingCase::find_issue(const std::optional<ObstacleId>& decisive) {
-  if (given) compare_answers(decisive);
-  if (issue == Issue::none) take_hardest_decision();
+  return way * length(coordinates(to_ball(atom_of(obstacle), scene.dimension), along));
 }
 
 void FindingCase::compare_answers(const std::optional<ObstacleId>& decisive) {

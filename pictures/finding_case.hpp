@@ -62,7 +62,6 @@ class FindingCase {
   std::string name_of(const ObstacleId& id) const;
 
  private:
-  void find_issue(const std::optional<ObstacleId>& decisive);
   void compare_answers(const std::optional<ObstacleId>& decisive);
   bool compare_named();
   void take_hardest_decision();
@@ -74,11 +73,6 @@ class FindingCase {
 
 /// The rows of A^-1 of an obstacle { position + A y : |y| < 1 }.
 std::array<Vec, 3> to_ball(const Atom& atom, int dimension);
-
-/// Rows times vector.
-inline Vec mapped(const std::array<Vec, 3>& rows, const Vec& a) {
-  return coordinates(rows, a);
-}
 
 /// a / |a|, for any size; the first axis for 0.
 Vec unit(const Vec& a);

@@ -169,8 +169,47 @@ bool can_be_drawn(const Scene& scene, const Query& query, const Answer& exact) {
          !flaw_of(Query{query.x, query.v, exact.obstacle}, scene);
 }
 
-std::string draw_sheet(const FindingCase& finding, const Answer* given, const Answer& exact) {
-  return Sheet(finding, given, exact).draw();
+// The exponent of the unit of length in which a scene has ordinary size; 0 in most cases. Scenes whose lengths
+// are near the ends of binary64's range are drawn in another unit, so that squares and cubes of lengths stay in
+// range.
+int length_exponent(const Scene& scene) {
+  double largest = 0;
+  const auto see = [&](const Vec& vector) {
+    for (const double component : vector) largest = std::max(largest, std::fabs(component));
+  };
+  const Lattice& lattice = scene.lattices[0];
+  for (const Vec& u : lattice.vectors) see(u);
+  if (largest == 0)  // a single obstacle is as large as its scene
+    for (const Atom& atom : lattice.atoms) {
+      see({atom.radius, 0, 0});
+      for (const Vec& axis : atom.semiaxes) see(axis);
+    }
+  constexpr int kOrdinary = 100;
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+  return std::abs(exponent) <= kOrdinary ? 0 : exponent;
+}
+
+// Divides all lengths by 2^exponent; false if that is not possible without rounding.
+bool scale_lengths(int exponent, Scene& scene, Query& query) {
+  bool exact = true;
+  const auto scale = [&](Vec& a) {
+    for (double& number : a) {
+      const double before = number;
+      number = std::ldexp(number, -exponent);
+      exact &= std::ldexp(number, exponent) == before;
+    }
+  };
+  for (Lattice& lattice : scene.lattices)
+    for (Vec& u : lattice.vectors) scale(u);
+  for_each_atom(scene, [&](Atom& atom) {
+    Vec radius{atom.radius, 0, 0};
+    scale(radius);
+    atom.radius = radius[0];
+    scale(atom.position);
+    for (Vec& axis : atom.semiaxes) scale(axis);
+  });
+  scale(query.x);
+  return exact;
 }
 
 // An answer in other units of length, with v as it is.
@@ -185,14 +224,13 @@ std::string drawing(const Scene& scene, const Query& query, const Answer* given,
   Scene its_scene = scene;
   Query its_query = query;
   int exponent = length_exponent(scene);
-  if (exponent == 0 || !scale_lengths(exponent, its_scene, its_query))
-    return draw_sheet(FindingCase(scene, query, given, exact, decisive), given, exact);
+  if (!scale_lengths(exponent, its_scene, its_query)) its_scene = scene, its_query = query, exponent = 0;
   const Answer its_exact = scaled_answer(exact, exponent);
   const std::optional<Answer> its_given =
       given ? std::optional(scaled_answer(*given, exponent)) : std::nullopt;
   const FindingCase finding(its_scene, its_query, its_given ? &*its_given : nullptr, its_exact, decisive,
                             exponent);
-  return draw_sheet(finding, given, exact);
+  return Sheet(finding, given, exact).draw();
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pictures/drawing_parts.hpp"
 #include "pictures/finding_parts.hpp"
 
 namespace lorentz::pictures {
@@ -124,11 +123,8 @@ std::optional<Point> FlightDrawing::on_line(const PlaceOnLine& place) const {
 void FlightDrawing::add_ellipse(Point at, const ShapeSection& ellipse, const std::string& style,
                                 const std::string& hint, bool is_dot) {
   const double size = result_.scale;
-  EllipseShape shape{size * ellipse.shape.rx, size * ellipse.shape.ry, -ellipse.shape.angle};
-  if (is_dot) {
-    enlarged_ = true;
-    shape = {kSmallest, kSmallest, 0};
-  }
+  const EllipseShape shape = is_dot ? EllipseShape{kSmallest, kSmallest, 0} : to_scale(ellipse.shape, size);
+  enlarged_ |= is_dot;
   svg_.ellipse({on_paper(at.x + size * ellipse.centre.x), on_paper(at.y - size * ellipse.centre.y)},
                {on_paper(shape.rx), on_paper(shape.ry), shape.angle}, style, hint);
 }

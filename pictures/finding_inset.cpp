@@ -70,6 +70,9 @@ class Inset {
   void draw_entries();
   void add_surface(const ObstacleId& id, const InsetSurface& surface, double x, double y);
   void add_way(double from, double to, Ink ink, double width, const char* more);
+  void add_flight(double from, double to, bool is_given) {
+    add_way(from, to, is_given ? kGivenInk : kExactInk, is_given ? 1.8 : 2.6, is_given ? kGivenDashes : "");
+  }
   void add_distance(Point from, Point to, Point label, const char* anchor);
   void add_scale_bar();
   Point paper(double x, double y) const { return {on_paper(origin_.x + x), on_paper(origin_.y - side_ * y)}; }
@@ -96,9 +99,9 @@ Inset::Inset(Svg& svg, const FindingCase& finding, const Axes& axes, const Panel
 
 void Inset::set_axes(const Axes& axes) {
   const Vec centre = case_.surroundings.centre(case_.query, place_in_question(case_), case_.obstacle);
-  right_ = unit(mapped(to_ball_, case_.along));
+  right_ = unit(coordinates(to_ball_, case_.along));
   if (dot(centre, axes.across) < 0) side_ = -1;
-  const Vec c = mapped(to_ball_, centre), across = mapped(to_ball_, scaled(axes.across, side_));
+  const Vec c = coordinates(to_ball_, centre), across = coordinates(to_ball_, scaled(axes.across, side_));
   for (const Vec& other : {c, across}) {
     const Vec rest = sum(other, scaled(right_, -dot(other, right_)));
     up_ = unit(rest);
@@ -161,14 +164,11 @@ void Inset::draw_line() {
   origin_.y += side_ * gap / 2;
   add_surface(case_.obstacle, {right_, up_, scaled(up_, -1)}, 0, gap);
   const double half_chord = gap < 0 ? std::sqrt(-case_.distance * (2 + case_.distance)) * scale_ : 0;
-  const double behind = -kBeyond;
-  add_way(behind, kBeyond, kFaintInk, 1, " stroke-dasharray=\"1 3\"");
+  add_way(-kBeyond, kBeyond, kFaintInk, 1, " stroke-dasharray=\"1 3\"");
   for (const Answer* answer : {&case_.exact, case_.given}) {
     if (!answer || !reaches(*answer)) continue;
-    const bool is_given = answer == case_.given;
     const bool ends = answer->outcome == Outcome::hit && answer->obstacle == case_.obstacle;
-    add_way(behind, ends ? -half_chord : kBeyond, is_given ? kGivenInk : kExactInk, is_given ? 1.8 : 2.6,
-            is_given ? kGivenDashes : "");
+    add_flight(-kBeyond, ends ? -half_chord : kBeyond, answer == case_.given);
   }
   if (gap < 0 && half_chord > panel_.width / 2)
     svg_.text({panel_.left + 8, paper(0, 0).y - 5},
@@ -182,15 +182,14 @@ void Inset::draw_line() {
 // Draws x, and the surface where it is nearest to x.
 void Inset::draw_start() {
   const Vec centre =
-      mapped(to_ball_, case_.surroundings.centre(case_.query, PlaceOnLine::start(), case_.obstacle));
+      coordinates(to_ball_, case_.surroundings.centre(case_.query, PlaceOnLine::start(), case_.obstacle));
   const Vec to_centre = unit(centre);
   const double cosine = dot(to_centre, right_), sine = dot(to_centre, up_), gap = case_.distance * scale_;
   origin_ = {origin_.x - gap * cosine / 2, origin_.y + side_ * gap * sine / 2};
   add_surface(case_.obstacle, {right_, up_, scaled(to_centre, -1)}, gap * cosine, gap * sine);
   for (const Answer* answer : {&case_.exact, case_.given}) {
     if (!answer || (answer->outcome != Outcome::hit && answer->outcome != Outcome::never)) continue;
-    const bool is_given = answer == case_.given;
-    add_way(0, kBeyond, is_given ? kGivenInk : kExactInk, is_given ? 1.8 : 2.6, is_given ? kGivenDashes : "");
+    add_flight(0, kBeyond, answer == case_.given);
   }
   const Point surface = paper(gap * cosine, gap * sine), x = paper(0, 0);
   add_distance(x, surface, {(x.x + surface.x) / 2 + 8, (x.y + surface.y) / 2 - 6}, "start");
@@ -203,21 +202,21 @@ void Inset::draw_entries() {
   origin_.x -= way / 2;
   const auto y0_of = [&](const ObstacleId& id, const std::array<Vec, 3>& rows) {
     const Vec centre = case_.surroundings.centre(case_.query, PlaceOnLine::at(id), id);
-    return unit(scaled(mapped(rows, centre), -1));
+    return unit(scaled(coordinates(rows, centre), -1));
   };
   add_surface(case_.obstacle, {right_, up_, y0_of(case_.obstacle, to_ball_)}, 0, 0);
   if (case_.second) {
     const auto rows = to_ball(case_.atom_of(*case_.second), case_.scene.dimension);
     const auto columns = semiaxes_of(case_.atom_of(case_.obstacle), case_.scene.dimension);
     const auto back = [&](const Vec& y) {
-      return mapped(rows,
-                    sum(sum(scaled(columns[0], y[0]), scaled(columns[1], y[1])), scaled(columns[2], y[2])));
+      return coordinates(
+          rows, sum(sum(scaled(columns[0], y[0]), scaled(columns[1], y[1])), scaled(columns[2], y[2])));
     };
     add_surface(*case_.second, {back(right_), back(up_), y0_of(*case_.second, rows)}, way, 0);
   }
   add_way(-kBeyond, std::max(way, 0.0), kFaintInk, 1, " stroke-dasharray=\"1 3\"");
-  add_way(-kBeyond, 0, kExactInk, 2.6, "");
-  if (case_.given && case_.end_of(*case_.given)) add_way(-kBeyond, way, kGivenInk, 1.8, kGivenDashes);
+  add_flight(-kBeyond, 0, false);
+  if (case_.given && case_.end_of(*case_.given)) add_flight(-kBeyond, way, true);
   const Point a = paper(0, 0), b = paper(way, 0);
   add_distance(a, b, {(a.x + b.x) / 2, a.y - 9}, "middle");
 }

@@ -43,11 +43,7 @@ void close_clip(Svg& svg) {
 }
 
 void frame(Svg& svg, const Panel& panel, const std::string& style) {
-  svg.polygon({{panel.left, panel.top},
-               {panel.right(), panel.top},
-               {panel.right(), panel.bottom()},
-               {panel.left, panel.bottom()}},
-              "fill=\"none\" " + style);
+  svg.rectangle({panel.left, panel.top}, {panel.right(), panel.bottom()}, "fill=\"none\" " + style);
 }
 
 void open_hint(Svg& svg, const std::string& words) {

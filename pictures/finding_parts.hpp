@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pictures/drawing_parts.hpp"
 #include "pictures/finding_case.hpp"
 #include "pictures/svg.hpp"
 
@@ -51,9 +52,6 @@ struct Axes {
 };
 Axes axes_of(const FindingCase& finding);
 
-/// The outline of an obstacle seen from afar, in the unit of length; angles towards +up.
-EllipseShape shadow_of(const Atom& atom, int dimension, const Vec& right, const Vec& up);
-
 /// The section of an obstacle by a plane, relative to the foot of its centre there.
 struct ShapeSection {
   Point centre;
@@ -72,12 +70,6 @@ std::vector<ObstacleId> marked_obstacles(const FindingCase& finding);
 
 /// The same decision, place and distances in words, shown under the mouse.
 std::string hint_of(const FindingCase& finding, const ObstacleId& id);
-
-/// The exponent of the unit of length in which a scene has ordinary size; 0 in most cases.
-int length_exponent(const Scene& scene);
-
-/// Divides all lengths by 2^exponent; false if that is not possible without rounding.
-bool scale_lengths(int exponent, Scene& scene, Query& query);
 
 /// Notes and positions that the panel of the flight passes on.
 struct FlightPanel {

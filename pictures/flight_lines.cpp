@@ -50,6 +50,14 @@ DrawnLine line_of(const DrawnFlight& flight, double longest, double cell) {
   return line;
 }
 
+Placed placed(const Scene& scene, const ObstacleId& id) {
+  const Lattice& lattice = scene.lattices[id.lattice];
+  Vec centre = lattice.atoms[id.atom].position;
+  for (int i = 0; i < scene.dimension; ++i)
+    centre = plus(centre, std::strtod(id.cell[i].decimal().c_str(), nullptr), lattice.vectors[i]);
+  return {id.lattice, id.atom, centre};
+}
+
 }  // namespace
 
 std::vector<DrawnLine> lines_of(const Scene& scene, const std::vector<DrawnFlight>& flights,
@@ -59,9 +67,7 @@ std::vector<DrawnLine> lines_of(const Scene& scene, const std::vector<DrawnFligh
   std::size_t far = 0, cut = 0;
   double most = 0;
   for (const DrawnFlight& flight : flights) {
-    Vec arm{};
-    for (int k = 0; k < 3; ++k) arm[k] = flight.query.x[k] - flights[0].query.x[k];
-    if (!(length(arm) <= kLongestFlight * cell)) {
+    if (!(length(plus(flight.query.x, -1, flights[0].query.x)) <= kLongestFlight * cell)) {
       ++far;
       continue;
     }
@@ -87,30 +93,14 @@ std::vector<DrawnLine> lines_in_window(const Scene& scene, const std::vector<Dra
   return lines;
 }
 
-namespace {
-
-// The obstacle that a flight hits or starts in, if any.
-bool obstacle_of(const Scene& scene, const DrawnFlight& flight, Placed& obstacle) {
-  if (flight.answer.outcome == Outcome::never) return false;
-  const ObstacleId& id = flight.answer.obstacle;
-  const Lattice& lattice = scene.lattices[id.lattice];
-  obstacle = {id.lattice, id.atom, lattice.atoms[id.atom].position};
-  for (int i = 0; i < scene.dimension; ++i)
-    for (int k = 0; k < 3; ++k)
-      obstacle.centre[k] += std::strtod(id.cell[i].decimal().c_str(), nullptr) * lattice.vectors[i][k];
-  return true;
-}
-
-}  // namespace
-
 std::vector<Placed> hits_of(const Scene& scene, const std::vector<DrawnLine>& lines) {
   std::vector<Placed> hits;
   std::set<std::tuple<int, int, Vec>> seen;
-  Placed hit;
-  for (const DrawnLine& line : lines)
-    if (line.ends && obstacle_of(scene, *line.flight, hit) &&
-        seen.emplace(hit.lattice, hit.atom, hit.centre).second)
-      hits.push_back(hit);
+  for (const DrawnLine& line : lines) {
+    if (!line.ends) continue;
+    const Placed hit = placed(scene, line.flight->answer.obstacle);
+    if (seen.emplace(hit.lattice, hit.atom, hit.centre).second) hits.push_back(hit);
+  }
   return hits;
 }
 

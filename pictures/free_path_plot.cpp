@@ -9,7 +9,7 @@ namespace lorentz::pictures {
 namespace {
 
 // Colours that colour-blind people can tell apart (after Okabe & Ito), and dark enough for thin lines.
-constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#aa4499", "#7a5c00", "#444444"};
+constexpr const char* kSeriesColours[] = {"#0072b2", "#d55e00", "#009e73", "#aa4499", "#7a5c00", "#444444"};
 constexpr const char* kGrey = "#777777";
 constexpr double kLetterSize = 20;  // font size, so that it is 10 at half the width
 constexpr double kAdvance = 0.56;   // approximate width of a letter, in font sizes
@@ -21,7 +21,7 @@ std::size_t letters_in(const std::string& text) {
 }
 
 const char* colour_of(int series) {
-  return series < 0 ? kGrey : kColours[static_cast<std::size_t>(series) % std::size(kColours)];
+  return series < 0 ? kGrey : kSeriesColours[static_cast<std::size_t>(series) % std::size(kSeriesColours)];
 }
 
 // The smallest of 1, 2, 5, 10, 20, .. that is `least` or more.
@@ -186,11 +186,8 @@ void add_axis(Svg& svg, const Frame& frame, bool along_t) {
 void add_axes(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
   add_axis(svg, frame, true);
   add_axis(svg, frame, false);
-  svg.polygon({{frame.left, frame.top},
-               {frame.right, frame.top},
-               {frame.right, frame.bottom},
-               {frame.left, frame.bottom}},
-              "fill=\"none\" " + stroke("#222222", 1.4));
+  svg.rectangle({frame.left, frame.top}, {frame.right, frame.bottom},
+                "fill=\"none\" " + stroke("#222222", 1.4));
   svg.text({(frame.left + frame.right) / 2, frame.bottom + 56}, plot.t_label, "text-anchor=\"middle\"");
   svg.text({0, 0}, plot.value_label,
            fmt::format("text-anchor=\"middle\" transform=\"translate({:.0f} {:.0f}) rotate(-90)\"",
@@ -201,30 +198,18 @@ void add_marker(Svg& svg, Point at, std::size_t series) {
   const std::string style =
       fmt::format("fill=\"{0}\" fill-opacity=\"0.35\" stroke=\"{0}\" stroke-width=\"1.8\"",
                   colour_of(static_cast<int>(series)));
+  static const std::vector<Point> kCorners[] = {
+      {},  // a circle
+      {{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}},
+      {{0, -1.25}, {1.15, 0.85}, {-1.15, 0.85}},
+      {{0, -1.35}, {1.2, 0}, {0, 1.35}, {-1.2, 0}},
+      {{0, 1.25}, {1.15, -0.85}, {-1.15, -0.85}},
+      {{-1.2, -0.5}, {0, -1.2}, {1.2, -0.5}, {1.2, 0.5}, {0, 1.2}, {-1.2, 0.5}}};
   constexpr double r = 5.5;
-  const auto polygon = [&](std::vector<Point> corners) {
-    for (Point& corner : corners) corner = {at.x + r * corner.x, at.y + r * corner.y};
-    svg.polygon(corners, style);
-  };
-  switch (series % 6) {
-    case 0:
-      svg.ellipse(at, {r, r, 0}, style);
-      break;
-    case 1:
-      polygon({{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}});
-      break;
-    case 2:
-      polygon({{0, -1.25}, {1.15, 0.85}, {-1.15, 0.85}});
-      break;
-    case 3:
-      polygon({{0, -1.35}, {1.2, 0}, {0, 1.35}, {-1.2, 0}});
-      break;
-    case 4:
-      polygon({{0, 1.25}, {1.15, -0.85}, {-1.15, -0.85}});
-      break;
-    default:
-      polygon({{-1.2, -0.5}, {0, -1.2}, {1.2, -0.5}, {1.2, 0.5}, {0, 1.2}, {-1.2, 0.5}});
-  }
+  std::vector<Point> corners = kCorners[series % std::size(kCorners)];
+  if (corners.empty()) return svg.ellipse(at, {r, r, 0}, style);
+  for (Point& corner : corners) corner = {at.x + r * corner.x, at.y + r * corner.y};
+  svg.polygon(corners, style);
 }
 
 // Adds a series' points and their error bars, in front of everything else.
@@ -293,11 +278,10 @@ LegendBox legend_box(const Frame& frame, const FreePathPlot& plot) {
   return {best, {best.x + width, best.y + height}};
 }
 
-void add_legend(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
+void add_plot_legend(Svg& svg, const Frame& frame, const FreePathPlot& plot) {
   const LegendBox box = legend_box(frame, plot);
   const double left = box.low.x;
-  svg.polygon({box.low, {box.high.x, box.low.y}, box.high, {left, box.high.y}},
-              "fill=\"white\" fill-opacity=\"0.85\" stroke=\"#bbbbbb\"");
+  svg.rectangle(box.low, box.high, "fill=\"white\" fill-opacity=\"0.85\" stroke=\"#bbbbbb\"");
   double y = box.low.y + 5 + kRow / 2;
   const auto label = [&](const std::string& words) {
     svg.text({left + 56, y + 7}, words);
@@ -339,7 +323,7 @@ std::string draw_free_paths(const FreePathPlot& plot) {
   add_axes(svg, frame, plot);
   for (const PlotCurve& curve : plot.curves) add_curve(svg, frame, curve);
   for (std::size_t i = 0; i < plot.series.size(); ++i) add_series(svg, frame, plot.series[i], i);
-  add_legend(svg, frame, plot);
+  add_plot_legend(svg, frame, plot);
   if (!plot.title.empty())
     add_words(svg, {frame.left, 33}, plot.title, 22, frame.right - frame.left, "font-weight=\"bold\"");
   if (!plot.note.empty())

@@ -8,10 +8,6 @@
 namespace lorentz::pictures {
 namespace {
 
-Vec minus(const Vec& a, const Vec& b) {
-  return sum(a, scaled(b, -1));
-}
-
 // A square in the plane, large enough to contain the whole block.
 Facet square_on(const Vec& normal, double level, const DrawnBlock& block) {
   const Vec unit = scaled(normal, 1 / length(normal));
@@ -32,7 +28,7 @@ Facet square_on(const Vec& normal, double level, const DrawnBlock& block) {
 bool part_in_block(const DrawnBlock& block, const Vec& p, const Vec& v, double& first, double& last) {
   first = -1e300, last = 1e300;
   for (const Vec& row : dual_of(block.edges, 3)) {
-    const double at = dot(row, minus(p, block.corner)), step = dot(row, v);
+    const double at = dot(row, plus(p, -1, block.corner)), step = dot(row, v);
     if (std::fabs(step) * length(block.edges[0]) < 1e-12 * length(v)) {
       if (at < 0 || at > 1) return false;
       continue;
@@ -57,7 +53,8 @@ Facet part_beside(const Facet& facet, const Vec& normal, double level, int sign)
     const Vec &a = facet.corners[i], &b = facet.corners[(i + 1) % count];
     const double at_a = sign * (dot(normal, a) - level), at_b = sign * (dot(normal, b) - level);
     if (at_a >= 0) part.corners.push_back(a);
-    if ((at_a >= 0) != (at_b >= 0)) part.corners.push_back(sum(a, scaled(minus(b, a), at_a / (at_a - at_b))));
+    if ((at_a >= 0) != (at_b >= 0))
+      part.corners.push_back(sum(a, scaled(plus(b, -1, a), at_a / (at_a - at_b))));
   }
   return part;
 }
@@ -85,7 +82,7 @@ std::optional<Axis> axis_of(const Scene& scene, const FreeWay& cylinder, const D
   const auto rows = dual_of(u, 3);
   Vec near = cylinder.point;
   for (int i = 0; i < 3; ++i)
-    near = sum(near, scaled(u[i], std::round(dot(rows[i], minus(block.centre(), cylinder.point)))));
+    near = sum(near, scaled(u[i], std::round(dot(rows[i], plus(block.centre(), -1, cylinder.point)))));
   std::optional<Axis> longest;
   for (int n = 0; n < 27; ++n) {
     const Vec p =
@@ -93,8 +90,7 @@ std::optional<Axis> axis_of(const Scene& scene, const FreeWay& cylinder, const D
     double first = 0, last = 0;
     if (!part_in_block(block, p, cylinder.vector, first, last)) continue;
     const Axis axis{sum(p, scaled(cylinder.vector, first)), sum(p, scaled(cylinder.vector, last))};
-    if (!longest || length(minus(axis.to, axis.from)) > 1.001 * length(minus(longest->to, longest->from)))
-      longest = axis;
+    if (!longest || axis.length() > 1.001 * longest->length()) longest = axis;
   }
   return longest;
 }

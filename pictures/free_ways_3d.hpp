@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include <lorentz/geometry.hpp>
 #include "pictures/drawing_parts.hpp"
 
 namespace lorentz::pictures {
@@ -14,6 +15,12 @@ struct DrawnBlock {
   std::array<Vec, 3> edges{};
 
   Vec centre() const;
+  Vec vertex(int number) const {  ///< 0 to 7
+    Vec p = corner;
+    for (int i = 0; i < 3; ++i)
+      if (number >> i & 1) p = sum(p, edges[i]);
+    return p;
+  }
 };
 
 /// A flat piece of { x : normal.x = level }.
@@ -35,6 +42,8 @@ Facet part_beside(const Facet& facet, const Vec& normal, double level, int sign)
 /// The part of a cylinder's middle line in the block, for the translate with the longest part.
 struct Axis {
   Vec from{}, to{};
+
+  double length() const { return lorentz::length(plus(to, -1, from)); }
 };
 std::optional<Axis> axis_of(const Scene& scene, const FreeWay& cylinder, const DrawnBlock& block);
 

@@ -67,8 +67,8 @@ void add_way_entries(Svg& svg, LegendColumns& columns, const Legend& legend,
                      const std::vector<FreeWay>& ways) {
   for (const std::size_t number : legend.ways) {
     const Point at = columns.next();
-    svg.polygon({{at.x - 8, at.y - 6}, {at.x + 8, at.y - 6}, {at.x + 8, at.y + 6}, {at.x - 8, at.y + 6}},
-                fmt::format("fill=\"{0}\" fill-opacity=\"0.35\" stroke=\"{0}\"", way_colour(number)));
+    svg.rectangle({at.x - 8, at.y - 6}, {at.x + 8, at.y + 6},
+                  fmt::format("fill=\"{0}\" fill-opacity=\"0.35\" stroke=\"{0}\"", way_colour(number)));
     add_label(svg, at, ways[number].name);
   }
 }
@@ -79,6 +79,12 @@ std::size_t longest_label(const Scene& scene, const DrawOptions& options, const 
     longest = std::max(longest, name_of(scene, {lattice, atom, {}}).size());
   for (const std::size_t number : legend.ways) longest = std::max(longest, options.ways[number].name.size());
   return longest;
+}
+
+constexpr double kLegendGap = 14, kBottomMargin = 6;
+
+double title_height(const DrawOptions& options) {
+  return options.title.empty() ? kMargin / 2 : 40;
 }
 
 }  // namespace
@@ -113,16 +119,6 @@ double add_legend(Svg& svg, const Scene& scene, const DrawOptions& options, cons
   }
   return bottom;
 }
-
-namespace {
-
-constexpr double kLegendGap = 14, kBottomMargin = 6;
-
-double title_height(const DrawOptions& options) {
-  return options.title.empty() ? kMargin / 2 : 40;
-}
-
-}  // namespace
 
 Page::Page(const Scene& scene, const DrawOptions& options, const Legend& legend, double tallest)
     : top(title_height(options)), width(options.width - 2 * kMargin), height(tallest * options.width / 800) {

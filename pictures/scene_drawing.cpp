@@ -21,8 +21,7 @@ std::array<Vec, 3> short_vectors(const Lattice& lattice, int dimension) {
       for (int k = 0; k < dimension; ++k) {
         const double share = i == k ? 0 : std::round(dot(u[i], u[k]) / dot(u[k], u[k]));
         if (share == 0) continue;
-        Vec next = u[i];
-        for (int m = 0; m < 3; ++m) next[m] -= share * u[k][m];
+        const Vec next = plus(u[i], -share, u[k]);
         if (!(dot(next, next) < dot(u[i], u[i]) * (1 - 1e-9))) continue;
         u[i] = next;
         shorter = true;
@@ -111,7 +110,7 @@ std::vector<Placed> obstacles_in(const Scene& scene, const Extent& box, bool& cu
 void thin_out(std::vector<Placed>& obstacles, const Vec& centre, std::vector<std::string>& remarks) {
   if (obstacles.size() <= kMostDrawn) return;
   const auto distance2 = [&](const Placed& a) {
-    const Vec arm{a.centre[0] - centre[0], a.centre[1] - centre[1], a.centre[2] - centre[2]};
+    const Vec arm = plus(a.centre, -1, centre);
     return dot(arm, arm);
   };
   remarks.push_back(fmt::format("the picture would hold {} obstacles; the {} nearest to its middle are drawn",
@@ -167,6 +166,16 @@ EllipseShape ellipse_of(const Vec& m1, const Vec& m2) {
   const double major2 = mean + spread, minor2 = dot(normal, normal) / major2;
   const double angle = spread > 1e-12 * mean ? std::atan2(2 * q, p - s) / 2 : 0;
   return {std::sqrt(major2), spread > 1e-12 * mean ? std::sqrt(minor2) : std::sqrt(major2), angle};
+}
+
+EllipseShape shadow_of(const Atom& atom, int dimension, const Vec& right, const Vec& up) {
+  const auto columns = semiaxes_of(atom, dimension);
+  return ellipse_of(coordinates(columns, right), coordinates(columns, up));
+}
+
+EllipseShape to_scale(const EllipseShape& shape, double scale, double smallest) {
+  if (shape.rx * scale < smallest) return {smallest, smallest, 0};
+  return {shape.rx * scale, shape.ry * scale, -shape.angle};
 }
 
 Scene with_cells(Scene scene) {

@@ -8,26 +8,6 @@
 namespace lorentz::pictures {
 namespace {
 
-// The plane on paper, with y upwards.
-struct PaperWindow {
-  Extent box;
-  double scale = 1;  // pixels per unit of length
-  double left = kMargin, top = 0;
-
-  Point operator()(const Vec& p) const {
-    return {left + scale * (p[0] - box.low[0]), top + scale * (box.high[1] - p[1])};
-  }
-  double width() const { return scale * (box.high[0] - box.low[0]); }
-  double height() const { return scale * (box.high[1] - box.low[1]); }
-
-  // Makes the picture as large as the page allows, in its middle.
-  void fit(const Page& page) {
-    scale = std::min(page.width / (box.high[0] - box.low[0]), page.height / (box.high[1] - box.low[1]));
-    left = kMargin + (page.width - width()) / 2;
-    top = page.top;
-  }
-};
-
 std::array<Vec, 4> corners_of(const Scene& scene, const Vec& corner) {
   const auto& u = scene.lattices[0].vectors;
   return {corner, sum(corner, u[0]), sum(sum(corner, u[0]), u[1]), sum(corner, u[1])};
@@ -62,7 +42,7 @@ Extent box_for(const Scene& scene, const Vec& corner, const std::vector<DrawnLin
     if (line.ends || !any_ends) box.include(line.to, 0.6 * cell);
   }
   // No thinner than 1 : 4.
-  const double wide = box.high[0] - box.low[0], tall = box.high[1] - box.low[1];
+  const double wide = box.width(), tall = box.height();
   for (const int k : {0, 1}) {
     const double lacking = (k == 0 ? tall : wide) / 4 - (k == 0 ? wide : tall);
     if (lacking <= 0) continue;
@@ -77,8 +57,7 @@ Extent box_for(const Scene& scene, const Vec& corner, const std::vector<DrawnLin
 void add_grid(Svg& svg, const Scene& scene, const PaperWindow& window, const Vec& corner) {
   const auto& u = scene.lattices[0].vectors;
   const auto rows = dual_of(u, 2);
-  const double reach =
-      std::hypot(window.box.high[0] - window.box.low[0], window.box.high[1] - window.box.low[1]);
+  const double reach = window.box.diagonal();
   constexpr double kMostLines = 100;
   for (const int i : {0, 1}) {
     const Vec &along = u[i], &across = u[1 - i];
@@ -98,13 +77,9 @@ void add_disc(Svg& svg, const Scene& scene, const PaperWindow& window, const Pla
               bool& enlarged) {
   constexpr double kSmallest = 2;
   const Atom& atom = scene.lattices[obstacle.lattice].atoms[obstacle.atom];
-  const auto columns = semiaxes_of(atom, 2);
-  EllipseShape shape = ellipse_of({columns[0][0], columns[1][0], 0}, {columns[0][1], columns[1][1], 0});
-  shape = {shape.rx * window.scale, shape.ry * window.scale, -shape.angle};
-  if (shape.rx < kSmallest) {
-    shape = {kSmallest, kSmallest, 0};
-    enlarged = true;
-  }
+  const EllipseShape seen = shadow_of(atom, 2, {1, 0, 0}, {0, 1, 0}),
+                     shape = to_scale(seen, window.scale, kSmallest);
+  enlarged |= seen.rx * window.scale < kSmallest;
   const Colour& c = colour(colour_index(scene, obstacle));
   const double line = std::min(1.2, 0.25 * shape.rx + 0.1);
   svg.ellipse(window(obstacle.centre), shape,
@@ -134,10 +109,9 @@ void add_way(Svg& svg, const PaperWindow& window, const DrawnLine& line, Legend&
   const Extent& box = window.box;
   Vec to = line.to;
   if (!line.ends) {  // goes on to a point beyond the window
-    const double size = std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1]);
     const Vec& v = line.flight->query.v;
     const Vec start = plus(line.from, -1, box.centre());
-    const double speed = std::hypot(v[0], v[1]), reach = size + std::hypot(start[0], start[1]);
+    const double speed = std::hypot(v[0], v[1]), reach = box.diagonal() + std::hypot(start[0], start[1]);
     to = plus(line.from, reach, {v[0] / speed, v[1] / speed, 0});
   }
   double first = 0, last = 1;
@@ -163,10 +137,9 @@ bool add_corridor(Svg& svg, const Scene& scene, const PaperWindow& window, const
   const Vec along{way.vector[0] / length, way.vector[1] / length, 0}, across{-along[1], along[0], 0};
   const Extent& box = window.box;
   const Vec arm = plus(box.centre(), -1, way.point);
-  const double reach = std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1]) / 2;
-  const double reach_across = (std::fabs(across[0]) * (box.high[0] - box.low[0]) +
-                               std::fabs(across[1]) * (box.high[1] - box.low[1]) + way.width) /
-                              2;
+  const double reach = box.diagonal() / 2;
+  const double reach_across =
+      (std::fabs(across[0]) * box.width() + std::fabs(across[1]) * box.height() + way.width) / 2;
   const double period = scene.lattices.size() == 1 ? cell_volume(scene.lattices[0], 2) / length : 0;
   constexpr double kMostStrips = 60;
   double first = 0, last = 0;
@@ -257,7 +230,11 @@ Drawing Picture2D::draw() {
   Legend about = legend_;  // with everything that may be added
   about.hits = about.goes_on = !lines_.empty();
   for (std::size_t i = 0; i < options_.ways.size(); ++i) about.ways.push_back(i);
-  window_.fit(Page(scene_, options_, about, kTallest));
+  // As large as the page allows, in its middle.
+  const Page page(scene_, options_, about, kTallest);
+  window_.scale = std::min(page.width / window_.box.width(), page.height / window_.box.height());
+  window_.left += (page.width - window_.width()) / 2;
+  window_.top = page.top;
   const Point low = window_({window_.box.low[0], window_.box.high[1], 0});
   svg_.raw(
       fmt::format("<clipPath id=\"window\"><rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" "
@@ -267,7 +244,7 @@ Drawing Picture2D::draw() {
   add_contents();
   svg_.close();
   const double right = low.x + window_.width(), bottom = low.y + window_.height();
-  svg_.polygon({low, {right, low.y}, {right, bottom}, {low.x, bottom}}, "fill=\"none\" stroke=\"#aaaaaa\"");
+  svg_.rectangle(low, {right, bottom}, "fill=\"none\" stroke=\"#aaaaaa\"");
   if (enlarged_) legend_.notes.push_back("The obstacles are smaller than they are drawn.");
   drawing_.svg = finished(svg_, scene_, options_, legend_, bottom);
   return std::move(drawing_);

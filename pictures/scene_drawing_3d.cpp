@@ -33,8 +33,9 @@ struct Eye {
 struct SeenObstacle {
   Placed placed;
   bool hit;
-  Vec view;            // its centre
-  EllipseShape shape;  // its outline, in the scene's unit
+  Vec view;                    // its centre
+  EllipseShape shape;          // its outline, in the scene's unit
+  std::array<Vec, 3> inverse;  // of its matrix, as rows
 };
 
 class Picture3D {
@@ -62,11 +63,11 @@ class Picture3D {
   void add_cylinders();
   void add_cell();
   void add_flight(const DrawnLine& line);
-  DrawnBlock block() const {
-    return {corner_,
-            {scaled(cell_.vectors[0], cells_), scaled(cell_.vectors[1], cells_),
-             scaled(cell_.vectors[2], cells_)}};
+  DrawnBlock block(double cells) const {
+    const auto& u = cell_.vectors;
+    return {corner_, {scaled(u[0], cells), scaled(u[1], cells), scaled(u[2], cells)}};
   }
+  DrawnBlock block() const { return block(cells_); }
   void add_obstacle(const SeenObstacle& seen);
   struct Pen {
     std::string colour;
@@ -91,8 +92,7 @@ class Picture3D {
   std::vector<DrawnLine> lines_;
   Vec corner_{};
   std::vector<SeenObstacle> seen_;
-  std::vector<std::vector<std::array<Vec, 3>>> inverses_;  // inverse of each atom's matrix, as rows
-  Extent box_;                                             // of the picture, seen from the eye
+  Extent box_;  // of the picture, seen from the eye
   double scale_ = 1, top_ = 0;
 };
 
@@ -106,12 +106,7 @@ void Picture3D::choose_obstacles() {
                 cell_volume(lattice, 3);
   const double cells = cells_ = expected > 300 || cell_.primitive_cells > 1 ? 1 : 2;
   Extent box{corner_, corner_};
-  for (int n = 0; n < 8; ++n) {
-    Vec p = corner_;
-    for (int i = 0; i < 3; ++i)
-      if (n >> i & 1) p = plus(p, cells, u[i]);
-    box.include(p);
-  }
+  for (int n = 0; n < 8; ++n) box.include(block().vertex(n));
   bool cut = false;
   std::vector<Placed> obstacles = obstacles_in(scene_, box, cut);
   const auto rows = dual_of(u, 3);
@@ -135,22 +130,14 @@ void Picture3D::choose_obstacles() {
   };
   std::erase_if(obstacles, is_hit);
   const auto see = [&](const Placed& placed, bool is_hit) {
-    const auto columns = semiaxes_of(scene_.lattices[placed.lattice].atoms[placed.atom], 3);
-    Vec m1{}, m2{};
-    for (int i = 0; i < 3; ++i) {
-      m1[i] = dot(columns[i], eye_.right);
-      m2[i] = dot(columns[i], eye_.up);
-    }
-    seen_.push_back({placed, is_hit, eye_(placed.centre), ellipse_of(m1, m2)});
+    const Atom& atom = scene_.lattices[placed.lattice].atoms[placed.atom];
+    seen_.push_back({placed, is_hit, eye_(placed.centre), shadow_of(atom, 3, eye_.right, eye_.up),
+                     dual_of(semiaxes_of(atom, 3), 3)});
   };
   for (const Placed& placed : obstacles) see(placed, false);
   for (const Placed& placed : hits) see(placed, true);
   std::sort(seen_.begin(), seen_.end(),
             [](const SeenObstacle& a, const SeenObstacle& b) { return a.view[2] < b.view[2]; });
-  for (const Lattice& lattice : scene_.lattices) {
-    inverses_.emplace_back();
-    for (const Atom& atom : lattice.atoms) inverses_.back().push_back(dual_of(semiaxes_of(atom, 3), 3));
-  }
 }
 
 // Fills in what the legend must explain.
@@ -201,27 +188,21 @@ void Picture3D::fit() {
     box_.include(eye_(line.to));
   }
   const double reach = options_.ways.empty() ? 1 : cells_;
-  for (int n = 0; n < (has_cell ? 8 : 0); ++n) {
-    Vec p = corner_;
-    for (int i = 0; i < 3; ++i)
-      if (n >> i & 1) p = plus(p, reach, cell_.vectors[i]);
-    box_.include(eye_(p));
-  }
+  for (int n = 0; n < (has_cell ? 8 : 0); ++n) box_.include(eye_(block(reach).vertex(n)));
   for (const std::size_t number : legend_.ways)
     if (options_.ways[number].kind == FreeWay::Kind::cylinder) {
       const Axis axis = longer(*axis_of(scene_, options_.ways[number], block()));
       for (const Vec& end : {axis.from, axis.to}) box_.include(eye_(end), options_.ways[number].width / 2);
     }
-  const double margin = 0.02 * (box_.high[0] - box_.low[0]);
+  const double margin = 0.02 * box_.width();
   for (int k = 0; k < 2; ++k) {
     box_.low[k] -= margin;
     box_.high[k] += margin;
   }
-  const double wide = box_.high[0] - box_.low[0], tall = box_.high[1] - box_.low[1];
   const Page page(scene_, options_, legend_, kTallest3D);
   top_ = page.top;
-  scale_ = std::min(page.width / wide, page.height / tall);
-  const double spare = page.width / scale_ - wide;  // a tall picture is centred
+  scale_ = std::min(page.width / box_.width(), page.height / box_.height());
+  const double spare = page.width / scale_ - box_.width();  // a tall picture is centred
   box_.low[0] -= spare / 2;
   box_.high[0] += spare / 2;
 }
@@ -232,13 +213,8 @@ bool Picture3D::is_hidden(const Vec& point) const {
   const Vec view = eye_(point);
   for (const SeenObstacle& seen : seen_) {
     if (std::hypot(seen.view[0] - view[0], seen.view[1] - view[1]) > seen.shape.rx) continue;
-    const auto& rows = inverses_[seen.placed.lattice][seen.placed.atom];
-    const Vec arm = plus(point, -1, seen.placed.centre);
-    Vec w, d;
-    for (int i = 0; i < 3; ++i) {
-      w[i] = dot(rows[i], arm);
-      d[i] = dot(rows[i], eye_.towards);
-    }
+    const Vec w = coordinates(seen.inverse, plus(point, -1, seen.placed.centre)),
+              d = coordinates(seen.inverse, eye_.towards);
     const double a = dot(d, d), b = dot(w, d), c = dot(w, w) - 1;
     if (c < -kSlack || (b < 0 && b * b - a * c > kSlack * a)) return true;
   }
@@ -267,9 +243,7 @@ void Picture3D::add_line(const Vec& from, const Vec& to, const Pen& pen) {
 void Picture3D::add_obstacle(const SeenObstacle& seen) {
   constexpr double kSmallest = 1.4;
   const std::size_t index = colour_index(scene_, seen.placed);
-  EllipseShape shape{scale_ * seen.shape.rx, scale_ * seen.shape.ry, -seen.shape.angle};
-  if (shape.rx < kSmallest) shape = {kSmallest, kSmallest, 0};
-  svg_.ellipse(at(seen.view), shape,
+  svg_.ellipse(at(seen.view), to_scale(seen.shape, scale_, kSmallest),
                fmt::format("fill=\"url(#shade{})\" stroke=\"{}\" stroke-width=\"{}\"", index % 10,
                            seen.hit ? kFlightColour : colour(index).dark, seen.hit ? 2.2 : 0.7));
 }
@@ -359,8 +333,7 @@ Drawing Picture3D::draw() {
   add_cylinders();
   add_cell();
   for (const DrawnLine& line : lines_) add_flight(line);
-  const double height = scale_ * (box_.high[1] - box_.low[1]);
-  drawing_.svg = finished(svg_, scene_, options_, legend_, top_ + height);
+  drawing_.svg = finished(svg_, scene_, options_, legend_, top_ + scale_ * box_.height());
   return std::move(drawing_);
 }
 

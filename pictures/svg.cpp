@@ -25,18 +25,12 @@ std::string path_of(const std::vector<Point>& points) {
 
 std::string xml_escaped(const std::string& text) {
   std::string out;
-  for (const char c : printable(text)) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
+  for (const char c : printable(text))
+    out += c == '&'   ? "&amp;"
+           : c == '<' ? "&lt;"
+           : c == '>' ? "&gt;"
+           : c == '"' ? "&quot;"
+                      : std::string(1, c);
   return out;
 }
 
@@ -62,6 +56,10 @@ void Svg::polyline(const std::vector<Point>& points, const std::string& style) {
 
 void Svg::polygon(const std::vector<Point>& points, const std::string& style) {
   body_ += fmt::format("<polygon points=\"{}\" {}/>\n", path_of(points), style);
+}
+
+void Svg::rectangle(Point corner, Point opposite, const std::string& style) {
+  polygon({corner, {opposite.x, corner.y}, opposite, {corner.x, opposite.y}}, style);
 }
 
 void Svg::text(Point at, const std::string& words, const std::string& style) {

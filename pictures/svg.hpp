@@ -27,6 +27,7 @@ class Svg {
                const std::string& hint = "");
   void polyline(const std::vector<Point>& points, const std::string& style);
   void polygon(const std::vector<Point>& points, const std::string& style);
+  void rectangle(Point corner, Point opposite, const std::string& style);
   void text(Point at, const std::string& words, const std::string& style = "");
 
   /// A line with a head of this size at its end.

@@ -311,18 +311,17 @@ def by_python(paths):
     with contextlib.redirect_stdout(io.StringIO()) as said:
         refused = [path for path in paths if check.check(path)]
     return {path: refusals(said.getvalue()).get(path, "?") for path in refused}
-def by_proof(paths):
-    done = subprocess.run([ROOT / "proof" / "check", "--budget", str(check.STEPS), *paths],
-                          capture_output=True, text=True, errors="replace")
+def ran(*command):
+    done = subprocess.run(command, capture_output=True, text=True, errors="replace")
     assert done.returncode in (0, 1, 2), (done.returncode, done.stdout[-300:], done.stderr[-300:])
-    return refusals(done.stdout)
+    return done
+def by_proof(paths):
+    return refusals(ran(ROOT / "proof" / "check", "--budget", str(check.STEPS), *paths).stdout)
 def by_program(program, paths):
     """`margin` and `condition` of a record that was changed are others now: its proof has passed by then."""
-    done = subprocess.run([program, "golden", "verify", *paths], capture_output=True, text=True,
-                          errors="replace")
-    assert done.returncode in (0, 1, 2), (done.returncode, done.stdout[-300:], done.stderr[-300:])
     other = re.compile("its (margin|condition) is another one")
-    return {path: why for path, why in refusals(done.stderr).items() if not other.search(why)}
+    said = ran(program, "golden", "verify", *paths).stderr
+    return {path: why for path, why in refusals(said).items() if not other.search(why)}
 
 HEADER = compact({"golden": {"format": 1, "name": "n", "description": "d", "generator": "g", "version": "v",
                              "count": 1, "tags": {"t": ""}}}).encode()

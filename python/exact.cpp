@@ -14,15 +14,8 @@ using oracle::DecisionKind;
 using oracle::Verdict;
 
 const char* decision_name(DecisionKind kind) {
-  switch (kind) {
-    case DecisionKind::containing:
-      return "containing";
-    case DecisionKind::meeting:
-      return "meeting";
-    case DecisionKind::order:
-      break;
-  }
-  return "order";
+  constexpr const char* kNames[] = {"containing", "meeting", "order"};
+  return kNames[static_cast<int>(kind)];
 }
 
 const char* verdict_name(Verdict verdict) {
@@ -60,7 +53,7 @@ class PyOracle {
     if (hardest->margin >= oracle::kLargestMargin) return dict;
     dict["decision"] = decision_name(hardest->kind);
     dict["decided"] = hardest->yes;
-    dict["obstacle"] = obstacle_tuple(hardest->obstacle);
+    dict["obstacle"] = to_python(hardest->obstacle, scene_);
     return dict;
   }
 
@@ -69,7 +62,7 @@ class PyOracle {
     py::list list;
     if (exact.outcome != Outcome::hit) return list;
     for (const oracle::PassedObstacle& p : place_->margins().passed(query, exact, most))
-      list.append(py::dict(py::arg("obstacle") = obstacle_tuple(p.obstacle), py::arg("time") = p.time,
+      list.append(py::dict(py::arg("obstacle") = to_python(p.obstacle, scene_), py::arg("time") = p.time,
                            py::arg("gap") = p.gap, py::arg("margin") = p.margin));
     return list;
   }
@@ -126,11 +119,6 @@ class PyOracle {
     Query query = read_query(text, scene_);
     Answer exact = place_->oracle().first_hit(query);
     return {std::move(query), std::move(exact)};
-  }
-
-  py::tuple obstacle_tuple(const ObstacleId& obstacle) const {
-    return py::make_tuple(obstacle.lattice, obstacle.atom,
-                          to_python(obstacle.cell, Components(scene_).of_cells(obstacle.lattice)));
   }
 
   std::shared_ptr<question::Place> place_;

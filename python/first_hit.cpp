@@ -6,19 +6,9 @@ namespace {
 
 using Answers = std::shared_ptr<AnswerRows>;
 
-// A read-only array over memory that `owner`, a Python object, keeps alive.
-template <class Number>
-py::array view(const Number* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
-               const py::object& owner) {
-  py::array array(py::dtype::of<Number>(), std::move(shape), std::move(strides), data, owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
-
 template <class Number>
 py::array column(const Number* data, const py::object& owner) {
-  const auto count = static_cast<py::ssize_t>(owner.cast<const AnswerRows&>().count);
-  return view(data, {count}, {static_cast<py::ssize_t>(sizeof(Number))}, owner);
+  return view(data, {static_cast<py::ssize_t>(owner.cast<const AnswerRows&>().count)}, owner);
 }
 
 py::array outcome(const py::object& self) {
@@ -29,8 +19,8 @@ py::array outcome(const py::object& self) {
 py::array cell_columns(const py::object& self) {
   const auto& answers = self.cast<const AnswerRows&>();
   constexpr auto kBytes = static_cast<py::ssize_t>(sizeof(std::int64_t));
-  return view(answers.cell[0], {static_cast<py::ssize_t>(answers.count), answers.dimension},
-              {kBytes, kBytes * static_cast<py::ssize_t>(answers.cell.rows())}, self);
+  return view(answers.cell[0], {static_cast<py::ssize_t>(answers.count), answers.dimension}, self,
+              {kBytes, kBytes * static_cast<py::ssize_t>(answers.cell.rows())});
 }
 
 py::dict large_cells(const AnswerRows& answers) {
@@ -70,8 +60,6 @@ void bind_first_hit(py::module_& module) {
     };
   };
   py::class_<AnswerRows, Answers>(module, "Answers", "Memory of lorentz.Answers.")
-      .def("__len__", [](const AnswerRows& answers) { return answers.count; })
-      .def_readonly("dimension", &AnswerRows::dimension)
       .def_property_readonly("outcome", outcome)
       .def_property_readonly("stage", column_of(&AnswerRows::stage))
       .def_property_readonly("time_is_rounded",

@@ -1,11 +1,8 @@
 // Counts of large numbers of free flights, and the laws of theory for them.
-#include <algorithm>
-#include <atomic>
-
-#include <lorentz/exchange.hpp>
 #include "python/engine.hpp"
+#include "python/signals.hpp"
 #include "starts/free_starts.hpp"
-#include "statistics/flights/findings.hpp"
+#include "statistics/flights/report.hpp"
 #include "statistics/flights/run.hpp"
 
 namespace lorentz::python {
@@ -14,21 +11,6 @@ namespace {
 template <class Number>
 py::array_t<Number> numpy_array(const std::vector<Number>& numbers) {
   return py::array_t<Number>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
-}
-
-// Flies while other Python threads run. Ctrl-C ends it.
-void fly(const flights::FlightsPlan& plan, unsigned jobs, flights::Account& account) {
-  std::atomic<bool> stop = false;
-  flights::FlightBounds bounds;
-  bounds.jobs = jobs, bounds.stop = &stop;
-  {
-    const py::gil_scoped_release release;
-    flights::run(plan, bounds, account, [&](const flights::Account&) {
-      const py::gil_scoped_acquire gil;
-      if (!stop && PyErr_CheckSignals() != 0) stop = true;
-    });
-  }
-  if (PyErr_Occurred()) throw py::error_already_set();
 }
 
 // The report of `lorentz flights --json`, and its counts: bins, and paths beyond each edge.
@@ -42,23 +24,26 @@ py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::strin
   report.plan.from = starts::ensemble_named(start, "start");
   report.plan.seed = seed, report.plan.count = count;
   report.account = flights::Account::begun(report.plan);
-  fly(report.plan, jobs, report.account);
+  found_by([&](std::atomic<bool>& stop) {
+    flights::FlightBounds bounds;
+    bounds.jobs = jobs, bounds.stop = &stop;
+    flights::run(report.plan, bounds, report.account);
+  });
   const flights::FlightsFindings found(report);
   return py::make_tuple(report.json(), numpy_array(found.edges), numpy_array(found.counts),
                         numpy_array(found.beyond));
 }
 
-// For each law: its name, the limit in which it holds, and its survival at these times.
+// For each law: its name, and its survival at these times.
 py::list laws_of(const PyScene& scene, const std::string& start, const py::array_t<double>& times) {
   py::list list;
   for (const flights::Law& law : flights::laws_of(scene.scene(), starts::ensemble_named(start, "start")).laws)
-    list.append(py::make_tuple(law.name, law.when, py::vectorize(law.survival)(times)));
+    list.append(py::make_tuple(law.name, py::vectorize(law.survival)(times)));
   return list;
 }
 
-std::pair<std::optional<double>, std::string> mean_free_path(const PyScene& scene) {
-  const flights::MeanFreePath mean = flights::mean_free_path_of(scene.scene());
-  return {mean.value, mean.how};
+std::optional<double> mean_free_path(const PyScene& scene) {
+  return flights::mean_free_path_of(scene.scene()).value;
 }
 
 }  // namespace

@@ -45,13 +45,8 @@ class PyGoldenSet {
       return dict;
     }
     dict["x"] = to_python(read.query->x, d), dict["v"] = to_python(read.query->v, d);
-    if (const auto& from = read.query->from) dict["start_from"] = obstacle_tuple(*from);
+    if (const auto& from = read.query->from) dict["start_from"] = to_python(*from, d);
     return dict;
-  }
-
-  py::tuple obstacle_tuple(const ObstacleId& obstacle) const {
-    return py::make_tuple(obstacle.lattice, obstacle.atom,
-                          to_python(obstacle.cell, reader_.scene().dimension));
   }
 
   // Pairs (obstacle, ulps), with None as the obstacle for "never".
@@ -59,8 +54,9 @@ class PyGoldenSet {
     py::list list;
     for (const oracle::ExcusedAnswer& other : record.acceptable) {
       const bool is_hit = other.answer.outcome == Outcome::hit;
-      list.append(py::make_tuple(is_hit ? py::object(obstacle_tuple(other.answer.obstacle)) : py::none(),
-                                 other.ulps));
+      list.append(py::make_tuple(
+          is_hit ? py::object(to_python(other.answer.obstacle, reader_.scene().dimension)) : py::none(),
+          other.ulps));
     }
     return list;
   }

@@ -109,11 +109,7 @@ class FunctionAnswerer final : public question::Answerer {
   py::list starts() const {
     py::list list;
     for (const Query& query : queries_)
-      if (query.from)
-        list.append(py::make_tuple(query.from->lattice, query.from->atom,
-                                   to_python(query.from->cell, components_.of_cells(query.from->lattice))));
-      else
-        list.append(py::none());
+      list.append(query.from ? py::object(to_python(*query.from, components_)) : py::none());
     return list;
   }
 

@@ -1,5 +1,7 @@
 #include "python/lines.hpp"
 
+#include <type_traits>
+
 namespace lorentz::python {
 namespace {
 
@@ -21,23 +23,18 @@ struct StrictReader : ExchangeReader {
   StrictReader() { on_unknown_key(refuse_key); }
 };
 
-void expect(StreamItem::Kind wanted, StreamItem::Kind kind, const std::string& message) {
-  if (kind == wanted) return;
-  throw InputError(kind == StreamItem::Kind::bad       ? message
+// The item of this kind in a line, read by `read`.
+template <class Item, class TheScene>
+Item item_in(const std::string& text, StreamItem::Kind wanted,
+             void (ExchangeReader::*read)(const LineReader::Line&, const TheScene*, Item&),
+             const std::type_identity_t<TheScene>* scene = nullptr) {
+  Item item;
+  StrictReader reader;
+  (reader.*read)(PaddedLine(text).line(), scene, item);
+  if (item.kind == wanted) return item;
+  throw InputError(item.kind == StreamItem::Kind::bad  ? item.message
                    : wanted == StreamItem::Kind::scene ? "is not a scene"
                                                        : "is not a query");
-}
-
-StreamItem query_line(const std::string& text, const Scene* scene) {
-  StreamItem item;
-  StrictReader().read_query_line(PaddedLine(text).line(), scene, item);
-  return item;
-}
-
-StartItem start_line(const std::string& text, const RationalScene* scene) {
-  StartItem item;
-  StrictReader().read_start_line(PaddedLine(text).line(), scene, item);
-  return item;
 }
 
 }  // namespace
@@ -47,27 +44,19 @@ void refuse_key(const std::string& key) {
 }
 
 Scene read_scene(const std::string& text) {
-  StreamItem item = query_line(text, nullptr);
-  expect(StreamItem::Kind::scene, item.kind, item.message);
-  return std::move(item.scene);
+  return item_in(text, StreamItem::Kind::scene, &ExchangeReader::read_query_line).scene;
 }
 
 RationalScene read_rational_scene(const std::string& text) {
-  StartItem item = start_line(text, nullptr);
-  expect(StreamItem::Kind::scene, item.kind, item.message);
-  return std::move(item.scene);
+  return item_in(text, StreamItem::Kind::scene, &ExchangeReader::read_start_line).scene;
 }
 
 Query read_query(const std::string& text, const Scene& scene) {
-  StreamItem item = query_line(text, &scene);
-  expect(StreamItem::Kind::query, item.kind, item.message);
-  return std::move(item.query);
+  return item_in(text, StreamItem::Kind::query, &ExchangeReader::read_query_line, &scene).query;
 }
 
 Start read_start(const std::string& text, const RationalScene& scene) {
-  StartItem item = start_line(text, &scene);
-  expect(StreamItem::Kind::query, item.kind, item.message);
-  return std::move(item.start);
+  return item_in(text, StreamItem::Kind::query, &ExchangeReader::read_start_line, &scene).start;
 }
 
 Answer read_answer(const std::string& text, const Components& count) {

@@ -15,8 +15,6 @@
 namespace lorentz::python {
 namespace {
 
-constexpr double kForEver = std::numeric_limits<double>::infinity();
-
 // ---- Particles
 
 // The collisions of C that are kept: every k-th, or only the last (k = 0).
@@ -129,10 +127,6 @@ std::shared_ptr<Paths> follow(const PyScene& scene, const QueryArrays& arrays, K
 
 // ---- Itineraries
 
-py::list texts(const std::vector<std::string>& numbers) {
-  return py::cast(numbers);
-}
-
 py::dict itinerary(const PyScene& scene, const std::string& start, std::optional<std::uint64_t> collisions,
                    const std::optional<std::string>& time, int digits, bool states, long most_bits) {
   oracle::Journey journey;
@@ -157,22 +151,18 @@ py::dict itinerary(const PyScene& scene, const std::string& start, std::optional
   for (const oracle::CertifiedCollision& c : met)
     list.append(py::dict(py::arg("lattice") = c.obstacle.lattice, py::arg("atom") = c.obstacle.atom,
                          py::arg("cell") = to_python(c.obstacle.cell, scene.dimension()),
-                         py::arg("time") = c.time, py::arg("x") = texts(c.x), py::arg("v") = texts(c.v),
+                         py::arg("time") = c.time, py::arg("x") = c.x, py::arg("v") = c.v,
                          py::arg("bits") = c.bits));
   return py::dict(py::arg("collisions") = list, py::arg("end") = std::string(name_of(arrival.end)),
-                  py::arg("bits") = arrival.bits, py::arg("x") = texts(arrival.x),
-                  py::arg("v") = texts(arrival.v), py::arg("distance") = arrival.distance);
+                  py::arg("bits") = arrival.bits, py::arg("x") = arrival.x, py::arg("v") = arrival.v,
+                  py::arg("distance") = arrival.distance);
 }
 
 // ---- Starts
 
 struct DrawnStarts {
-  DrawnStarts(std::size_t count, int dimension)
-      : x({static_cast<py::ssize_t>(count), py::ssize_t{dimension}}),
-        v({static_cast<py::ssize_t>(count), py::ssize_t{dimension}}),
-        cell({static_cast<py::ssize_t>(count), py::ssize_t{dimension}}),
-        lattice(static_cast<py::ssize_t>(count)),
-        atom(static_cast<py::ssize_t>(count)) {}
+  DrawnStarts(py::ssize_t count, py::ssize_t dimension)
+      : x({count, dimension}), v({count, dimension}), cell({count, dimension}), lattice(count), atom(count) {}
 
   py::array_t<double> x, v;
   py::array_t<std::int64_t> cell;
@@ -202,7 +192,7 @@ void draw_into(DrawnStarts& drawn, const starts::FreeStarts& starts, std::uint64
 py::dict draw(const PyScene& scene, std::size_t count, const std::string& kind, std::uint64_t seed,
               std::uint64_t first) {
   const starts::Kind its = starts::kind_named(kind, "kind");
-  DrawnStarts drawn(count, scene.dimension());
+  DrawnStarts drawn(static_cast<py::ssize_t>(count), scene.dimension());
   draw_into(drawn, {scene.scene(), its, seed}, first);
   py::dict columns(py::arg("x") = drawn.x, py::arg("v") = drawn.v, py::arg("start_from") = py::none());
   if (kind == "surface") columns["start_from"] = py::make_tuple(drawn.lattice, drawn.atom, drawn.cell);
@@ -211,13 +201,6 @@ py::dict draw(const PyScene& scene, std::size_t count, const std::string& kind, 
 
 // ---- Arrays
 
-template <class Number>
-py::array shown(const std::vector<Number>& numbers, std::vector<std::size_t> shape, const py::object& owner) {
-  py::array array(py::dtype::of<Number>(), std::move(shape), numbers.data(), owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
-
 // The shape of an array: one number per particle, one per collision, or one vector per collision.
 enum class ArrayShape { particles, collisions, vectors };
 
@@ -225,10 +208,10 @@ template <class Number>
 auto view_of(std::vector<Number> Paths::*member, ArrayShape shape) {
   return [=](const py::object& self) {
     const auto& paths = self.cast<const Paths&>();
-    std::vector<std::size_t> lengths{paths.particles};
-    if (shape != ArrayShape::particles) lengths.push_back(paths.columns);
-    if (shape == ArrayShape::vectors) lengths.push_back(static_cast<std::size_t>(paths.dimension));
-    return shown(paths.*member, lengths, self);
+    std::vector<py::ssize_t> lengths{static_cast<py::ssize_t>(paths.particles)};
+    if (shape != ArrayShape::particles) lengths.push_back(static_cast<py::ssize_t>(paths.columns));
+    if (shape == ArrayShape::vectors) lengths.push_back(paths.dimension);
+    return view((paths.*member).data(), std::move(lengths), self);
   };
 }
 
@@ -236,8 +219,6 @@ auto view_of(std::vector<Number> Paths::*member, ArrayShape shape) {
 
 void bind_paths(py::module_& module) {
   py::class_<Paths, std::shared_ptr<Paths>>(module, "Paths", "Memory of lorentz.Paths.")
-      .def("__len__", [](const Paths& paths) { return paths.particles; })
-      .def_readonly("dimension", &Paths::dimension)
       .def_property_readonly("count", view_of(&Paths::count, ArrayShape::particles))
       .def_property_readonly("stop_code", view_of(&Paths::stop, ArrayShape::particles))
       .def_property_readonly("time", view_of(&Paths::time, ArrayShape::collisions))

@@ -18,20 +18,14 @@ py::object fraction_class() {
   return py::module_::import("fractions").attr("Fraction");
 }
 
-py::tuple rational_tuple(const RationalVec& a, int dimension) {
-  py::tuple tuple(dimension);
-  for (int i = 0; i < dimension; ++i) tuple[i] = python::to_python(a[i]);
-  return tuple;
-}
-
 py::dict atom_dict(const RationalAtom& atom, int dimension) {
   py::dict dict;
-  dict["position"] = rational_tuple(atom.position, dimension);
+  dict["position"] = to_python(atom.position, dimension);
   if (atom.is_ball()) {
-    dict["radius"] = python::to_python(atom.radius);
+    dict["radius"] = to_python(atom.radius);
   } else {
     py::list semiaxes;
-    for (const RationalVec& axis : atom.semiaxes) semiaxes.append(rational_tuple(axis, dimension));
+    for (const RationalVec& axis : atom.semiaxes) semiaxes.append(to_python(axis, dimension));
     dict["semiaxes"] = semiaxes;
   }
   return dict;
@@ -42,7 +36,7 @@ py::dict scene_dict(const PyScene& scene) {
   for (const RationalLattice& lattice : scene.exact().lattices) {
     py::list vectors, atoms;
     for (int i = 0; i < scene.dimension() - lattice.missing; ++i)
-      vectors.append(rational_tuple(lattice.vectors[i], scene.dimension()));
+      vectors.append(to_python(lattice.vectors[i], scene.dimension()));
     for (const RationalAtom& atom : lattice.atoms) atoms.append(atom_dict(atom, scene.dimension()));
     lattices.append(py::dict(py::arg("vectors") = vectors, py::arg("atoms") = atoms));
   }
@@ -120,16 +114,9 @@ py::object to_python(const Rational& number) {
   return fraction_class()(to_python(fraction.numerator), to_python(fraction.denominator));
 }
 
-py::tuple to_python(const Vec& a, int dimension) {
-  py::tuple tuple(dimension);
-  for (int i = 0; i < dimension; ++i) tuple[i] = a[i];
-  return tuple;
-}
-
-py::tuple to_python(const Cell& cell, int dimension) {
-  py::tuple tuple(dimension);
-  for (int i = 0; i < dimension; ++i) tuple[i] = to_python(cell[i]);
-  return tuple;
+py::tuple to_python(const ObstacleId& obstacle, const Components& count) {
+  return py::make_tuple(obstacle.lattice, obstacle.atom,
+                        to_python(obstacle.cell, count.of_cells(obstacle.lattice)));
 }
 
 Integer integer_from(const py::handle& n, const char* what) {

@@ -52,13 +52,21 @@ class PyScene {
 py::int_ to_python(const Integer& n);
 
 /// A float, or a fractions.Fraction.
+inline double to_python(double number) {
+  return number;
+}
 py::object to_python(const Rational& number);
 
-/// A tuple of `dimension` floats.
-py::tuple to_python(const Vec& a, int dimension);
+/// A tuple of the first `count` numbers.
+template <class Number>
+py::tuple to_python(const std::array<Number, 3>& numbers, int count) {
+  py::tuple tuple(count);
+  for (int i = 0; i < count; ++i) tuple[i] = to_python(numbers[i]);
+  return tuple;
+}
 
-/// A tuple of `dimension` integers.
-py::tuple to_python(const Cell& cell, int dimension);
+/// (lattice, atom, cell)
+py::tuple to_python(const ObstacleId& obstacle, const Components& count);
 
 /// An integer of any size. Throws InputError that names `what`.
 Integer integer_from(const py::handle& n, const char* what);

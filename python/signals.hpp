@@ -14,7 +14,13 @@ namespace lorentz::python {
 class SignalWatch {
  public:
   /// Throws py::error_already_set for Ctrl-C. The caller must not hold the lock.
-  void look();
+  void look() {
+    const Clock::time_point now = Clock::now();
+    if (now < next_) return;
+    next_ = now + kBetween;
+    const py::gil_scoped_acquire gil;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -38,6 +44,14 @@ auto watched(std::atomic<bool>& stop, const Work& work) {
     }
   }
   return result.get();
+}
+
+/// Returns the result of `find(stop)`, which runs while other Python threads run. Ctrl-C ends it.
+template <class Find>
+auto found_by(const Find& find) {
+  const py::gil_scoped_release release;
+  std::atomic<bool> stop = false;
+  return watched(stop, [&] { return find(stop); });
 }
 
 }  // namespace lorentz::python

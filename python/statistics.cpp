@@ -1,20 +1,12 @@
 // Statistics of trajectories: Lyapunov exponents, diffusion, and how long computed trajectories stay right.
 #include "python/engine.hpp"
 #include "python/signals.hpp"
-#include "statistics/chaos/diffusion_report.hpp"
-#include "statistics/chaos/lyapunov_report.hpp"
+#include "statistics/chaos/diffusion.hpp"
+#include "statistics/chaos/lyapunov.hpp"
 #include "statistics/survival/survival.hpp"
 
 namespace lorentz::python {
 namespace {
-
-// Returns the result of `find(stop)`, which runs while other Python threads run. Ctrl-C ends it.
-template <class Find>
-auto found_by(const Find& find) {
-  const py::gil_scoped_release release;
-  std::atomic<bool> stop = false;
-  return watched(stop, [&] { return find(stop); });
-}
 
 // The report of `lorentz lyapunov --json`.
 std::string lyapunov(const PyScene& scene, std::uint64_t collisions, bool spectrum, std::uint64_t seed,

@@ -23,8 +23,6 @@ namespace lorentz::question {
 /// What every answer must contain, and how long an answerer waits for it.
 struct AnswererOptions {
   static constexpr double kDefaultTimeout = 60;
-  /// Number of failures without an answer in between after which an engine that runs apart is given up.
-  static constexpr int kMostFailuresInRow = 5;
 
   oracle::Request request;
   double timeout = kDefaultTimeout;  ///< seconds that an external engine may be silent while it owes answers
@@ -96,17 +94,23 @@ class Answerer {
 
   /// Asks an invalid query, given as a line without its braces and id. An external program gets it unchanged;
   /// for other engines the answer is `error`.
-  virtual void ask_text(const Id&, const std::string&) { deliver({Answer::error("no query")}); }
+  virtual void ask_text(const Id&, const std::string&) {
+    drain();
+    deliver({Answer::error("no query")});
+  }
 
   /// Waits for all replies. More queries may be asked afterwards.
   virtual void drain() {}
 
   /// Waits for all replies, and ends an external engine. No queries may be asked afterwards.
-  virtual void finish() {}
+  virtual void finish() { drain(); }
 
   /// For a caller that would otherwise wait for input: waits until the descriptor can be read or some replies
   /// have come. Returns true if it should be called again before reading.
-  virtual bool idle(int) { return false; }
+  virtual bool idle(int) {
+    drain();
+    return false;
+  }
 
   /// True if an external engine failed: it died, fell silent, or wrote an invalid line. Messages on stderr
   /// say which.

@@ -42,16 +42,6 @@ void BatchAnswerer::ask_until(const Id&, const Query& query, double max_time) {
   }
 }
 
-void BatchAnswerer::ask_text(const Id& id, const std::string& text) {
-  drain();
-  Answerer::ask_text(id, text);
-}
-
-bool BatchAnswerer::idle(int) {
-  drain();
-  return false;
-}
-
 void BatchAnswerer::drain() {
   if (queries_.size() == 0) return;
   flights_.resize(queries_.size());

@@ -18,10 +18,7 @@ class BatchAnswerer : public Answerer {
   void ask_until(const Id& id, const Query& query, double max_time) final;
   bool takes_limits() const final { return true; }
   std::uint64_t batch_size() const final { return 100; }  // several full vectors, and some lanes of one more
-  void ask_text(const Id& id, const std::string& text) final;
   void drain() final;
-  void finish() final { drain(); }
-  bool idle(int) final;
 
  protected:
   /// Flies all gathered queries.

@@ -4,249 +4,30 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cmath>
-#include <optional>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <set>
 
-#include "question/engines.hpp"
+#include <lorentz/exchange.hpp>
+#include "question/external_answerer.hpp"
+#include "question/process.hpp"
 #include "src/exchange/json_writer.hpp"
 #include "src/problem/safe_text.hpp"
 
 namespace lorentz::question {
 namespace {
 
-constexpr std::size_t kWrittenAtOnce = std::size_t{1}
-                                       << 16;      // queries are written out in pieces of this size
+constexpr std::size_t kWindow = 4096;              // the largest number of queries in flight
+constexpr std::size_t kWrittenAtOnce = 65536;      // queries are written out in pieces of this size
 constexpr std::size_t kAskedBetweenSteps = 256;    // because a step costs a few microseconds
 constexpr double kPatience = 0.5;                  // seconds
 constexpr double kBetweenLooks = 0.1;              // seconds between calls of AnswererOptions::enough
 constexpr std::chrono::milliseconds kGrace{1000};  // to end, once its input or its output is closed
 constexpr std::size_t kRecent = 64;
-
-}  // namespace
-
-// One life of the program.
-struct CommandEngine::Run {
-  explicit Run(const std::string& command) : process(command) {}
-
-  Process process;
-  LineBuffer lines;
-  std::string to_write;
-  std::size_t given = 0;        // queries, in all
-  std::size_t outstanding = 0;  // given and without an answer: the first `outstanding` of open_
-  std::size_t answers = 0, answers_before_end = 0;
-  std::shared_ptr<const Scene> scene;
-  std::uint64_t first_of_scene = 0;  // number of the first query after the last scene line
-  bool greeting = false;             // it has one query only, to see whether it answers with more to come
-  bool ending = false;               // gets no more queries; its input is closed as soon as all is written
-  bool told_for_silence = false, stopped_reading = false, at_end = false;
-  bool has_ended = false;          // and its processor time is counted
-  std::string instead;             // what it wrote where the first outstanding answer should have been
-  std::optional<Answer> nameless;  // an error with id null, about the scene or its first query
-  Clock::time_point started = Clock::now();
-  std::optional<Clock::time_point> first_answer;
-  Clock::time_point last_answer = started;  // or when something became outstanding
-  Clock::time_point last_move = started;    // an answer, or something written
-};
-
-CommandEngine::CommandEngine(std::string command, const AnswererOptions& options)
-    : command_(std::move(command)),
-      options_(options),
-      complaints_("cmd:" + command_, options.listener),
-      patience_(std::min(kPatience, options.timeout / 4)),
-      first_patience_(patience_) {
-  reader_.on_unknown_key([this](const std::string& key) { see_unknown_key(key); });
-}
-
-void CommandEngine::enter(const Scene& scene) {
-  scene_ = std::make_shared<const Scene>(scene);
-}
-
-void CommandEngine::ask(const Id& id, const Query& query) {
-  add({id, query, scene_});
-}
-
-void CommandEngine::ask_text(const Id& id, const std::string& question) {
-  add({id, {}, scene_, question});
-}
-
-void CommandEngine::append_line(std::string& out, const Id& id, const OpenQuery& asked) {
-  if (asked.text.empty())
-    append_query_line(out, id, asked.query, *asked.scene);
-  else
-    out += json::line_of([&](json::Members& line) { line.add("id", json::Raw{id}).add_members(asked.text); });
-}
-
-void CommandEngine::add(OpenQuery asked) {
-  open_.push_back(std::move(asked));
-  if (given_up_in_) give_up();
-  if (open_.empty()) return;
-  const std::size_t not_given = open_.size() - (run_ ? run_->outstanding : 0);
-  if (not_given % kAskedBetweenSteps == 0) step(Wait::no);
-  while (open_.size() >= kWindow) step(Wait::yes);
-}
-
-void CommandEngine::drain() {
-  while (!open_.empty()) step(Wait::for_all);
-}
-
-void CommandEngine::finish() {
-  while (run_ || !open_.empty()) step(Wait::for_good);
-  complaints_.finish();
-}
-
-bool CommandEngine::idle(int descriptor) {
-  if (open_.empty()) return false;
-  step(Wait::yes, descriptor);
-  pollfd input{descriptor, POLLIN, 0};
-  return ::poll(&input, 1, 0) == 0;
-}
-
-// ---- one step
-
-void CommandEngine::step(Wait wait, int other_descriptor) {
-  // The program may have ended by itself meanwhile; then the next query is not at fault.
-  if (run_ && run_->outstanding == 0 && run_->given > 0) read();
-  if (!run_ && open_.empty()) return;
-  if (is_enough()) return abandon();
-  if (!run_) start();
-  const std::shared_ptr<Run> run = run_;  // keeps it alive if it ends below
-  encode();
-  if (wait == Wait::for_good && run->outstanding == open_.size()) run->ending = true;
-  wait_for_pipes(wait, other_descriptor);
-  write();
-  read();
-  if (run_ == run) look_at_clock(wait);
-}
-
-void CommandEngine::start() {
-  run_ = std::make_shared<Run>(command_);
-  run_->greeting = manner_ == Manner::unknown && limit_ == kNoLimit;
-}
-
-// A program that owes nothing gets time to end by itself. Being too slow for the available time is not a
-// fault, unless it never gave any answer.
-void CommandEngine::abandon() {
-  const bool owes = run_ && run_->outstanding > 0;
-  if (owes && !ever_answered_)
-    complain(fmt::format("gave no answer in {:.3g} s, which was all the time there is",
-                         Seconds(Clock::now() - run_->started).count()),
-             &open_.front());
-  if (run_) end_of(*run_, owes ? kGrace * 0 : kGrace);
-  run_.reset();
-  first_number_ += open_.size();
-  open_.clear();
-}
-
-// Writes queries as text, up to the number that may be given and the size of a piece.
-void CommandEngine::encode() {
-  Run& run = *run_;
-  const std::size_t most = run.greeting ? 1 : limit_;
-  while (!run.ending && run.outstanding < open_.size() && run.given < most &&
-         run.to_write.size() < kWrittenAtOnce) {
-    const OpenQuery& asked = open_[run.outstanding];
-    if (run.scene != asked.scene) {
-      append_scene_line(run.to_write, *asked.scene);
-      run.scene = asked.scene;
-      run.first_of_scene = first_number_ + run.outstanding;
-    }
-    append_line(run.to_write, std::to_string(first_number_ + run.outstanding), asked);
-    if (run.outstanding == 0) run.last_answer = Clock::now();
-    ++run.outstanding;
-    ++run.given;
-  }
-  if (run.given == limit_) run.ending = true;
-}
-
-void CommandEngine::wait_for_pipes(Wait wait, int other_descriptor) {
-  Run& run = *run_;
-  if (run.ending && run.to_write.empty()) run.process.close_input();
-  pollfd pipes[4] = {{run.process.output(), POLLIN, 0},
-                     {run.to_write.empty() ? -1 : run.process.input(), POLLOUT, 0},
-                     {run.process.errors(), POLLIN, 0},
-                     {other_descriptor, POLLIN, 0}};
-  double seconds = wait == Wait::no ? 0 : until_next_look(wait).count();
-  if (options_.enough) seconds = std::min(seconds, kBetweenLooks);
-  ::poll(pipes, 4, static_cast<int>(std::clamp(std::ceil(1000 * seconds), 0.0, 1e6)));
-}
-
-void CommandEngine::write() {
-  Run& run = *run_;
-  if (run.to_write.empty()) return;
-  const auto count = run.process.write(run.to_write);
-  if (!count) {  // it closed its input, but may still answer what it has read
-    run.stopped_reading = run.ending = true;
-    run.to_write.clear();
-  } else if (*count > 0) {
-    run.to_write.erase(0, *count);
-    run.last_move = Clock::now();
-  }
-}
-
-void CommandEngine::read() {
-  const std::shared_ptr<Run> run = run_;
-  const LineBuffer::Read result = run->lines.read_from(run->process.output());
-  run->process.pass_on_errors();
-  run->at_end = result == LineBuffer::Read::end;
-  if (result == LineBuffer::Read::nothing) return;
-  for (LineReader::Line line; run->lines.next(line);) take_line(line);
-  if (run->at_end) run_is_over();
-}
-
-// ---- the clock
-
-// How long a program may be silent before its input is closed, in case it waits for that.
-CommandEngine::Seconds CommandEngine::patience(Wait wait) const {
-  const bool at_once = manner_ == Manner::at_end || (manner_ == Manner::in_blocks && wait == Wait::for_all);
-  if (at_once) return Seconds(0);
-  return run_->greeting ? first_patience_ : patience_;
-}
-
-// How long it may be silent before it has failed.
-CommandEngine::Seconds CommandEngine::timeout() const {
-  const Seconds ordinary(options_.timeout), first(options_.start_timeout);
-  if (run_->first_answer || first <= ordinary) return ordinary;
-  return ever_answered_ ? std::min(first, ordinary + 2 * slowest_start_) : first;
-}
-
-CommandEngine::Seconds CommandEngine::until_next_look(Wait wait) const {
-  const Run& run = *run_;
-  const auto left = [](Seconds all, Clock::time_point since) -> Seconds {
-    return all - (Clock::now() - since);
-  };
-  if (run.outstanding == 0) return run.ending ? left(kGrace, run.last_move) : timeout();
-  const Seconds until_timeout = left(timeout(), run.last_answer);
-  const bool only_timeout = manner_ == Manner::line_by_line || run.ending || !run.to_write.empty();
-  if (only_timeout && !run.nameless) return until_timeout;
-  return std::min(until_timeout, left(run.nameless ? patience_ : patience(wait), run.last_move));
-}
-
-void CommandEngine::look_at_clock(Wait wait) {
-  Run& run = *run_;
-  const auto now = Clock::now();
-  const auto silent_for = [&](Seconds time) { return now - run.last_move >= time; };
-  if (run.outstanding == 0) {
-    if (run.ending && silent_for(kGrace)) run_is_over();
-    return;
-  }
-  if (run.nameless && silent_for(patience_)) return settle_nameless();
-  if (now - run.last_answer >= timeout())
-    return run_failed(fmt::format("{}gave no answer within {:.4g} s",
-                                  run.stopped_reading ? "closed its input and " : "", timeout().count()));
-  if (manner_ == Manner::line_by_line || run.ending || wait == Wait::no || !run.to_write.empty()) return;
-  // A trickle of new queries does not prevent this.
-  const bool long_since = now - run.last_answer >= timeout() / 2;
-  if (!silent_for(patience(wait)) && !long_since) return;
-  const bool more_to_give = run.outstanding < open_.size();
-  if (run.greeting) run.last_move = now;
-  if (!run.greeting || !more_to_give) run.ending = run.told_for_silence = !more_to_give;
-  run.greeting = false;
-}
-
-// ---- what it wrote
-
-namespace {
 
 std::string shown(std::string_view text) {
   // Quotes are not escaped here: that happens once, where the message becomes part of an answer.
@@ -261,264 +42,507 @@ std::uint64_t number_of(const Id& id) {
   return number;
 }
 
-}  // namespace
+// Keeps many queries in flight and takes the program's answers as they come; it writes and reads by turns,
+// as the pipes allow. The program sees running numbers as ids, whatever the user's ids are. Every query gets
+// one answer, in order. If the program gives none, the answer is an `error` that says what the program did
+// instead.
+//
+// A program that dies or falls silent is started again for the queries after the one at fault. If it answers
+// line by line, the query at fault is the first without an answer. If it holds answers back, some of them
+// were lost with it. Then the next start gets only one query, the one after that two, ...; the input of each
+// is closed at once, and the query at fault is the one on which the program fails alone.
+class CommandEngine final : public ExternalAnswerer {
+ public:
+  CommandEngine(std::string command, const AnswererOptions& options)
+      : ExternalAnswerer("cmd", command, options),
+        command_(std::move(command)),
+        patience_(std::min(kPatience, options.timeout / 4)),
+        first_patience_(patience_) {
+    reader_.on_unknown_key([this](const std::string& key) { see_unknown_key(key); });
+  }
 
-// Reports each unknown key once; with --strict it makes the line invalid.
-void CommandEngine::see_unknown_key(const std::string& key) {
-  constexpr std::size_t kMostKeys = 20;
-  if (options_.strict) throw InputError("the key " + json_quoted(key) + " is not known");
-  if (unknown_keys_.size() < kMostKeys && unknown_keys_.insert(key).second)
-    tell(fmt::format("writes the key {}, which no answer has; it is ignored (--strict: an error)",
-                     json_quoted(key)));
-}
+  void ask(const Id& id, const Query& query) override { add({id, query, scene_}); }
 
-void CommandEngine::take_line(const LineReader::Line& line) {
-  Id id;
-  Answer answer;
-  std::size_t components = 0;
-  try {
-    if (take_own_time(line)) return;
-    if (reader_.read_answer_line(line, id, answer, components)) take_answer(id, answer, components);
-  } catch (const InputError& error) {
-    const std::string what = line.too_long ? "wrote a line that is too long for an answer"
-                                           : fmt::format("wrote a line that is not an answer, {} ({})",
-                                                         shown(line.text), error.what());
-    if (run_->outstanding > 0 && number_of(id) == first_number_)
-      answer_first_with_error(what);
+  void ask_text(const Id& id, const std::string& question) override { add({id, {}, scene_, question}); }
+
+  void drain() override {
+    while (!open_.empty()) step(Wait::for_all);
+  }
+
+  void finish() override {
+    while (run_ || !open_.empty()) step(Wait::for_good);
+    finish_complaints();
+  }
+
+  bool idle(int descriptor) override {
+    if (open_.empty()) return false;
+    step(Wait::yes, descriptor);
+    pollfd input{descriptor, POLLIN, 0};
+    return ::poll(&input, 1, 0) == 0;
+  }
+
+  std::string take_last_words() override {
+    if (run_) run_->process.pass_on_errors();
+    std::string words = run_ ? run_->process.take_last_words() : std::string();
+    std::string former = std::exchange(last_words_, {});
+    return words.empty() ? former : words;
+  }
+
+  std::optional<double> processor_seconds() const override {
+    return spent_ + (run_ && !run_->has_ended ? run_->process.processor_seconds() : 0);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  using Seconds = std::chrono::duration<double>;
+  static constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
+
+  struct OpenQuery {
+    Id id;
+    Query query;
+    std::shared_ptr<const Scene> scene;
+    std::string text = {};     // in place of an invalid query
+    bool passed_over = false;  // it got no answer
+  };
+
+  // When the program writes its answers, as far as observed.
+  enum class Manner {
+    unknown,
+    line_by_line,  // it has once answered all it had been asked, with more to come
+    in_blocks,     // it writes the last answers only after the end of its input
+    at_end         // it writes all answers only after the end of its input
+  };
+
+  // One life of the program.
+  struct Run {
+    explicit Run(const std::string& command) : process(command) {}
+
+    Process process;
+    LineBuffer lines;
+    std::string to_write;
+    std::size_t given = 0;        // queries, in all
+    std::size_t outstanding = 0;  // given and without an answer: the first `outstanding` of open_
+    std::size_t answers_before_end = 0;
+    std::shared_ptr<const Scene> scene;
+    std::uint64_t first_of_scene = 0;  // number of the first query after the last scene line
+    bool greeting = false;             // it has one query only, to see whether it answers with more to come
+    bool ending = false;               // gets no more queries; its input is closed as soon as all is written
+    bool told_for_silence = false, stopped_reading = false, at_end = false;
+    bool has_ended = false;          // and its processor time is counted
+    std::string instead;             // what it wrote where the first outstanding answer should have been
+    std::optional<Answer> nameless;  // an error with id null, about the scene or its first query
+    Clock::time_point started = Clock::now();
+    std::optional<Clock::time_point> first_answer;
+    Clock::time_point last_answer = started;  // or when something became outstanding
+    Clock::time_point last_move = started;    // an answer, or something written
+  };
+
+  // Everything happens in steps: write what the program takes, read what it gives, look at the clock.
+  enum class Wait {
+    no,
+    yes,
+    for_all,  // nothing is asked before all answers have come
+    for_good  // nor is anything asked afterwards
+  };
+
+  void enter(const Scene& scene) override { scene_ = std::make_shared<const Scene>(scene); }
+
+  static void append_line(std::string& out, const Id& id, const OpenQuery& asked) {
+    if (asked.text.empty())
+      append_query_line(out, id, asked.query, *asked.scene);
     else
-      take_no_answer(what);
+      out +=
+          json::line_of([&](json::Members& line) { line.add("id", json::Raw{id}).add_members(asked.text); });
   }
-}
 
-bool CommandEngine::take_own_time(const LineReader::Line& line) {
-  const auto time = own_time_in(line.text);
-  if (!time) return false;
-  if (!own_time_) own_time_.emplace();
-  own_time_->seconds += time->seconds;
-  own_time_->queries += time->queries;
-  return true;
-}
-
-// Takes a line that answers nothing. The next answer shows whether it stands in the place of an answer.
-void CommandEngine::take_no_answer(const std::string& what) {
-  run_->instead = what;
-  complain(what, run_->outstanding > 0 ? &open_.front() : nullptr);
-}
-
-void CommandEngine::take_answer(const Id& id, Answer& answer, std::size_t components) {
-  Run& run = *run_;
-  if (id == "null" && answer.outcome == Outcome::error && run.outstanding > 0) return take_nameless(answer);
-  const std::uint64_t number = number_of(id);
-  if (number == 0 || number >= first_number_ + run.outstanding)
-    return take_no_answer("gave an answer with an id that no query has, " + shortened(id, 40));
-  if (number < first_number_) return take_unasked(number);
-  if (run.nameless && number > first_number_) settle_nameless();
-  while (number > first_number_) pass_over();
-  if (run.nameless) tell(fmt::format("says of the scene: {}", printable(run.nameless->message)));
-  run.nameless.reset();
-  const std::string flaw = flaw_of_answer(answer, components);
-  if (flaw.empty())
-    answer_first(answer);
-  else
-    answer_first_with_error(flaw);
-}
-
-// An error without an id is for the first query that waits. Directly after a scene line it may be for the
-// scene.
-void CommandEngine::take_nameless(Answer& answer) {
-  if (run_->nameless) settle_nameless();
-  if (first_number_ == run_->first_of_scene)
-    run_->nameless = std::move(answer);
-  else
-    answer_first(answer);
-}
-
-void CommandEngine::settle_nameless() {
-  Answer answer = std::move(*run_->nameless);
-  run_->nameless.reset();
-  answer_first(answer);
-}
-
-// Takes an answer to an earlier query, which is settled already.
-void CommandEngine::take_unasked(std::uint64_t number) {
-  const std::uint64_t back = first_number_ - number;
-  const OpenQuery* asked = back <= recent_.size() ? &recent_[recent_.size() - back] : nullptr;
-  const bool late = asked && asked->passed_over;
-  run_->instead = late ? "answered an earlier query, too late" : "answered an earlier query again";
-  complain(late ? "answered this query after a later one" : "answered this query again", asked);
-}
-
-// The first query gets no answer, because an answer to a later one came.
-void CommandEngine::pass_over() {
-  Run& run = *run_;
-  std::string what = "gave no answer to this query before that to a later one";
-  const Origin origin = run.instead.empty() ? Origin::fault : Origin::bad_line;
-  if (!run.instead.empty()) what += "; before that it " + run.instead;
-  run.instead.clear();
-  complain(what, &open_.front());
-  open_.front().passed_over = true;
-  --run.outstanding;
-  Answer answer = Answer::error("cmd " + what);
-  deliver_first(answer, origin);
-}
-
-std::string CommandEngine::flaw_of_answer(const Answer& answer, std::size_t components) const {
-  if (answer.outcome != Outcome::hit && answer.outcome != Outcome::inside) return {};
-  const Scene& scene = *open_.front().scene;
-  const bool exists = answer.obstacle.lattice < static_cast<int>(scene.lattices.size());
-  const int needed = Components(scene).of_cells(answer.obstacle.lattice);
-  if (exists && components != static_cast<std::size_t>(needed))
-    return fmt::format("gave a cell of {} components of a lattice of {} vectors", components, needed);
-  if (answer.outcome == Outcome::hit && !answer.time && options_.request.max_time)
-    return "gave a hit without its time, which --max-time needs";
-  return {};
-}
-
-void CommandEngine::answer_first(Answer& answer, Origin origin) {
-  Run& run = *run_;
-  --run.outstanding;
-  ++run.answers;
-  if (!run.ending) ++run.answers_before_end;
-  run.last_answer = run.last_move = Clock::now();
-  if (!run.first_answer) {
-    run.first_answer = run.last_answer;
-    slowest_start_ = std::max(slowest_start_, Seconds(*run.first_answer - run.started));
+  void add(OpenQuery asked) {
+    open_.push_back(std::move(asked));
+    if (given_up()) give_up();
+    if (open_.empty()) return;
+    const std::size_t not_given = open_.size() - (run_ ? run_->outstanding : 0);
+    if (not_given % kAskedBetweenSteps == 0) step(Wait::no);
+    while (open_.size() >= kWindow) step(Wait::yes);
   }
-  run.instead.clear();
-  failures_in_row_ = 0;
-  ever_answered_ = true;
-  if (run.outstanding == 0 && !run.ending) manner_ = Manner::line_by_line;
-  if (manner_ == Manner::line_by_line) run.greeting = false;
-  if (options_.request.max_time) answer = limited(std::move(answer), *options_.request.max_time);
-  if (options_.request.detail) add_detail(open_.front().query, *open_.front().scene, answer);
-  deliver_first(answer, origin);
-}
 
-void CommandEngine::answer_first_with_error(const std::string& what) {
-  complain(what, &open_.front());
-  Answer answer = Answer::error("cmd " + what);
-  answer_first(answer, Origin::bad_line);
-}
+  // ---- one step
 
-void CommandEngine::deliver_first(Answer& answer, Origin origin) {
-  recent_.push_back(std::move(open_.front()));
-  if (recent_.size() > kRecent) recent_.pop_front();
-  open_.pop_front();
-  ++first_number_;
-  deliver({std::move(answer), origin});
-}
-
-// ---- its end
-
-Ending CommandEngine::end_of(Run& run, std::chrono::milliseconds grace) {
-  const Ending ending = run.process.end(grace);
-  if (!std::exchange(run.has_ended, true)) spent_ += run.process.processor_seconds();
-  if (std::string words = run.process.take_last_words(); !words.empty()) last_words_ = std::move(words);
-  return ending;
-}
-
-std::string CommandEngine::take_last_words() {
-  if (run_) run_->process.pass_on_errors();
-  std::string words = run_ ? run_->process.take_last_words() : std::string();
-  std::string former = std::exchange(last_words_, {});
-  return words.empty() ? former : words;
-}
-
-std::optional<double> CommandEngine::processor_seconds() const {
-  return spent_ + (run_ && !run_->has_ended ? run_->process.processor_seconds() : 0);
-}
-
-// Its output has ended, or its input was closed long ago.
-void CommandEngine::run_is_over() {
-  const std::shared_ptr<Run> run = run_;
-  if (run->nameless) settle_nameless();
-  const Ending ending = end_of(*run, run->at_end ? kGrace : kGrace * 0);
-  if (run->outstanding > 0) {
-    if (ending.how == Ending::How::still_ran)
-      return run_failed("closed its output before this query's answer");
-    if (ending.is_good()) return run_failed("ended (exit 0) without an answer to this query");
-    return run_failed(fmt::format("died ({}) on this query", ending.text()));
+  void step(Wait wait, int other_descriptor = -1) {
+    // The program may have ended by itself meanwhile; then the next query is not at fault.
+    if (run_ && run_->outstanding == 0 && run_->given > 0) read();
+    if (!run_ && open_.empty()) return;
+    if (is_enough()) return abandon();
+    if (!run_) start();
+    const std::shared_ptr<Run> run = run_;  // keeps it alive if it ends below
+    encode();
+    if (wait == Wait::for_good && run->outstanding == open_.size()) run->ending = true;
+    wait_for_pipes(wait, other_descriptor);
+    write();
+    read();
+    if (run_ == run) look_at_clock(wait);
   }
-  if (!run->ending)
-    complain(fmt::format("ended ({}) before it was told to", ending.text()), nullptr);
-  else if (ending.how == Ending::How::still_ran)
-    tell("did not end when its input did, and was killed");
-  else if (!ending.is_good())
-    tell(fmt::format("ended with {} after its last answer", ending.text()));
-  learn_from_run();
-  run_.reset();
-}
 
-// It answered everything. What the run showed is used for the next one.
-void CommandEngine::learn_from_run() {
-  const Run& run = *run_;
-  if (limit_ != kNoLimit) limit_ = limit_ < kWindow ? 2 * limit_ : kNoLimit;
-  if (!run.told_for_silence || manner_ != Manner::unknown || !run.first_answer) return;
-  // It may only be slow to start. It gets that time once; after that silence counts.
-  const double longest = std::max(options_.timeout, options_.start_timeout);
-  first_patience_ = std::max(first_patience_,
-                             std::min(1.5 * Seconds(*run.first_answer - run.started), Seconds(longest / 2)));
-  if (++silent_runs_ < 2) return;
-  manner_ = run.answers_before_end > 0 ? Manner::in_blocks : Manner::at_end;
-}
-
-// It died or fell silent with queries outstanding.
-void CommandEngine::run_failed(const std::string& what) {
-  const std::shared_ptr<Run> run = std::move(run_);
-  end_of(*run, kGrace * 0);
-  const std::size_t unanswered = run->outstanding;
-  if (manner_ != Manner::line_by_line && unanswered > 1) {
-    limit_ = limit_ == kNoLimit ? 1 : unanswered / 2;
-    return complain(fmt::format("{}, or on one of the {} after it; they are asked again, fewer at a time",
-                                what, unanswered - 1),
-                    &open_.front());
+  void start() {
+    run_ = std::make_shared<Run>(command_);
+    run_->greeting = manner_ == Manner::unknown && limit_ == kNoLimit;
   }
-  const std::string all = run->instead.empty() ? what : what + "; before that it " + run->instead;
-  complain(all, &open_.front());
-  open_.front().passed_over = true;
-  Answer answer = Answer::error("cmd " + all);
-  deliver_first(answer, run->instead.empty() ? Origin::fault : Origin::bad_line);
-  if (limit_ != kNoLimit) limit_ = 1;
-  if (++failures_in_row_ < AnswererOptions::kMostFailuresInRow) return;
-  tell(fmt::format("is given up after {} failures in a row without an answer",
-                   AnswererOptions::kMostFailuresInRow));
-  given_up_in_ = recent_.back().scene;
-  give_up();
-}
 
-// The rest is not asked, up to the next scene: the failures may have been due to this one. The next scene
-// gets one more start if the program ever answered.
-void CommandEngine::give_up() {
-  while (!open_.empty()) {
-    if (open_.front().scene != given_up_in_ && ever_answered_) {
-      given_up_in_.reset();
-      failures_in_row_ = AnswererOptions::kMostFailuresInRow - 1;
+  // A program that owes nothing gets time to end by itself. Being too slow for the available time is not a
+  // fault, unless it never gave any answer.
+  void abandon() {
+    const bool owes = run_ && run_->outstanding > 0;
+    if (owes && !ever_answered_)
+      complain_of(&open_.front(), fmt::format("gave no answer in {:.3g} s, which was all the time there is",
+                                              Seconds(Clock::now() - run_->started).count()));
+    if (run_) end_of(*run_, owes ? kGrace * 0 : kGrace);
+    run_.reset();
+    first_number_ += open_.size();
+    open_.clear();
+  }
+
+  // Writes queries as text, up to the number that may be given and the size of a piece.
+  void encode() {
+    Run& run = *run_;
+    const std::size_t most = run.greeting ? 1 : limit_;
+    while (!run.ending && run.outstanding < open_.size() && run.given < most &&
+           run.to_write.size() < kWrittenAtOnce) {
+      const OpenQuery& asked = open_[run.outstanding];
+      if (run.scene != asked.scene) {
+        append_scene_line(run.to_write, *asked.scene);
+        run.scene = asked.scene;
+        run.first_of_scene = first_number_ + run.outstanding;
+      }
+      append_line(run.to_write, std::to_string(first_number_ + run.outstanding), asked);
+      if (run.outstanding == 0) run.last_answer = Clock::now();
+      ++run.outstanding;
+      ++run.given;
+    }
+    if (run.given == limit_) run.ending = true;
+  }
+
+  void wait_for_pipes(Wait wait, int other_descriptor) {
+    Run& run = *run_;
+    if (run.ending && run.to_write.empty()) run.process.close_input();
+    pollfd pipes[4] = {{run.process.output(), POLLIN, 0},
+                       {run.to_write.empty() ? -1 : run.process.input(), POLLOUT, 0},
+                       {run.process.errors(), POLLIN, 0},
+                       {other_descriptor, POLLIN, 0}};
+    double seconds = wait == Wait::no ? 0 : until_next_look(wait).count();
+    if (options_.enough) seconds = std::min(seconds, kBetweenLooks);
+    ::poll(pipes, 4, static_cast<int>(std::clamp(std::ceil(1000 * seconds), 0.0, 1e6)));
+  }
+
+  void write() {
+    Run& run = *run_;
+    if (run.to_write.empty()) return;
+    const auto count = run.process.write(run.to_write);
+    if (!count) {  // it closed its input, but may still answer what it has read
+      run.stopped_reading = run.ending = true;
+      run.to_write.clear();
+    } else if (*count > 0) {
+      run.to_write.erase(0, *count);
+      run.last_move = Clock::now();
+    }
+  }
+
+  void read() {
+    const std::shared_ptr<Run> run = run_;
+    const LineBuffer::Read result = run->lines.read_from(run->process.output());
+    run->process.pass_on_errors();
+    run->at_end = result == LineBuffer::Read::end;
+    if (result == LineBuffer::Read::nothing) return;
+    for (LineReader::Line line; run->lines.next(line);) take_line(line);
+    if (run->at_end) run_is_over();
+  }
+
+  // ---- the clock
+
+  // How long a program may be silent before its input is closed, in case it waits for that.
+  Seconds patience(Wait wait) const {
+    const bool at_once = manner_ == Manner::at_end || (manner_ == Manner::in_blocks && wait == Wait::for_all);
+    if (at_once) return Seconds(0);
+    return run_->greeting ? first_patience_ : patience_;
+  }
+
+  // How long it may be silent before it has failed.
+  Seconds timeout() const {
+    const Seconds ordinary(options_.timeout), first(options_.start_timeout);
+    if (run_->first_answer || first <= ordinary) return ordinary;
+    return ever_answered_ ? std::min(first, ordinary + 2 * slowest_start_) : first;
+  }
+
+  Seconds until_next_look(Wait wait) const {
+    const Run& run = *run_;
+    const auto left = [](Seconds all, Clock::time_point since) -> Seconds {
+      return all - (Clock::now() - since);
+    };
+    if (run.outstanding == 0) return run.ending ? left(kGrace, run.last_move) : timeout();
+    const Seconds until_timeout = left(timeout(), run.last_answer);
+    const bool only_timeout = manner_ == Manner::line_by_line || run.ending || !run.to_write.empty();
+    if (only_timeout && !run.nameless) return until_timeout;
+    return std::min(until_timeout, left(run.nameless ? patience_ : patience(wait), run.last_move));
+  }
+
+  void look_at_clock(Wait wait) {
+    Run& run = *run_;
+    const auto now = Clock::now();
+    const auto silent_for = [&](Seconds time) { return now - run.last_move >= time; };
+    if (run.outstanding == 0) {
+      if (run.ending && silent_for(kGrace)) run_is_over();
       return;
     }
-    Answer answer =
-        Answer::error(fmt::format("cmd was given up after {} failures in a row; this query was not asked",
-                                  AnswererOptions::kMostFailuresInRow));
-    deliver_first(answer, Origin::not_asked);
+    if (run.nameless && silent_for(patience_)) return settle_nameless();
+    if (now - run.last_answer >= timeout())
+      return run_failed(fmt::format("{}gave no answer within {:.4g} s",
+                                    run.stopped_reading ? "closed its input and " : "", timeout().count()));
+    if (manner_ == Manner::line_by_line || run.ending || wait == Wait::no || !run.to_write.empty()) return;
+    // A trickle of new queries does not prevent this.
+    const bool long_since = now - run.last_answer >= timeout() / 2;
+    if (!silent_for(patience(wait)) && !long_since) return;
+    const bool more_to_give = run.outstanding < open_.size();
+    if (run.greeting) run.last_move = now;
+    if (!run.greeting || !more_to_give) run.ending = run.told_for_silence = !more_to_give;
+    run.greeting = false;
   }
-}
 
-void CommandEngine::try_again() {
-  if (!given_up() || is_hopeless()) return;
-  given_up_in_.reset();
-  failures_in_row_ = 0;
-}
+  // ---- what it wrote
 
-void CommandEngine::tell(const std::string& what) const {
-  complaints_.tell(what);
-}
+  // Reports each unknown key once; with --strict it makes the line invalid.
+  void see_unknown_key(const std::string& key) {
+    constexpr std::size_t kMostKeys = 20;
+    if (options_.strict) throw InputError("the key " + json_quoted(key) + " is not known");
+    if (unknown_keys_.size() < kMostKeys && unknown_keys_.insert(key).second)
+      tell(fmt::format("writes the key {}, which no answer has; it is ignored (--strict: an error)",
+                       json_quoted(key)));
+  }
 
-// Reports what went wrong, with a stream that reproduces it.
-void CommandEngine::complain(const std::string& what, const OpenQuery* asked) {
-  failed_ = true;
-  if (!asked) return complaints_.add(what);
-  std::string line;
-  append_line(line, asked->id, *asked);
-  complaints_.add(what, *asked->scene, line);
+  void take_line(const LineReader::Line& line) {
+    Id id;
+    Answer answer;
+    std::size_t components = 0;
+    try {
+      if (take_own_time(line)) return;
+      if (reader_.read_answer_line(line, id, answer, components)) take_answer(id, answer, components);
+    } catch (const InputError& error) {
+      const std::string what = line.too_long ? "wrote a line that is too long for an answer"
+                                             : fmt::format("wrote a line that is not an answer, {} ({})",
+                                                           shown(line.text), error.what());
+      if (run_->outstanding > 0 && number_of(id) == first_number_)
+        answer_first_with_error(what);
+      else
+        take_no_answer(what);
+    }
+  }
+
+  bool take_own_time(const LineReader::Line& line) {
+    const auto time = own_time_in(line.text);
+    if (!time) return false;
+    if (!own_time_) own_time_.emplace();
+    own_time_->seconds += time->seconds;
+    own_time_->queries += time->queries;
+    return true;
+  }
+
+  // Takes a line that answers nothing. The next answer shows whether it stands in the place of an answer.
+  void take_no_answer(const std::string& what) {
+    run_->instead = what;
+    complain_of(run_->outstanding > 0 ? &open_.front() : nullptr, what);
+  }
+
+  void take_answer(const Id& id, Answer& answer, std::size_t components) {
+    Run& run = *run_;
+    if (id == "null" && answer.outcome == Outcome::error && run.outstanding > 0) return take_nameless(answer);
+    const std::uint64_t number = number_of(id);
+    if (number == 0 || number >= first_number_ + run.outstanding)
+      return take_no_answer("gave an answer with an id that no query has, " + shortened(id, 40));
+    if (number < first_number_) return take_unasked(number);
+    if (run.nameless && number > first_number_) settle_nameless();
+    for (; number > first_number_; --run.outstanding)
+      pass_over(run, "gave no answer to this query before that to a later one");
+    if (run.nameless) tell(fmt::format("says of the scene: {}", printable(run.nameless->message)));
+    run.nameless.reset();
+    const std::string flaw = flaw_of_answer(answer, components);
+    if (flaw.empty())
+      answer_first(std::move(answer));
+    else
+      answer_first_with_error(flaw);
+  }
+
+  // An error without an id is for the first query that waits. Directly after a scene line it may be for the
+  // scene.
+  void take_nameless(Answer& answer) {
+    if (run_->nameless) settle_nameless();
+    if (first_number_ == run_->first_of_scene)
+      run_->nameless = std::move(answer);
+    else
+      answer_first(std::move(answer));
+  }
+
+  void settle_nameless() { answer_first(*std::exchange(run_->nameless, std::nullopt)); }
+
+  // Takes an answer to an earlier query, which is settled already.
+  void take_unasked(std::uint64_t number) {
+    const std::uint64_t back = first_number_ - number;
+    const OpenQuery* asked = back <= recent_.size() ? &recent_[recent_.size() - back] : nullptr;
+    const bool late = asked && asked->passed_over;
+    run_->instead = late ? "answered an earlier query, too late" : "answered an earlier query again";
+    complain_of(asked, late ? "answered this query after a later one" : "answered this query again");
+  }
+
+  // The first query gets no answer. `what` says why; what the program wrote instead is added.
+  void pass_over(Run& run, std::string what) {
+    const Origin origin = run.instead.empty() ? Origin::fault : Origin::bad_line;
+    if (!run.instead.empty()) what += "; before that it " + std::exchange(run.instead, {});
+    complain_of(&open_.front(), what);
+    open_.front().passed_over = true;
+    deliver_first({error(what), origin});
+  }
+
+  std::string flaw_of_answer(const Answer& answer, std::size_t components) const {
+    if (answer.outcome != Outcome::hit && answer.outcome != Outcome::inside) return {};
+    const Scene& scene = *open_.front().scene;
+    const bool exists = answer.obstacle.lattice < static_cast<int>(scene.lattices.size());
+    const int needed = Components(scene).of_cells(answer.obstacle.lattice);
+    if (exists && components != static_cast<std::size_t>(needed))
+      return fmt::format("gave a cell of {} components of a lattice of {} vectors", components, needed);
+    if (answer.outcome == Outcome::hit && !answer.time && options_.request.max_time)
+      return "gave a hit without its time, which --max-time needs";
+    return {};
+  }
+
+  void answer_first(Answer answer, Origin origin = Origin::engine) {
+    Run& run = *run_;
+    --run.outstanding;
+    if (!run.ending) ++run.answers_before_end;
+    run.last_answer = run.last_move = Clock::now();
+    if (!run.first_answer) {
+      run.first_answer = run.last_answer;
+      slowest_start_ = std::max(slowest_start_, Seconds(*run.first_answer - run.started));
+    }
+    run.instead.clear();
+    note_answer();
+    if (run.outstanding == 0 && !run.ending) manner_ = Manner::line_by_line;
+    if (manner_ == Manner::line_by_line) run.greeting = false;
+    complete(answer, open_.front().query, *open_.front().scene);
+    deliver_first({std::move(answer), origin});
+  }
+
+  void answer_first_with_error(const std::string& what) {
+    complain_of(&open_.front(), what);
+    answer_first(error(what), Origin::bad_line);
+  }
+
+  void deliver_first(Reply reply) {
+    recent_.push_back(std::move(open_.front()));
+    if (recent_.size() > kRecent) recent_.pop_front();
+    open_.pop_front();
+    ++first_number_;
+    deliver(reply);
+  }
+
+  // ---- its end
+
+  Ending end_of(Run& run, std::chrono::milliseconds grace) {
+    const Ending ending = run.process.end(grace);
+    if (!std::exchange(run.has_ended, true)) spent_ += run.process.processor_seconds();
+    if (std::string words = run.process.take_last_words(); !words.empty()) last_words_ = std::move(words);
+    return ending;
+  }
+
+  // Its output has ended, or its input was closed long ago.
+  void run_is_over() {
+    const std::shared_ptr<Run> run = run_;
+    if (run->nameless) settle_nameless();
+    const Ending ending = end_of(*run, run->at_end ? kGrace : kGrace * 0);
+    if (run->outstanding > 0) {
+      if (ending.how == Ending::How::still_ran)
+        return run_failed("closed its output before this query's answer");
+      if (ending.is_good()) return run_failed("ended (exit 0) without an answer to this query");
+      return run_failed(fmt::format("died ({}) on this query", ending.text()));
+    }
+    if (!run->ending)
+      complain(fmt::format("ended ({}) before it was told to", ending.text()));
+    else if (ending.how == Ending::How::still_ran)
+      tell("did not end when its input did, and was killed");
+    else if (!ending.is_good())
+      tell(fmt::format("ended with {} after its last answer", ending.text()));
+    learn_from_run();
+    run_.reset();
+  }
+
+  // It answered everything. What the run showed is used for the next one.
+  void learn_from_run() {
+    const Run& run = *run_;
+    if (limit_ != kNoLimit) limit_ = limit_ < kWindow ? 2 * limit_ : kNoLimit;
+    if (!run.told_for_silence || manner_ != Manner::unknown) return;
+    // It may only be slow to start. It gets that time once; after that silence counts.
+    const double longest = std::max(options_.timeout, options_.start_timeout);
+    first_patience_ = std::max(
+        first_patience_, std::min(1.5 * Seconds(*run.first_answer - run.started), Seconds(longest / 2)));
+    if (++silent_runs_ < 2) return;
+    manner_ = run.answers_before_end > 0 ? Manner::in_blocks : Manner::at_end;
+  }
+
+  // It died or fell silent with queries outstanding.
+  void run_failed(const std::string& what) {
+    const std::shared_ptr<Run> run = std::move(run_);
+    end_of(*run, kGrace * 0);
+    const std::size_t unanswered = run->outstanding;
+    if (manner_ != Manner::line_by_line && unanswered > 1) {
+      limit_ = limit_ == kNoLimit ? 1 : unanswered / 2;
+      return complain_of(
+          &open_.front(),
+          fmt::format("{}, or on one of the {} after it; they are asked again, fewer at a time", what,
+                      unanswered - 1));
+    }
+    pass_over(*run, what);
+    if (limit_ != kNoLimit) limit_ = 1;
+    if (!note_failure()) return;
+    given_up_in_ = recent_.back().scene;
+    give_up();
+  }
+
+  // The rest is not asked, up to the next scene: the failures may have been due to this one. The next scene
+  // gets one more start if the program ever answered.
+  void give_up() {
+    while (!open_.empty()) {
+      if (open_.front().scene != given_up_in_ && ever_answered_) return allow_one_more_start();
+      deliver_first(not_asked());
+    }
+  }
+
+  // Reports what went wrong, with a stream that reproduces it.
+  void complain_of(const OpenQuery* asked, const std::string& what) {
+    if (!asked) return complain(what);
+    std::string line;
+    append_line(line, asked->id, *asked);
+    complain(what, *asked->scene, line);
+  }
+
+  const std::string command_;
+  ExchangeReader reader_;
+  std::shared_ptr<const Scene> scene_;
+  std::deque<OpenQuery> open_;      // queries without an answer, in order
+  std::uint64_t first_number_ = 1;  // of open_.front(); the program knows the queries by these
+  std::deque<OpenQuery> recent_;    // the last ones before, in case it answers one again or late
+
+  std::shared_ptr<Run> run_;  // null while there is nothing to ask
+  Manner manner_ = Manner::unknown;
+  const Seconds patience_;        // of silence, before the input of a program of unknown manner is closed
+  Seconds first_patience_;        // the same before it answers anything: it may be slow to start
+  Seconds slowest_start_{0};      // until a first answer
+  double spent_ = 0;              // processor seconds of former runs
+  std::string last_words_;        // of former runs
+  int silent_runs_ = 0;           // whose last answers came only after the end of their input
+  std::size_t limit_ = kNoLimit;  // queries for the next run, during the search for the one at fault
+  std::shared_ptr<const Scene> given_up_in_;  // the scene in which it was last given up
+
+  std::set<std::string> unknown_keys_;  // that were reported
+};
+
+}  // namespace
+
+std::unique_ptr<Answerer> command_engine(std::string command, const AnswererOptions& options) {
+  return std::make_unique<CommandEngine>(std::move(command), options);
 }
 
 }  // namespace lorentz::question

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include <lorentz/certified.hpp>
 #include <lorentz/collision.hpp>
@@ -15,6 +14,7 @@
 #include "question/batch_answerer.hpp"
 #include "question/command_engine.hpp"
 #include "question/library_engine.hpp"
+#include "question/library_process.hpp"
 #include "question/precisions/precisions.hpp"
 #include "src/exchange/nearest_name.hpp"
 
@@ -170,9 +170,7 @@ EngineInfo command_named(const std::string& name) {
   if (command.find_first_not_of(" \t\n") == std::string::npos)
     throw InputError("cmd: needs the command that runs the engine behind it");
   EngineInfo engine{name, {}, EngineInfo::Kind::command};
-  engine.answerer = [command](const AnswererOptions& options) {
-    return std::make_unique<CommandEngine>(command, options);
-  };
+  engine.answerer = [command](const AnswererOptions& options) { return command_engine(command, options); };
   engine.introduce = [name, command] {
     return read_of(name, [&] { return introduction_of_command(command); });
   };
@@ -184,9 +182,7 @@ EngineInfo library_named(const std::string& name) {
   if (file.empty()) throw InputError("lib: needs the path of a shared library behind it");
   const std::string claim = claim_line_of_library(file);  // also checks that it can be loaded
   EngineInfo engine{name, {}, EngineInfo::Kind::library};
-  engine.answerer = [file](const AnswererOptions& options) {
-    return std::make_unique<LibraryEngine>(file, options);
-  };
+  engine.answerer = [file](const AnswererOptions& options) { return library_engine(file, options); };
   engine.introduce = [name, claim] { return read_of(name, [&] { return introduction_in(claim); }); };
   return engine;
 }
@@ -226,6 +222,15 @@ std::vector<std::string> names_of(const std::vector<EngineInfo>& engines) {
   std::vector<std::string> names;
   for (const EngineInfo& engine : engines) names.push_back(engine.name);
   return names;
+}
+
+Truth truth_named(const std::string& name, const std::vector<EngineInfo>& judged) {
+  if (index_of_name(name, {"oracle", "certified"}, "--judge") == 0) return Truth::oracle;
+  for (const EngineInfo& engine : judged)
+    if (engine.traits.uses_reduction)
+      throw InputError(fmt::format(
+          "--judge: certified rests on reduction, and cannot judge the engine {}; use oracle", engine.name));
+  return Truth::certified;
 }
 
 EngineInfo guest_engine(std::string name,

@@ -5,7 +5,6 @@
 
 #include "question/answerer.hpp"
 #include "question/question.hpp"
-#include "question/truth.hpp"
 
 namespace lorentz::question {
 

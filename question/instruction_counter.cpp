@@ -1,6 +1,5 @@
 #include "question/instruction_counter.hpp"
 
-#ifdef __linux__
 #include <linux/perf_event.h>
 #include <sys/ioctl.h>
 #include <sys/syscall.h>
@@ -39,19 +38,3 @@ std::optional<std::uint64_t> InstructionCounter::count() const {
 }
 
 }  // namespace lorentz::question
-
-#else
-
-namespace lorentz::question {
-
-InstructionCounter::InstructionCounter() = default;
-InstructionCounter::~InstructionCounter() = default;
-void InstructionCounter::resume() {}
-void InstructionCounter::pause() {}
-std::optional<std::uint64_t> InstructionCounter::count() const {
-  return std::nullopt;
-}
-
-}  // namespace lorentz::question
-
-#endif

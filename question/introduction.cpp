@@ -86,10 +86,6 @@ std::optional<Introduction> introduction_of_command(const std::string& command) 
   return introduction_in(line.text);
 }
 
-std::optional<double> OwnTime::ns_per_query() const {
-  return queries > 0 ? std::optional(1e9 * seconds / queries) : std::nullopt;
-}
-
 std::optional<OwnTime> own_time_in(std::string_view line) {
   OwnTime time;
   const bool is_there = read_first(line, "engine_time", [&](std::string_view key, json::Value value) {

@@ -33,7 +33,10 @@ struct OwnTime {
   double seconds = 0;
   double queries = 0;
 
-  std::optional<double> ns_per_query() const;  ///< nothing if there were no queries
+  /// Nothing if there were no queries.
+  std::optional<double> ns_per_query() const {
+    return queries > 0 ? std::optional(1e9 * seconds / queries) : std::nullopt;
+  }
 };
 
 /// Reads `{"engine_time":{"seconds":..,"queries":..}}`. Returns nothing for another line; throws InputError

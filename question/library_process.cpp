@@ -7,14 +7,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
 #include <lorentz/errors.hpp>
+#include <lorentz/geometry.hpp>
 #include "question/answerer.hpp"
 #include "question/library_host/program_bytes.hpp"
 #include "src/problem/safe_text.hpp"
@@ -26,36 +27,30 @@ constexpr double kLookSeconds = 0.1;  // between checks of the clock and the ans
 constexpr std::chrono::milliseconds kTimeToEnd{1000};
 constexpr std::size_t kBothSizes = sizeof(SharedQueries) + sizeof(SharedAnswers);
 
+FileError no_memory() {
+  return FileError(std::string("no memory for a library: ") + std::strerror(errno));
+}
+
 // A file without a name. Its descriptor lies above those that a child has.
-class NamelessFile {
- public:
-  explicit NamelessFile(const char* name) {
-    const int descriptor = memfd_create(name, MFD_CLOEXEC);
-    descriptor_ = fcntl(descriptor, F_DUPFD_CLOEXEC, 10);
-    if (descriptor_ < 0) throw FileError(std::string("no memory for a library: ") + std::strerror(errno));
-    close(descriptor);
-  }
-  NamelessFile(const NamelessFile&) = delete;
-  NamelessFile& operator=(const NamelessFile&) = delete;
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_ = -1;
-};
-
-int file_of(std::string_view bytes) {
-  const NamelessFile file("lorentz_library_host");
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(file.descriptor(), bytes.data(), bytes.size());
-    if (count <= 0) throw FileError(std::string("no memory for a library: ") + std::strerror(errno));
-    bytes.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return file.descriptor();
+int nameless_file(const char* name) {
+  const int descriptor = memfd_create(name, MFD_CLOEXEC);
+  const int above = fcntl(descriptor, F_DUPFD_CLOEXEC, 10);
+  if (above < 0) throw no_memory();
+  close(descriptor);
+  return above;
 }
 
 // The program that loads libraries, as a file. It exists until this program ends.
 const std::string& host_file() {
-  static const std::string path = fmt::format("/proc/self/fd/{}", file_of(library_host_program()));
+  static const std::string path = [] {
+    const int file = nameless_file("lorentz_library_host");
+    for (std::string_view bytes = library_host_program(); !bytes.empty();) {
+      const ssize_t count = ::write(file, bytes.data(), bytes.size());
+      if (count <= 0) throw no_memory();
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return fmt::format("/proc/self/fd/{}", file);
+  }();
   return path;
 }
 
@@ -64,14 +59,10 @@ std::string path_of(const std::string& file) {
   return file.find('/') == std::string::npos ? "./" + file : file;
 }
 
-template <class Number>
-void append(std::string& bytes, const Number* numbers, std::size_t count) {
-  bytes.append(reinterpret_cast<const char*>(numbers), count * sizeof(Number));
-}
-
-template <class Number>
-void append(std::string& bytes, const std::vector<Number>& numbers) {
-  append(bytes, numbers.data(), numbers.size());
+template <class Numbers>
+void append_all(std::string& bytes, const Numbers& numbers) {
+  bytes.append(reinterpret_cast<const char*>(std::data(numbers)),
+               std::size(numbers) * sizeof *std::data(numbers));
 }
 
 void append(std::vector<double>& numbers, const Vec& vector, int dimension) {
@@ -90,27 +81,22 @@ std::string bytes_of(const Scene& scene, int threads) {
       lattice_of.push_back(number);
       append(positions, atom.position, d);
       radii.push_back(atom.is_ball() ? atom.radius : 0);
-      for (int i = 0; i < d; ++i) {
-        Vec axis{};
-        axis[i] = atom.radius;
-        append(shapes, atom.is_ball() ? axis : atom.semiaxes[i], d);
-      }
+      const std::array<Vec, 3> semiaxes = semiaxes_of(atom, d);
+      for (int i = 0; i < d; ++i) append(shapes, semiaxes[i], d);
     }
   }
   const std::int32_t head[] = {d, static_cast<std::int32_t>(ranks.size()),
                                static_cast<std::int32_t>(radii.size()), threads};
   std::string bytes;
-  append(bytes, head, 4);
-  append(bytes, ranks), append(bytes, vectors), append(bytes, lattice_of);
-  append(bytes, positions), append(bytes, radii), append(bytes, shapes);
+  append_all(bytes, head);
+  append_all(bytes, ranks), append_all(bytes, vectors), append_all(bytes, lattice_of);
+  append_all(bytes, positions), append_all(bytes, radii), append_all(bytes, shapes);
   return bytes;
 }
 
 std::string bytes_of(HostOrder::Kind kind, std::size_t size) {
   const HostOrder order{kind, static_cast<std::int64_t>(size)};
-  std::string bytes;
-  append(bytes, &order, 1);
-  return bytes;
+  return {reinterpret_cast<const char*>(&order), sizeof order};
 }
 
 std::string died(const Ending& ending) {
@@ -122,14 +108,14 @@ std::string died(const Ending& ending) {
 
 // The memory that both processes share.
 struct LibraryProcess::Memory {
-  Memory() : file("lorentz_library_rows") {
-    if (ftruncate(file.descriptor(), kBothSizes) == 0)
-      at = mmap(nullptr, kBothSizes, PROT_READ | PROT_WRITE, MAP_SHARED, file.descriptor(), 0);
-    if (at == MAP_FAILED) throw FileError(std::string("no memory for a library: ") + std::strerror(errno));
+  Memory() {
+    if (ftruncate(file, kBothSizes) == 0)
+      at = mmap(nullptr, kBothSizes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    if (at == MAP_FAILED) throw no_memory();
   }
-  ~Memory() { close(file.descriptor()); }
+  ~Memory() { close(file); }
 
-  const NamelessFile file;
+  const int file = nameless_file("lorentz_library_rows");
   void* at = MAP_FAILED;
 };
 
@@ -138,8 +124,8 @@ LibraryProcess::LibraryProcess(const std::string& file) : LibraryProcess(file, M
 LibraryProcess::LibraryProcess(const std::string& file, const Memory& memory)
     : queries_(static_cast<SharedQueries*>(memory.at)),
       answers_(reinterpret_cast<SharedAnswers*>(static_cast<char*>(memory.at) + sizeof(SharedQueries))),
-      process_(Executable{
-          "lib:" + file, host_file(), {"lorentz_library_host", path_of(file)}, memory.file.descriptor()}) {}
+      process_(Executable{"lib:" + file, host_file(), {"lorentz_library_host", path_of(file)}, memory.file}) {
+}
 
 LibraryProcess::~LibraryProcess() {
   munmap(queries_, kBothSizes);

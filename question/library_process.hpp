@@ -1,7 +1,6 @@
 // A shared library with the interface of <lorentz/engine.h>, loaded in a process of its own.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <string>

@@ -18,6 +18,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <thread>
 
 #include <lorentz/errors.hpp>
@@ -66,19 +67,13 @@ bool LineBuffer::next(LineReader::Line& line) {
 }
 
 std::string Ending::text() const {
-  switch (how) {
-    case How::exited:
-      // The status by which the shell reports how its command ended.
-      if (code == 127) return "exit 127, no such command";
-      if (code > 128 && code <= 128 + SIGRTMAX)
-        return fmt::format("exit {}, signal {}, {}", code, code - 128, strsignal(code - 128));
-      return fmt::format("exit {}", code);
-    case How::signalled:
-      return fmt::format("signal {}, {}", code, strsignal(code));
-    case How::still_ran:
-      break;
-  }
-  return "still running";
+  if (how == How::still_ran) return "still running";
+  if (how == How::signalled) return fmt::format("signal {}, {}", code, strsignal(code));
+  // The status by which the shell reports how its command ended.
+  if (code == 127) return "exit 127, no such command";
+  if (code > 128 && code <= 128 + SIGRTMAX)
+    return fmt::format("exit {}, signal {}, {}", code, code - 128, strsignal(code - 128));
+  return fmt::format("exit {}", code);
 }
 
 namespace {
@@ -92,15 +87,6 @@ void replace_group(pid_t old_group, pid_t new_group) {
     if (slot.compare_exchange_strong(expected, new_group)) return;
   }
 }
-
-}  // namespace
-
-void kill_programs() {
-  for (const auto& slot : live_groups)
-    if (const pid_t group = slot.load()) kill(-group, SIGKILL);
-}
-
-namespace {
 
 // A program in a group of its own does not get the terminal's Ctrl-C. Therefore these signals first kill the
 // groups, and then do here what they would have done. `former` is what they did before: their default, or a
@@ -121,16 +107,15 @@ bool ends_the_program(const struct sigaction& action) {
 }
 
 void handle_signals_once() {
-  static const bool done = [] {
+  static std::once_flag once;
+  std::call_once(once, [] {
     for (std::size_t i = 0; i < kEndings.size(); ++i) {
       struct sigaction ours {};
       if (sigaction(kEndings[i], nullptr, &former[i]) != 0 || !ends_the_program(former[i])) continue;
       ours.sa_handler = kill_groups_and_die;
       sigaction(kEndings[i], &ours, nullptr);
     }
-    return true;
-  }();
-  (void)done;
+  });
 }
 
 // The descriptors lie above those of standard input, output and error, even if this program was started
@@ -197,6 +182,11 @@ int spawn(const Executable& program, const Pipe& in, const Pipe& out, const Pipe
 }
 
 }  // namespace
+
+void kill_programs() {
+  for (const auto& slot : live_groups)
+    if (const pid_t group = slot.load()) kill(-group, SIGKILL);
+}
 
 Process::Process(const std::string& command)
     : Process(Executable{"cmd:" + command, "/bin/sh", {"sh", "-c", command}}) {}

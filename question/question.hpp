@@ -15,7 +15,7 @@
 #include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/verdict.hpp>
-#include "question/truth.hpp"
+#include "question/engines.hpp"
 
 namespace lorentz::question {
 

@@ -25,6 +25,19 @@ struct Round {
   std::optional<double> processor_ns = {};
 
   double ns_per_query() const { return asked ? total_ns / static_cast<double>(asked) : 0; }
+
+  // Calls ask(begin, end), which returns the nanoseconds that it took, for blocks of `count` questions until
+  // it is enough.
+  template <class Ask>
+  void time_blocks(std::size_t count, std::size_t block, const Ask& ask) {
+    for (std::size_t begin = 0; begin < count && total_ns < 1e9 * kEnoughSeconds; begin += block) {
+      const std::size_t length = std::min(block, count - begin);
+      const double ns = ask(begin, begin + length);
+      total_ns += ns;
+      asked += length;
+      block_means.push_back(ns / static_cast<double>(length));
+    }
+  }
 };
 
 double ns_since(SteadyClock::time_point start) {
@@ -46,9 +59,7 @@ Round run_round(Questions questions, const std::vector<const FirstHit*>& first_h
   const oracle::Request request;
   InstructionCounter instructions;
   double spent = 0;
-  for (std::size_t begin = 0; begin < questions.size() && round.total_ns < 1e9 * kEnoughSeconds;
-       begin += kBlock) {
-    const std::size_t end = std::min(begin + kBlock, questions.size());
+  round.time_blocks(questions.size(), kBlock, [&](std::size_t begin, std::size_t end) {
     instructions.resume();
     spent -= thread_ns();
     const auto start = SteadyClock::now();
@@ -57,11 +68,9 @@ Round run_round(Questions questions, const std::vector<const FirstHit*>& first_h
     const double ns = ns_since(start);
     spent += thread_ns();
     instructions.pause();
-    round.total_ns += ns;
-    round.asked = end;
-    round.block_means.push_back(ns / static_cast<double>(end - begin));
     report(listener, name, end, questions.size());
-  }
+    return ns;
+  });
   round.instructions = instructions.count();
   round.processor_ns = spent;
   return round;
@@ -94,22 +103,27 @@ Round run_round(const std::deque<ColumnsThere>& all, const std::string& name, co
   FlightTable flights;
   InstructionCounter instructions;
   for (const ColumnsThere& there : all)
-    for (std::size_t begin = 0; begin < there.queries.size() && round.total_ns < 1e9 * kEnoughSeconds;
-         begin += kTogether) {
-      const std::size_t length = std::min(kTogether, there.queries.size() - begin);
-      const QueryColumns queries = there.queries.columns().part(begin, length);
+    round.time_blocks(there.queries.size(), kTogether, [&](std::size_t begin, std::size_t end) {
+      const QueryColumns queries = there.queries.columns().part(begin, end - begin);
       instructions.resume();
       const auto start = SteadyClock::now();
       there.engine.fly(queries, flights);
       const double ns = ns_since(start);
       instructions.pause();
-      round.total_ns += ns;
-      round.asked += length;
-      round.block_means.push_back(ns / static_cast<double>(length));
-    }
+      return ns;
+    });
   report(listener, name, round.asked, round.asked);
   round.instructions = instructions.count();
   return round;
+}
+
+// `place` is that of the question before, and becomes that of the last.
+void ask(Questions questions, Answerer& program, const Place*& place) {
+  for (const Question& question : questions) {
+    if (question.place.get() != place) program.set_scene((place = question.place.get())->scene());
+    program.ask(question.id, question.query);
+  }
+  program.drain();
 }
 
 // A library, timed by its own calls. It needs few of them for a part.
@@ -117,20 +131,11 @@ Round run_round_by_own_time(Questions questions, Answerer& program) {
   constexpr std::size_t kPart = 256;
   Round round;
   const Place* place = nullptr;
-  for (std::size_t begin = 0; begin < questions.size() && round.total_ns < 1e9 * kEnoughSeconds;
-       begin += kPart) {
-    const Questions block = questions.subspan(begin, std::min(kPart, questions.size() - begin));
+  round.time_blocks(questions.size(), kPart, [&](std::size_t begin, std::size_t end) {
     const double before = program.own_time()->seconds;
-    for (const Question& question : block) {
-      if (question.place.get() != place) program.set_scene((place = question.place.get())->scene());
-      program.ask(question.id, question.query);
-    }
-    program.drain();
-    const double ns = 1e9 * (program.own_time()->seconds - before);
-    round.total_ns += ns;
-    round.asked += block.size();
-    round.block_means.push_back(ns / static_cast<double>(block.size()));
-  }
+    ask(questions.subspan(begin, end - begin), program, place);
+    return 1e9 * (program.own_time()->seconds - before);
+  });
   return round;
 }
 
@@ -141,11 +146,7 @@ Round run_round(Questions questions, Answerer& program, const std::string& name,
   const std::optional<double> spent = program.processor_seconds();
   const auto start = SteadyClock::now();
   const Place* place = nullptr;
-  for (const Question& question : questions) {
-    if (question.place.get() != place) program.set_scene((place = question.place.get())->scene());
-    program.ask(question.id, question.query);
-  }
-  program.drain();
+  ask(questions, program, place);
   const double ns = ns_since(start);
   Round round{ns, questions.size(), {ns / static_cast<double>(std::max<std::size_t>(answered, 1))}};
   if (spent) round.processor_ns = 1e9 * (*program.processor_seconds() - *spent);
@@ -158,21 +159,14 @@ class Entrant {
   Entrant(Questions questions, const EngineInfo& engine, Answerer* running, const RaceOptions& options)
       : questions_(questions),
         name_(engine.name),
-        listener_(options.listener),
+        listener_(options.answerer.listener),
         is_library_(engine.kind == EngineInfo::Kind::library) {
     if (engine.is_own() && engine.traits.in_bulk) {
       columns_ = columns_of(questions, engine);
       return;
     }
     if (!engine.is_own()) {
-      if (!running)
-        own_ = engine.answerer({{},
-                                options.timeout,
-                                options.listener,
-                                options.strict,
-                                1,
-                                options.start_timeout,
-                                options.enough});
+      if (!running) own_ = engine.answerer(options.answerer);
       program_ = running ? running : own_.get();
       return;
     }
@@ -198,8 +192,7 @@ class Entrant {
     speed.failed = failed();
     if (own_ && own_->own_time()) speed.own_ns = own_->own_time()->ns_per_query();
     if (questions_.empty() || rounds_.empty()) return speed;
-    std::sort(rounds_.begin(), rounds_.end(),
-              [](const Round& a, const Round& b) { return a.ns_per_query() < b.ns_per_query(); });
+    std::ranges::sort(rounds_, {}, &Round::ns_per_query);
     const Round& middle = rounds_[rounds_.size() / 2];
     speed.ns_per_query = middle.ns_per_query();
     if (middle.processor_ns && middle.asked)

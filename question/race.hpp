@@ -9,11 +9,7 @@ namespace lorentz::question {
 
 struct RaceOptions {
   int rounds = 5;
-  double timeout = AnswererOptions::kDefaultTimeout;  ///< for an external engine
-  Listener listener = {};
-  bool strict = false;                   ///< for an external engine: AnswererOptions::strict
-  double start_timeout = 0;              ///< AnswererOptions::start_timeout
-  std::function<bool()> enough = {};     ///< AnswererOptions::enough
+  AnswererOptions answerer = {};         ///< the listener also gets the progress
   std::vector<std::size_t> counts = {};  ///< how many questions each engine is asked; empty: all
   /// For each engine an answerer that runs already; race() does not end it. A new one is made if the list is
   /// empty or the pointer null.

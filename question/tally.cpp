@@ -7,31 +7,18 @@
 
 namespace lorentz::question {
 
+namespace {
+
+// In the order of oracle::Verdict.
+constexpr std::size_t Tally::*kCounts[] = {&Tally::agree,     &Tally::ill_posed,   &Tally::wrong,
+                                           &Tally::undecided, &Tally::unsupported, &Tally::error,
+                                           &Tally::missing};
+
+}  // namespace
+
 void Tally::count(const oracle::Judgement& judgement) {
   ++queries;
-  switch (judgement.verdict) {
-    case oracle::Verdict::agree:
-      ++agree;
-      break;
-    case oracle::Verdict::ill_posed:
-      ++ill_posed;
-      break;
-    case oracle::Verdict::wrong:
-      ++wrong;
-      break;
-    case oracle::Verdict::undecided:
-      ++undecided;
-      break;
-    case oracle::Verdict::unsupported:
-      ++unsupported;
-      break;
-    case oracle::Verdict::error:
-      ++error;
-      break;
-    case oracle::Verdict::missing:
-      ++missing;
-      break;
-  }
+  ++(this->*kCounts[static_cast<int>(judgement.verdict)]);
   if (judgement.wrong_time) {
     ++wrong_time;
     other_quantity += judgement.other_quantity;
@@ -52,17 +39,12 @@ double quantile(std::vector<double> values, double share) {
 }
 
 void Tally::add(const Tally& other) {
-  for (const auto count : {&Tally::queries, &Tally::agree, &Tally::ill_posed, &Tally::wrong,
-                           &Tally::undecided, &Tally::unsupported, &Tally::error, &Tally::missing,
-                           &Tally::wrong_time, &Tally::other_quantity, &Tally::timed_hits})
+  for (const auto count : kCounts) this->*count += other.*count;
+  for (const auto count : {&Tally::queries, &Tally::wrong_time, &Tally::other_quantity, &Tally::timed_hits})
     this->*count += other.*count;
   failed |= other.failed;
   for (const auto errors : {&Tally::ulps, &Tally::wrong_ulps, &Tally::wrong_conditions})
     (this->*errors).insert((this->*errors).end(), (other.*errors).begin(), (other.*errors).end());
-}
-
-double Tally::ulp_at(double share) const {
-  return quantile(ulps, share);
 }
 
 double Tally::mean_ulp() const {

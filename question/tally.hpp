@@ -40,9 +40,8 @@ struct Tally {
   Speed speed;
 
   void count(const oracle::Judgement& judgement);
-  void add(const Tally& other);       ///< adds counts and errors, but not name and speed
-  double ulp_at(double share) const;  ///< the error that this share of the hits does not exceed
-  double mean_ulp() const;            ///< 0 if there are none, like max_ulp()
+  void add(const Tally& other);  ///< adds counts and errors, but not name and speed
+  double mean_ulp() const;       ///< 0 if there are none, like max_ulp()
   double max_ulp() const;
 };
 

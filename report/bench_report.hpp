@@ -1,14 +1,27 @@
 // The output of `lorentz bench`: a table and conclusions for people, CSV, and the report as JSON.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <lorentz/claim.hpp>
 #include "report/cell.hpp"
-#include "report/power_fit.hpp"
 
 namespace lorentz::report {
+
+/// How a time grows with a size: the exponent of a power law, by least squares in logarithms.
+struct PowerFit {
+  double exponent = 0;
+  double low = 0, high = 0;  ///< 95 % interval by Student's t, for points that scatter about the power law
+  double from = 0, to = 0;   ///< the smallest and the largest x
+};
+
+/// The exponent of y ~ x^exponent. Points are pairs (x, y), both finite and above zero; throws
+/// std::invalid_argument otherwise. Nothing for fewer than three points, which give no interval, or if all x
+/// are equal.
+std::optional<PowerFit> power_fit(const std::vector<std::pair<double, double>>& points);
 
 /// The median time of an engine as a power of the radius, in one scene and at one difficulty.
 struct BenchFit {

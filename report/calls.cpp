@@ -8,36 +8,29 @@
 namespace lorentz::report {
 namespace {
 
-std::size_t* place_of(Call& call, oracle::Verdict verdict) {
-  switch (verdict) {
-    case oracle::Verdict::agree:
-      return &call.right;
-    case oracle::Verdict::ill_posed:
-      return &call.ill_posed;
-    case oracle::Verdict::wrong:
-      return &call.wrong;
-    case oracle::Verdict::undecided:
-      return &call.undecided;
-    default:
-      return nullptr;
-  }
-}
+// The verdicts that are counted, and where.
+constexpr std::pair<oracle::Verdict, std::size_t Call::*> kCounts[] = {
+    {oracle::Verdict::agree, &Call::right},
+    {oracle::Verdict::ill_posed, &Call::ill_posed},
+    {oracle::Verdict::wrong, &Call::wrong},
+    {oracle::Verdict::undecided, &Call::undecided}};
 
 }  // namespace
 
 void Calls::add(std::optional<double> size, oracle::Verdict verdict, std::optional<double> radii_off) {
   const double its = std::fabs(size.value_or(0));
-  Call none;
-  if (!(its > 0) || !std::isfinite(its) || !place_of(none, verdict)) return;
-  Call& call = by_decade_[static_cast<int>(std::floor(std::log10(its)))];
-  ++*place_of(call, verdict);
-  call.radii_off = std::max(call.radii_off, radii_off.value_or(0));
+  if (!(its > 0) || !std::isfinite(its)) return;
+  for (const auto& [counted, count] : kCounts)
+    if (counted == verdict) {
+      Call call{.radii_off = radii_off.value_or(0)};
+      call.*count = 1;
+      add(static_cast<int>(std::floor(std::log10(its))), call);
+    }
 }
 
 void Calls::add(int decade, const Call& call) {
   Call& its = by_decade_[decade];
-  for (const auto part : {&Call::right, &Call::ill_posed, &Call::wrong, &Call::undecided})
-    its.*part += call.*part;
+  for (const auto& [verdict, count] : kCounts) its.*count += call.*count;
   its.radii_off = std::max(its.radii_off, call.radii_off);
 }
 
@@ -58,10 +51,8 @@ Calls calls_of(json::Array array) {
   json::each_element(array, [&](json::Value element) {
     json::Object one = element.object();
     const int decade = static_cast<int>(one["decade"].integer());
-    Call call{one["right"].natural(), one["ill_posed"].natural(), one["wrong"].natural(),
-              one["undecided"].natural()};
-    call.radii_off = read_number(one["radii_off"], "radii_off");
-    calls.add(decade, call);
+    calls.add(decade, {one["right"].natural(), one["ill_posed"].natural(), one["wrong"].natural(),
+                       one["undecided"].natural(), read_number(one["radii_off"], "radii_off")});
   });
   return calls;
 }

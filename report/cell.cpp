@@ -1,11 +1,37 @@
 #include "report/cell.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
+#include <stdexcept>
 
 #include "src/exchange/exchange_json.hpp"
 #include "src/exchange/json_writer.hpp"
 
 namespace lorentz::report {
+
+Histogram histogram_of(const std::vector<double>& errors) {
+  Histogram histogram;
+  if (errors.empty()) return histogram;
+  for (const double error : errors) {
+    if (!(error >= 0) || std::isinf(error)) throw std::invalid_argument("histogram_of: no error");
+    histogram.mean += error / static_cast<double>(errors.size());
+  }
+  std::vector<double> sorted = errors;
+  std::sort(sorted.begin(), sorted.end());
+  histogram.max = sorted.back();
+  // The smallest error that 99 % of all do not exceed.
+  histogram.p99 = sorted[static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(sorted.size()))) - 1];
+  const std::span<const double> inexact(std::upper_bound(sorted.begin(), sorted.end(), 0.0), sorted.end());
+  histogram.exact = sorted.size() - inexact.size();
+  if (inexact.empty()) return histogram;
+  histogram.first = std::ilogb(inexact.front());
+  histogram.counts.resize(static_cast<std::size_t>(std::ilogb(histogram.max) - histogram.first) + 1);
+  for (const double error : inexact)
+    ++histogram.counts[static_cast<std::size_t>(std::ilogb(error) - histogram.first)];
+  return histogram;
+}
+
 namespace {
 
 void add_times(json::Members& object, const CellTimes& ns) {
@@ -15,6 +41,13 @@ void add_times(json::Members& object, const CellTimes& ns) {
 void add_worst(json::Members& object, const Worst& worst) {
   object.add("verdict", worst.verdict, "ulps", worst.ulps, "query", json::Raw{worst.query}, "command",
              worst.command);
+}
+
+auto members_of(const Histogram& its) {
+  return [&its](json::Members& object) {
+    object.add("exact", its.exact, "first", its.first, "counts", its.counts, "mean", its.mean, "p99", its.p99,
+               "max", its.max);
+  };
 }
 
 }  // namespace
@@ -33,8 +66,8 @@ void append_json(std::string& out, const Cell& cell) {
                measured(cell.mean_path), "undecided", measured(cell.undecided), "ill_posed",
                measured(cell.ill_posed), "wrong", measured(cell.wrong), "wrong_time",
                measured(cell.wrong_time), "error", measured(cell.error), "missing", measured(cell.missing),
-               "ulps", measured(cell.ulps), "conditions", measured(cell.conditions), "calls",
-               measured(cell.calls), "worst",
+               "ulps", measured(members_of(cell.ulps)), "conditions", measured(members_of(cell.conditions)),
+               "calls", measured(cell.calls), "worst",
                cell.worst && !cell.skipped
                    ? std::optional([&](json::Members& worst) { add_worst(worst, *cell.worst); })
                    : std::nullopt);
@@ -47,19 +80,13 @@ std::string text(json::Value value) {
   return std::string(value.text());
 }
 
-// Reads what append_number wrote.
-double number(json::Value value) {
-  if (value.type() == json::Type::string && value.text() == "inf") return HUGE_VAL;
-  return read_number(value, "a number");
+double number(json::Object& object, const char* key) {
+  return read_number_or_infinity(object[key], "a number");
 }
 
 std::optional<double> number_or_null(json::Value value) {
   if (value.is_null()) return std::nullopt;
-  return number(value);
-}
-
-double number(json::Object& object, const char* key) {
-  return number(object[key]);
+  return read_number_or_infinity(value, "a number");
 }
 
 std::size_t count(json::Object& object, const char* key) {
@@ -67,20 +94,11 @@ std::size_t count(json::Object& object, const char* key) {
 }
 
 Share share(json::Object object) {
-  Share share;
-  share.count = count(object, "count");
-  share.low = number(object, "low");
-  share.high = number(object, "high");
-  return share;
+  return {count(object, "count"), number(object, "low"), number(object, "high")};
 }
 
 CellTimes times(json::Object object) {
-  CellTimes ns;
-  ns.median = number(object, "median");
-  ns.q1 = number(object, "q1");
-  ns.q3 = number(object, "q3");
-  ns.mean = number(object, "mean");
-  return ns;
+  return {number(object, "median"), number(object, "q1"), number(object, "q3"), number(object, "mean")};
 }
 
 Histogram histogram(json::Object object) {
@@ -96,12 +114,8 @@ Histogram histogram(json::Object object) {
 }
 
 Worst worst(json::Object object) {
-  Worst worst;
-  worst.verdict = text(object["verdict"]);
-  worst.ulps = number_or_null(object["ulps"]);
-  worst.query = std::string(object["query"].object().text());
-  worst.command = text(object["command"]);
-  return worst;
+  return {text(object["verdict"]), number_or_null(object["ulps"]),
+          std::string(object["query"].object().text()), text(object["command"])};
 }
 
 void read_measured(json::Object& object, Cell& cell) {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "report/calls.hpp"
-#include "report/histogram.hpp"
 #include "report/share.hpp"
 
 namespace lorentz::report {
@@ -19,6 +19,19 @@ struct CellTimes {
 
   friend bool operator==(const CellTimes&, const CellTimes&) = default;
 };
+
+/// Errors over many powers of two, counted in bins of a factor of two.
+struct Histogram {
+  std::size_t exact = 0;              ///< errors of zero
+  int first = 0;                      ///< counts[i] errors are in [2^(first + i), 2^(first + i + 1))
+  std::vector<std::size_t> counts;    ///< neither the first nor the last is zero
+  double mean = 0, p99 = 0, max = 0;  ///< of all errors, including zeros; 0 if there are none
+
+  friend bool operator==(const Histogram&, const Histogram&) = default;
+};
+
+/// The errors must be finite and not below zero; throws std::invalid_argument otherwise.
+Histogram histogram_of(const std::vector<double>& errors);
 
 /// The input with an engine's worst answer: wrong before ill-posed before the right obstacle with the largest
 /// error of its time.

@@ -2,9 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <lorentz/exchange.hpp>
+#include "files/messages.hpp"
 #include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::report {
+
+std::string scene_line(const Scene& scene) {
+  std::string line;
+  append_scene_line(line, scene);
+  line.pop_back();
+  return line;
+}
 
 std::vector<std::string> hexadecimal(const Vec& a, int dimension) {
   std::vector<std::string> texts;
@@ -17,6 +26,26 @@ std::string hexadecimal_query(const Query& query, const Components& count) {
     object.add("x", hexadecimal(query.x, count.of_vectors()), "v", hexadecimal(query.v, count.of_vectors()));
     if (query.from) object.add("from", [&](json::Members& from) { add_obstacle(from, *query.from, count); });
   });
+}
+
+std::string query_members(const Query& query, const Components& count) {
+  const std::string object = report::hexadecimal_query(query, count);
+  return object.substr(1, object.size() - 2);
+}
+
+std::string printed(const Scene& scene, const std::string& query_members, std::size_t times) {
+  const std::string first = fmt::format("printf '%s\\n' {}", shell_quoted(scene_line(scene))),
+                    query = shell_quoted(json::text_of(
+                        [&](json::Members&line) { line.add("id", 1).add_members(query_members); }));
+  return times == 1 ? fmt::format("{} {}", first, query)
+                    : fmt::format("{{ {}; yes {} | head -n {}; }}", first, query, times);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+    lines.push_back(text.substr(begin, end - begin));
+  return lines;
 }
 
 }  // namespace lorentz::report

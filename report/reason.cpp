@@ -13,16 +13,15 @@ bool names_obstacle(const Answer& answer) {
   return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
 }
 
-Dispute about_start(const oracle::Approach& approach, const ObstacleId& obstacle, const std::string& name) {
+Dispute about_start(const oracle::Approach& approach, const std::string& name) {
   const char* side = approach.start_gap < 0 ? "inside" : "outside of";
-  return {obstacle, approach.start_gap,
+  return {approach.start_gap,
           fmt::format("x lies {} {} by {:.6g} of its radii", side, name, std::fabs(approach.start_gap))};
 }
 
-Dispute about_line(const oracle::Approach& approach, const ObstacleId& obstacle, const std::string& name,
-                   const char* then) {
+Dispute about_line(const oracle::Approach& approach, const std::string& name, const char* then) {
   const char* does = approach.gap < 0 ? "meets" : "misses";
-  return {obstacle, approach.gap,
+  return {approach.gap,
           fmt::format("the line {} {} by {:.6g} of its radii{}", does, name, std::fabs(approach.gap), then)};
 }
 
@@ -63,11 +62,10 @@ namespace {
 std::optional<Dispute> about_named(const oracle::Approach& approach, const Answer& given,
                                    const std::string& name) {
   if (given.outcome == Outcome::inside)
-    return approach.start_gap >= 0 ? std::optional(about_start(approach, given.obstacle, name))
-                                   : std::nullopt;
+    return approach.start_gap >= 0 ? std::optional(about_start(approach, name)) : std::nullopt;
   if (approach.start_gap >= 0 && !approach.ahead)
-    return Dispute{given.obstacle, approach.start_gap, name + " lies behind the start"};
-  return approach.gap >= 0 ? std::optional(about_line(approach, given.obstacle, name, "")) : std::nullopt;
+    return Dispute{approach.start_gap, name + " lies behind the start"};
+  return approach.gap >= 0 ? std::optional(about_line(approach, name, "")) : std::nullopt;
 }
 
 }  // namespace
@@ -85,11 +83,10 @@ std::optional<Dispute> dispute_of(const oracle::Margins& margins, const Scene& s
   const ObstacleId& obstacle = decisive ? *decisive : exact.obstacle;
   const oracle::Approach approach = margins.approach(query, obstacle);
   const std::string name = name_of(obstacle, scene);
-  if (exact.outcome == Outcome::inside && approach.start_gap < 0)
-    return about_start(approach, obstacle, name);
+  if (exact.outcome == Outcome::inside && approach.start_gap < 0) return about_start(approach, name);
   const bool later = given.outcome == Outcome::hit;
   const char* before = obstacle == exact.obstacle ? ", and enters it first" : ", and enters it earlier";
-  return about_line(approach, obstacle, name, later ? before : "");
+  return about_line(approach, name, later ? before : "");
 }
 
 std::optional<ObstacleId> decisive_of(const Scene& scene, const Query& query, const Answer& exact,

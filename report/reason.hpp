@@ -20,9 +20,8 @@ std::string decision_text(const oracle::HardestDecision& decision, const Compone
 
 /// The disagreement with an answer that names another obstacle or outcome than the exact one.
 struct Dispute {
-  ObstacleId obstacle;  ///< the one in question: named though the line misses it, or passed over
-  /// By how many of its radii the line misses it, or (below 0) meets it. If the start is in question: by how
-  /// many x lies outside or inside it.
+  /// By how many of its radii the line misses the obstacle in question (named though it is missed, or passed
+  /// over), or (below 0) meets it. If the start is in question: by how many x lies outside or inside it.
   double radii = 0;
   std::string text;  ///< a sentence
 };

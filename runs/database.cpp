@@ -10,8 +10,6 @@
 #include <sstream>
 #include <vector>
 
-#include "runs/sqlite.hpp"
-
 namespace lorentz::runs {
 namespace {
 

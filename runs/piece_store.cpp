@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <lorentz/exchange.hpp>
-#include "runs/check.hpp"
 
 namespace lorentz::runs {
 namespace {

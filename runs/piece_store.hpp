@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,15 @@ using Plan = std::vector<std::pair<std::string, std::string>>;
 
 /// Reads one piece. If it throws InputError, the message is extended by file and piece.
 using ReadPiece = std::function<void(const std::string& piece)>;
+
+inline constexpr std::uint64_t kCheckOfNothing = 0xcbf29ce484222325;
+
+/// FNV-1a in 64 bits, of a text that follows one whose check is `before`. A change of a single byte is always
+/// detected, because each step is one-to-one.
+constexpr std::uint64_t check_of(std::string_view text, std::uint64_t before = kCheckOfNothing) {
+  for (const char c : text) before = (before ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return before;
+}
 
 /// The remedy for a file that cannot be trusted.
 inline constexpr const char* kRemedy =

@@ -3,6 +3,7 @@
 
 #include <sqlite3.h>
 
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -79,23 +80,16 @@ class Statement {
   Statement& operator=(const Statement&) = delete;
 
   Statement& bind(std::string_view text) {
-    check(sqlite3_bind_text(handle_, ++bound_, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
-    return *this;
+    return bound(
+        sqlite3_bind_text(handle_, ++bound_, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
   }
-  Statement& bind(std::int64_t n) {
-    check(sqlite3_bind_int64(handle_, ++bound_, n));
-    return *this;
+  template <std::integral T>
+  Statement& bind(T n) {
+    return bound(sqlite3_bind_int64(handle_, ++bound_, static_cast<std::int64_t>(n)));
   }
-  Statement& bind(std::uint64_t n) { return bind(static_cast<std::int64_t>(n)); }
-  Statement& bind(int n) { return bind(static_cast<std::int64_t>(n)); }
-  Statement& bind(double x) {
-    check(sqlite3_bind_double(handle_, ++bound_, x));
-    return *this;
-  }
+  Statement& bind(double x) { return bound(sqlite3_bind_double(handle_, ++bound_, x)); }
   Statement& bind(const std::optional<double>& x) {
-    if (x) return bind(*x);
-    check(sqlite3_bind_null(handle_, ++bound_));
-    return *this;
+    return x ? bind(*x) : bound(sqlite3_bind_null(handle_, ++bound_));
   }
 
   /// True while there are rows.
@@ -134,8 +128,9 @@ class Statement {
   }
 
  private:
-  void check(int status) {
+  Statement& bound(int status) {
     if (status != SQLITE_OK) connection_.fail();
+    return *this;
   }
   int next(int type) {
     if (sqlite3_column_type(handle_, column_) != type) refuse("is of another type");

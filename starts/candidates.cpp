@@ -32,7 +32,40 @@ bool in_range(const Scene& scene, const cases::Box& box) {
   return size + largest < 0x1p1000;
 }
 
+// The relative surface of each atom, lattice by lattice: per volume, or per period of each lattice if the
+// lattices repeat in fewer directions. Empty if the values are beyond the range of binary64.
+std::vector<double> surfaces_of(const Scene& scene) {
+  std::vector<double> surfaces;
+  if (!is_crystal(scene)) {
+    for_each_atom(scene, [&](const Atom& atom) { surfaces.push_back(surface_of(atom, scene.dimension)); });
+  } else if (const auto shares = shares_of(scene)) {
+    for (const AtomShares::AtomShare& share : shares->atoms) surfaces.push_back(share.surface);
+  }
+  return surfaces;
+}
+
 }  // namespace
+
+void StartColumns::resize(std::size_t count, int dimension, bool with_from) {
+  const std::size_t from_count = with_from ? count : 0;
+  for (int i = 0; i < 3; ++i) {
+    const bool used = i < dimension;
+    x[i].resize(used ? count : 0);
+    v[i].resize(used ? count : 0);
+    from_cell[i].resize(used ? from_count : 0);
+  }
+  from_lattice.resize(from_count);
+  from_atom.resize(from_count);
+}
+
+QueryColumns StartColumns::view() const {
+  QueryColumns columns;
+  for (int i = 0; i < 3; ++i) columns.x[i] = x[i], columns.v[i] = v[i];
+  if (from_lattice.empty()) return columns;
+  columns.from_lattice = from_lattice, columns.from_atom = from_atom;
+  for (int i = 0; i < 3; ++i) columns.from_cell[i] = from_cell[i];
+  return columns;
+}
 
 std::string nowhere_to_start(std::uint64_t draws) {
   return "no free start in " + std::to_string(draws) +
@@ -49,22 +82,6 @@ Candidates::Candidates(const Scene& scene, Ensemble ensemble, std::uint64_t seed
         "the scene's numbers are too large for starts to be drawn; choose a larger unit of length");
   if (ensemble == Ensemble::surface) choose_by_surface(scene);
 }
-
-namespace {
-
-// The relative surface of each atom, lattice by lattice: per volume, or per period of each lattice if the
-// lattices repeat in fewer directions. Empty if the values are beyond the range of binary64.
-std::vector<double> surfaces_of(const Scene& scene) {
-  std::vector<double> surfaces;
-  if (!is_crystal(scene)) {
-    for_each_atom(scene, [&](const Atom& atom) { surfaces.push_back(surface_of(atom, scene.dimension)); });
-  } else if (const auto shares = shares_of(scene)) {
-    for (const AtomShares::AtomShare& share : shares->atoms) surfaces.push_back(share.surface);
-  }
-  return surfaces;
-}
-
-}  // namespace
 
 // One random word chooses the obstacle. Each obstacle gets its share of the words, in steps of 2^-40 of the
 // largest share, because the last bits of elliptic integrals differ between machines.

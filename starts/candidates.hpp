@@ -1,20 +1,38 @@
 // Drawn starts of free flights: the position, the direction, and the obstacle that the particle leaves.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include <lorentz/batch.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 #include "cases/box.hpp"
-#include "starts/start_columns.hpp"
 #include "starts/surface.hpp"
 #include "statistics/theory/ensemble.hpp"
 
 namespace lorentz::starts {
 
 using flights::Ensemble;
+
+/// Starts of flights in columns, one per component, as in QueryColumns. In 2D the third columns are empty.
+struct StartColumns {
+  std::array<std::vector<double>, 3> x, v;
+
+  /// The obstacle that each flight leaves. Empty if no flight leaves one.
+  std::vector<std::int32_t> from_lattice, from_atom;
+  std::array<std::vector<std::int64_t>, 3> from_cell;
+
+  std::size_t size() const { return x[0].size(); }
+
+  /// Makes room for `count` starts. Memory stays allocated.
+  void resize(std::size_t count, int dimension, bool with_from);
+
+  /// A view of the columns. It is valid until the next change of their size.
+  QueryColumns view() const;
+};
 
 /// Numbered candidates for starts. Start `index` depends only on the scene, the ensemble, the box, the seed
 /// and the index, so that any number of threads, shards and machines draws the same starts, to the bit.
@@ -53,7 +71,6 @@ class Candidates {
   void draw(std::uint64_t index, std::uint64_t attempt, StartColumns& starts, std::size_t place) const;
 
   int dimension() const { return box_.dimension; }
-  Ensemble ensemble() const { return ensemble_; }
 
  private:
   struct Start {

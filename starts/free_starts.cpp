@@ -1,13 +1,11 @@
 #include "starts/free_starts.hpp"
 
-#include <lorentz/certified.hpp>
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
-#include "cases/hard_moves.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/integer_vectors.hpp"
 #include "cases/ulps.hpp"
 #include "src/exchange/nearest_name.hpp"
-#include "starts/candidates.hpp"
 #include "starts/surface.hpp"
 
 namespace lorentz::starts {
@@ -49,70 +47,54 @@ Vec near_rational_direction(Random& random, const Scene& scene, NumberFormat for
 
 }  // namespace
 
-struct FreeStarts::Inside {
-  Inside(const Scene& of, Kind what, std::uint64_t number, NumberFormat its_format)
-      : scene(of),
-        kind(what),
-        seed(number),
-        format(its_format),
-        candidates(of, what == Kind::surface ? flights::Ensemble::surface : flights::Ensemble::uniform,
-                   number),
-        oracle(of),
-        certified(of) {}
-
-  bool is_free(const Query& start) const {
-    oracle::Request at_once;
-    at_once.max_time = 0;
-    return certified.first_hit(start, at_once).outcome != Outcome::inside;
-  }
-
-  // Returns true if the candidate could be made into a start of the kind.
-  bool make(Random& random, Query& start) const {
-    if (kind == Kind::grazing && !is_crystal(scene)) aim(random, start);
-    if (kind == Kind::grazing)
-      return cases::move_to_edge(random.sign() * random.octave(1 - bits_of(format), -10), scene, oracle,
-                                 start);
-    if (!is_free(start)) return false;
-    if (kind == Kind::near_rational) start.v = near_rational_direction(random, scene, format);
-    return true;
-  }
-
-  // Returns true if the start is valid after rounding, too.
-  bool round(Query& start) const {
-    if (format == NumberFormat::binary64) return true;
-    start = rounded(start, format);
-    return !flaw_of(start, scene) && is_free(start);
-  }
-
-  // Aims at an obstacle of cell 0, because few lines meet an obstacle if most of space is empty.
-  void aim(Random& random, Query& start) const {
-    const Lattice& lattice = scene.lattices[random.below(scene.lattices.size())];
-    const Atom& atom = lattice.atoms[random.below(lattice.atoms.size())];
-    const Vec aside = Surface(atom, scene.dimension).point(random).offset;
-    const Vec aim = plus(sum(atom.position, scaled(aside, random.uniform())), -1, start.x);
-    if (aim != Vec{}) start.v = aim;
-  }
-
-  Scene scene;
-  Kind kind;
-  std::uint64_t seed;
-  NumberFormat format;
-  Candidates candidates;
-  oracle::Oracle oracle;
-  oracle::Certified certified;
-};
-
 FreeStarts::FreeStarts(const Scene& scene, Kind kind, std::uint64_t seed, NumberFormat format)
-    : inside_(std::make_unique<const Inside>(scene, kind, seed, format)) {}
-FreeStarts::~FreeStarts() = default;
-FreeStarts::FreeStarts(FreeStarts&&) noexcept = default;
+    : scene_(scene),
+      kind_(kind),
+      seed_(seed),
+      format_(format),
+      candidates_(scene, kind == Kind::surface ? flights::Ensemble::surface : flights::Ensemble::uniform,
+                  seed),
+      oracle_(scene),
+      certified_(scene) {}
+
+bool FreeStarts::is_free(const Query& start) const {
+  oracle::Request at_once;
+  at_once.max_time = 0;
+  return certified_.first_hit(start, at_once).outcome != Outcome::inside;
+}
+
+// Aims at an obstacle of cell 0, because few lines meet an obstacle if most of space is empty.
+void FreeStarts::aim(Random& random, Query& start) const {
+  const Lattice& lattice = scene_.lattices[random.below(scene_.lattices.size())];
+  const Atom& atom = lattice.atoms[random.below(lattice.atoms.size())];
+  const Vec aside = Surface(atom, scene_.dimension).point(random).offset;
+  const Vec aim = plus(sum(atom.position, scaled(aside, random.uniform())), -1, start.x);
+  if (aim != Vec{}) start.v = aim;
+}
+
+bool FreeStarts::make(Random& random, Query& start) const {
+  if (kind_ == Kind::grazing) {
+    if (!is_crystal(scene_)) aim(random, start);
+    const auto off_edge = [&] { return random.sign() * random.octave(1 - bits_of(format_), -10); };
+    return cases::move_to_edge(off_edge, scene_, oracle_, start);
+  }
+  if (!is_free(start)) return false;
+  if (kind_ == Kind::near_rational) start.v = near_rational_direction(random, scene_, format_);
+  return true;
+}
+
+bool FreeStarts::round(Query& start) const {
+  if (format_ == NumberFormat::binary64) return true;
+  start = rounded(start, format_);
+  return !flaw_of(start, scene_) && is_free(start);
+}
 
 void FreeStarts::draw(std::uint64_t index, Query& start) const {
   constexpr Series kHard("hard starts");
   for (std::uint64_t attempt = 0; attempt < Candidates::kMostAttempts; ++attempt) {
-    Random random(inside_->seed, kHard, index, cases::Use::cases, attempt);
-    inside_->candidates.draw(index, attempt, start);
-    if (inside_->make(random, start) && inside_->round(start)) return;
+    Random random(seed_, kHard, index, cases::Use::cases, attempt);
+    candidates_.draw(index, attempt, start);
+    if (make(random, start) && round(start)) return;
   }
   throw InputError(nowhere_to_start(Candidates::kMostAttempts));
 }

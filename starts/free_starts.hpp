@@ -2,14 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
+#include <lorentz/certified.hpp>
 #include <lorentz/claim.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
-#include "statistics/theory/ensemble.hpp"
+#include "starts/candidates.hpp"
 
 namespace lorentz::starts {
 
@@ -45,8 +45,6 @@ class FreeStarts {
   /// For a scene without flaws (flaw_of) and with independent vectors (oracle::dependence_in). Throws
   /// InputError as Candidates does. Starts consist of numbers of the format; the scene must, too.
   FreeStarts(const Scene& scene, Kind kind, std::uint64_t seed, NumberFormat format = NumberFormat::binary64);
-  ~FreeStarts();
-  FreeStarts(FreeStarts&&) noexcept;
 
   /// Start number `index`, which depends only on scene, kind, seed and index. It lies in no open obstacle
   /// except `from`; this is decided exactly. Throws InputError if Candidates::kMostAttempts candidates give
@@ -62,8 +60,20 @@ class FreeStarts {
   std::vector<Query> some(std::uint64_t first, std::size_t count) const;
 
  private:
-  struct Inside;
-  std::unique_ptr<const Inside> inside_;
+  bool is_free(const Query& start) const;
+  void aim(cases::Random& random, Query& start) const;
+  /// True if the candidate could be made into a start of the kind.
+  bool make(cases::Random& random, Query& start) const;
+  /// True if the start is valid after rounding, too.
+  bool round(Query& start) const;
+
+  Scene scene_;
+  Kind kind_;
+  std::uint64_t seed_;
+  NumberFormat format_;
+  Candidates candidates_;
+  oracle::Oracle oracle_;
+  oracle::Certified certified_;
 };
 
 /// The first `count` starts of a scene.

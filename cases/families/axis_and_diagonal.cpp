@@ -7,10 +7,9 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
@@ -18,16 +17,14 @@ namespace {
 
 void set_direction(Source& source, int dimension, Case& made) {
   Random& random = source.random;
-  const bool is_wide = source.precision == NumberFormat::binary64;
+  const bool is_wide = source.is_wide();
   const double smallest = is_wide ? 0x1p-1074 : 0x1p-149;
   Vec& v = made.query.v;
-  const bool axis = random.one_in(3);
-  const IntVec g = drawn_primitive(random, dimension, random.one_in(2) ? 1 : 6);
-  for (int i = 0; i < dimension; ++i) v[i] = static_cast<double>(g[i]);
-  const auto kept = static_cast<int>(random.below(static_cast<std::uint64_t>(dimension)));
+  const bool axis = tagged(made.tags, random.one_in(3), "axis", "small-integers");
+  v = to_vec(drawn_primitive(random, dimension, random.one_in(2) ? 1 : 6));
+  const int kept = random.axis(dimension);
   if (axis)
     for (int i = 0; i < dimension; ++i) v[i] = i == kept ? random.sign() : 0.0;
-  made.tags.push_back(axis ? "axis" : "small-integers");
   bool minus_zero = false, tiny = false;
   for (int i = 0; i < dimension; ++i) {
     if (v[i] != 0) continue;
@@ -39,47 +36,38 @@ void set_direction(Source& source, int dimension, Case& made) {
                                                : random.octave(-126, -30)),
       tiny = true;
   }
-  if (minus_zero) made.tags.push_back("minus-zero");
-  if (tiny) made.tags.push_back("tiny-component");
-  if (tiny || !random.one_in(3)) return;
-  const bool huge = random.one_in(2);
-  made.tags.push_back(huge ? "huge-velocity" : "subnormal-velocity");
+  tagged(made.tags, minus_zero, "minus-zero");
+  if (tagged(made.tags, tiny, "tiny-component") || !random.one_in(3)) return;
+  const bool huge = tagged(made.tags, random.one_in(2), "huge-velocity", "subnormal-velocity");
   const double factor = !huge ? smallest : is_wide ? random.octave(900, 1020) : random.octave(100, 120);
   for (int i = 0; i < dimension; ++i)
-    if (v[i] != 0) v[i] *= huge ? factor : factor * static_cast<double>(random.integer(1, 4096));
+    if (v[i] != 0) v[i] *= huge ? factor : factor * random.whole(1, 4096);
 }
 
 // A multiple of 1/2 or 1/8 in a cell near or far; in one case in four moved by up to 2 ulps.
 void set_axis_start(Source& source, int dimension, const Lattice& lattice, Case& made) {
   Random& random = source.random;
-  const bool is_wide = source.precision == NumberFormat::binary64;
+  const bool is_wide = source.is_wide();
   Vec& x = made.query.x;
-  const bool far = random.one_in(4);
+  const bool far = tagged(made.tags, random.one_in(4), "far-cell");
   const std::int64_t range =
       far ? std::int64_t{1} << (is_wide ? random.integer(20, 56) : random.integer(8, 26)) : 50;
   const double grid = random.one_in(2) ? 2 : 8;
   for (int i = 0; i < dimension; ++i) {
-    const double share = static_cast<double>(random.integer(0, static_cast<std::int64_t>(grid)));
-    const double coordinate = static_cast<double>(random.integer(-range, range)) + share / grid;
-    x = sum(x, scaled(lattice.vectors[i], coordinate));
+    const double share = random.whole(0, static_cast<std::int64_t>(grid));
+    x = plus(x, random.whole(-range, range) + share / grid, lattice.vectors[i]);
   }
-  if (far) made.tags.push_back("far-cell");
-  if (random.one_in(4)) {
-    made.tags.push_back("ulps-off");
-    jitter(random, x, dimension, 2, source.precision);
-  }
+  if (tagged(made.tags, random.one_in(4), "ulps-off")) jitter(random, x, dimension, 2, source.precision);
 }
 
-Case make_axis(Source& source) {
+void make_axis(Source& source, Case& made) {
   static constexpr double kRadii[] = {0.5, 0.25, 0.125, 0.3125, 0.1, 0.01, 0x1p-20};
-  Case made;
   Random& drawn = source.scene;
   const int dimension = drawn.one_in(2) ? 3 : 2;
   made.scene = drawn.one_in(3) ? drawn_crystal(drawn, dimension).scene : unit_scene(dimension, 1);
   set_radius(made.scene, kRadii[drawn.below(7)]);
   set_axis_start(source, dimension, made.scene.lattices[0], made);
   set_direction(source, dimension, made);
-  return made;
 }
 
 }  // namespace

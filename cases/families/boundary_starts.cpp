@@ -10,11 +10,9 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
-#include "cases/symmetry.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
@@ -30,10 +28,7 @@ IntVec circle_point(Random& random, std::int64_t w) {
 
 // Rows and columns of a quaternion's rotation matrix have the length of its norm.
 IntVec sphere_point(Random& random, const std::array<std::int64_t, 4>& quaternion) {
-  const auto [a, b, c, d] = quaternion;
-  const IntVec rows[] = {{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)},
-                         {2 * (b * c - a * d), a * a - b * b + c * c - d * d, 2 * (c * d + a * b)},
-                         {2 * (b * d + a * c), 2 * (c * d - a * b), a * a - b * b - c * c + d * d}};
+  const auto rows = std::apply(rotation_of, quaternion);
   const std::uint64_t i = random.below(6);
   return i < 3 ? rows[i] : IntVec{rows[0][i - 3], rows[1][i - 3], rows[2][i - 3]};
 }
@@ -44,46 +39,29 @@ Vec drawn_velocity(Source& source, const Vec& n, int dimension, std::vector<std:
   Vec tangent = cross(n, dimension == 2 ? Vec{0, 0, 1} : to_vec(drawn_primitive(random, 3, 5)));
   if (tangent == Vec{}) tangent = cross(n, n[0] == 0 ? Vec{1, 0, 0} : Vec{-n[1], n[0], 1});  // n was drawn
   const double side = random.sign();
-  switch (random.below(4)) {
-    case 0:
-      tags.push_back("inwards");
-      return sum(scaled(n, -1), scaled(tangent, random.between(-2, 2)));
-    case 1:
-      tags.push_back("outwards");
-      return sum(n, scaled(tangent, random.between(-2, 2)));
-    case 2:
-      tags.push_back("tangential");
-      return scaled(tangent, side);
-    default:
-      tags.push_back("nearly-tangential");
-      return sum(scaled(tangent, side),
-                 scaled(n, random.octave(-bits_of(source.precision), -4) * random.sign()));
-  }
+  const std::string_view way =
+      drawn_tag(random, tags, {"inwards", "outwards", "tangential", "nearly-tangential"});
+  if (way == "inwards") return plus(scaled(n, -1), random.between(-2, 2), tangent);
+  if (way == "outwards") return plus(n, random.between(-2, 2), tangent);
+  const Vec along = scaled(tangent, side);
+  if (way == "tangential") return along;
+  return plus(along, random.octave(-bits_of(source.precision), -4) * random.sign(), n);
 }
 
 // Draws `from`, or leaves it empty; `own` is the obstacle that x is on.
 void set_from(Random& random, const ObstacleId& own, const Vec& n, int dimension, Case& made) {
-  switch (random.below(6)) {
-    case 0:
-    case 1:
-      made.tags.push_back("leaving");
-      made.query.from = own;
-      break;
-    case 2:
-      made.tags.front() = "from-around-x";  // instead of the tag of x's distance from the surface
-      made.query.from = own;
-      made.query.x = sum(made.query.x, scaled(n, -random.between(0, 1)));
-      break;
-    case 3: {
-      made.tags.push_back("from-elsewhere");
-      ObstacleId other = own;
-      const std::int64_t far = random.one_in(2) ? 2 : std::int64_t{1} << random.integer(20, 60);
-      for (int i = 0; i < dimension; ++i) other.cell[i] = Integer(random.integer(-far, far));
-      made.query.from = other;
-      break;
-    }
-    default:
-      break;
+  const std::uint64_t kind = random.below(6);
+  if (kind < 2) {
+    made.tags.push_back("leaving");
+    made.query.from = own;
+  } else if (kind == 2) {
+    made.tags.front() = "from-around-x";  // instead of the tag of x's distance from the surface
+    made.query.from = own;
+    made.query.x = plus(made.query.x, -random.between(0, 1), n);
+  } else if (kind == 3) {
+    made.tags.push_back("from-elsewhere");
+    const std::int64_t far = random.one_in(2) ? 2 : std::int64_t{1} << random.integer(20, 60);
+    made.query.from = obstacle(drawn_integers(random, dimension, far), own.atom);
   }
 }
 
@@ -92,15 +70,22 @@ void set_start(Source& source, const Vec& centre, const Vec& n, int dimension, b
   Random& random = source.random;
   made.query.x = sum(centre, n);
   const bool off = random.one_in(2);
-  made.tags.push_back(exact && !off ? "on-surface" : "near-surface");
-  if (off)
-    for (int i = 0; i < dimension; ++i)
-      if (random.one_in(2)) made.query.x[i] = moved(made.query.x[i], random.integer(-4, 4), source.precision);
+  tagged(made.tags, exact && !off, "on-surface", "near-surface");
+  for (int i = 0; off && i < dimension; ++i)
+    if (random.one_in(2)) made.query.x[i] = moved(made.query.x[i], random.integer(-4, 4), source.precision);
 }
 
-Case make_exact(Source& source) {
+// A flight from the obstacle `own` around `centre`; n is a radius of it.
+void set_flight(Source& source, const ObstacleId& own, const Vec& centre, const Vec& n, bool exact,
+                Case& made) {
+  const int dimension = made.scene.dimension;
+  set_start(source, centre, n, dimension, exact, made);
+  made.query.v = drawn_velocity(source, n, dimension, made.tags);
+  set_from(source.random, own, n, dimension, made);
+}
+
+void make_exact(Source& source, Case& made) {
   static constexpr std::int64_t kRich[] = {65, 85, 325, 425, 1105, 5525};
-  Case made;
   Random &drawn = source.scene, &random = source.random;
   const int dimension = drawn.one_in(2) ? 3 : 2;
   std::array<std::int64_t, 4> quaternion{1, 1, 1, 0};
@@ -110,60 +95,44 @@ Case make_exact(Source& source) {
     w = 0;
     for (const std::int64_t component : quaternion) w += component * component;
   }
-  const int exponent = std::ilogb(static_cast<double>(w)) +
-                       static_cast<int>(drawn.integer(3, source.precision == NumberFormat::binary64 ? 9 : 7));
+  const int exponent = std::ilogb(static_cast<double>(w)) + drawn.exponent(3, source.is_wide() ? 9 : 7);
   made.scene = unit_scene(dimension, std::ldexp(static_cast<double>(w), -exponent));
   const IntVec point = dimension == 2 ? circle_point(random, w) : sphere_point(random, quaternion);
   const Symmetry symmetry(random, dimension);
   const Vec n = scaled(symmetry(to_vec(point)), std::ldexp(1, -exponent));
-  ObstacleId own;
-  Vec centre{};
-  for (int i = 0; i < dimension; ++i) {
-    const std::int64_t cell = random.integer(-9, 9);
-    own.cell[i] = Integer(cell);
-    centre[i] = static_cast<double>(cell);
-  }
-  set_start(source, centre, n, dimension, true, made);
-  made.query.v = drawn_velocity(source, n, dimension, made.tags);
-  set_from(random, own, n, dimension, made);
-  return made;
+  const IntVec cell = drawn_integers(random, dimension, 9);
+  set_flight(source, obstacle(cell), to_vec(cell), n, true, made);
 }
 
-Case make_rounded(Source& source) {
-  Case made;
+void make_rounded(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   made.scene = drawn_crystal(drawn, drawn.one_in(2) ? 3 : 2).scene;
   scale_obstacles(made.scene, drawn.one_in(2) ? 1 : drawn.octave(-14, 0));
   const Lattice& lattice = made.scene.lattices[0];
-  ObstacleId own;
-  own.atom = static_cast<int>(random.below(lattice.atoms.size()));
-  IntVec cell{};
-  for (int i = 0; i < made.scene.dimension; ++i)
-    cell[i] = random.integer(-3, 3), own.cell[i] = Integer(cell[i]);
-  const Vec centre = sum(lattice.atoms[own.atom].position, cartesian(lattice, cell)),
-            n = scaled(random.direction(made.scene.dimension), lattice.atoms[own.atom].radius);
-  set_start(source, centre, n, made.scene.dimension, false, made);
-  made.query.v = drawn_velocity(source, n, made.scene.dimension, made.tags);
-  set_from(random, own, n, made.scene.dimension, made);
-  return made;
+  const auto which = static_cast<int>(random.below(lattice.atoms.size()));
+  const Atom& atom = lattice.atoms[which];
+  const IntVec cell = drawn_integers(random, made.scene.dimension, 3);
+  const Vec n = scaled(random.direction(made.scene.dimension), atom.radius);
+  set_flight(source, obstacle(cell, which), sum(atom.position, cartesian(lattice, cell)), n, false, made);
 }
 
 }  // namespace
 
 Family boundary_starts() {
-  return {"boundary-starts",
-          "Starts on an obstacle's surface, exactly or within ulps; with and without `from`.",
-          {{"on-surface", "exactly on the surface, which belongs to no open obstacle"},
-           {"near-surface", "within ulps of it: inside or outside, and the time 0 or tiny"},
-           {"inwards", "hits at once, at t = 0 if it starts on the surface"},
-           {"outwards", "does not hit the obstacle that it starts on"},
-           {"tangential", "touches, which is no hit"},
-           {"nearly-tangential", "a slope of 2^-4 to 2^-53 against the tangent: a chord of any shortness",
-            "a slope of 2^-4 to 2^-24 against the tangent: a chord of any shortness"},
-           {"leaving", "`from` is the obstacle that x is on"},
-           {"from-around-x", "`from` contains x, and is ignored all the same"},
-           {"from-elsewhere", "`from` is another obstacle, near or 2^60 cells away"}},
-          [](Source& source) { return source.scene.one_in(3) ? make_rounded(source) : make_exact(source); }};
+  return {
+      "boundary-starts",
+      "Starts on an obstacle's surface, exactly or within ulps; with and without `from`.",
+      {{"on-surface", "exactly on the surface, which belongs to no open obstacle"},
+       {"near-surface", "within ulps of it: inside or outside, and the time 0 or tiny"},
+       {"inwards", "hits at once, at t = 0 if it starts on the surface"},
+       {"outwards", "does not hit the obstacle that it starts on"},
+       {"tangential", "touches, which is no hit"},
+       {"nearly-tangential", "a slope of 2^-4 to 2^-53 against the tangent: a chord of any shortness",
+        "a slope of 2^-4 to 2^-24 against the tangent: a chord of any shortness"},
+       {"leaving", "`from` is the obstacle that x is on"},
+       {"from-around-x", "`from` contains x, and is ignored all the same"},
+       {"from-elsewhere", "`from` is another obstacle, near or 2^60 cells away"}},
+      [](Source& source, Case& made) { (source.scene.one_in(3) ? make_rounded : make_exact)(source, made); }};
 }
 
 }  // namespace lorentz::cases

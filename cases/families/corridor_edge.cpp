@@ -9,12 +9,9 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/corridor.hpp"
-#include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
-#include "cases/symmetry.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
@@ -46,14 +43,12 @@ bool on_grid(double r, NumberFormat precision) {
 // length.
 void set_corridor_direction(Source& source, Vec v, int dimension, Case& made) {
   Random& random = source.random;
-  const int most = source.precision == NumberFormat::binary64 ? 1000 : 30;
-  const double factor = static_cast<double>(random.integer(1, most)) * random.sign();
+  const int most = source.is_wide() ? 1000 : 30;
+  const double factor = random.whole(1, most) * random.sign();
   for (int i = 0; i < dimension; ++i) v[i] = v[i] == 0 ? 0.0 : v[i] * factor;
-  made.tags.push_back("along");
-  if (random.one_in(2)) {
-    made.tags.back() = "off-axis";
-    const int i = static_cast<int>(random.below(static_cast<std::uint64_t>(dimension)));
-    const double ulps = static_cast<double>(random.integer(1, 4)) * random.sign();
+  if (tagged(made.tags, random.one_in(2), "off-axis", "along")) {
+    const int i = random.axis(dimension);
+    const double ulps = random.whole(1, 4) * random.sign();
     v[i] = v[i] == 0 ? std::ldexp(ulps * length(v), 1 - bits_of(source.precision))
                      : moved(v[i], static_cast<std::int64_t>(ulps), source.precision);
   }
@@ -64,16 +59,15 @@ void set_corridor_direction(Source& source, Vec v, int dimension, Case& made) {
 void move_off_edge(Source& source, bool exact, int dimension, Case& made) {
   Random& random = source.random;
   const bool off = random.below(3) > 0;
-  made.tags.push_back(exact && !off ? "on-edge" : "near-edge");
+  tagged(made.tags, exact && !off, "on-edge", "near-edge");
   if (!off) return;
-  const int i = static_cast<int>(random.below(static_cast<std::uint64_t>(dimension)));
+  const int i = random.axis(dimension);
   double& component = made.query.x[i];
-  component = component == 0 ? std::ldexp(static_cast<double>(drawn_ulps(random)), -bits_of(source.precision))
-                             : moved(component, drawn_ulps(random), source.precision);
+  component =
+      nudged(component, drawn_ulps(random), std::ldexp(1, -bits_of(source.precision)), source.precision);
 }
 
-Case make_square(Source& source) {
-  Case made;
+void make_square(Source& source, Case& made) {
   const bool axis = source.scene.one_in(3);
   const Squared triple = drawn_triple(source.scene, source.scene.one_in(2) ? 3 : 9);
   const IntVec g = axis ? IntVec{1, 0, 0} : triple.v;
@@ -89,11 +83,9 @@ Case make_square(Source& source) {
   made.query.x = symmetry(*x);
   set_corridor_direction(source, symmetry(to_vec(g)), 2, made);
   move_off_edge(source, on_grid(r, source.precision), 2, made);
-  return made;
 }
 
-Case make_lattice(Source& source) {
-  Case made;
+void make_lattice(Source& source, Case& made) {
   made.scene = source.scene.one_in(3) ? unit_scene(2, 1) : drawn_crystal(source.scene, 2).scene;
   const Lattice& lattice = made.scene.lattices[0];
   const IntVec g = drawn_primitive(source.scene, 2, 5), u = bezout(g);
@@ -105,15 +97,13 @@ Case make_lattice(Source& source) {
                      scaled(cartesian(lattice, {-u[1], u[0], 0}), height * random.sign()));
   set_corridor_direction(source, cartesian(lattice, g), 2, made);
   move_off_edge(source, false, 2, made);
-  return made;
 }
 
-Case make_planar(Source& source) {
+void make_planar(Source& source, Case& made) {
   static constexpr struct {
     IntVec n;
     int length;
   } kNormals[] = {{{1, 0, 0}, 1}, {{0, 3, 4}, 5}, {{1, 2, 2}, 3}, {{2, 3, 6}, 7}, {{1, 4, 8}, 9}};
-  Case made;
   made.tags.push_back("planar-channel");
   const auto& [n, w] = kNormals[source.scene.below(5)];
   const auto [g1, g2] = across_of(n);
@@ -121,7 +111,7 @@ Case make_planar(Source& source) {
   made.scene = unit_scene(3, r);
   // n . x = r |n| exactly: x = s_1 g_1 + s_2 g_2 + r |n| u with n . u = 1, all on the grid.
   Random& random = source.random;
-  const int grid = edge_grid(source.precision), bits = source.precision == NumberFormat::binary64 ? 20 : 12;
+  const int grid = edge_grid(source.precision), bits = source.is_wide() ? 20 : 12;
   const std::int64_t s1 = random.integer(-(1l << grid), 1l << grid),
                      s2 = random.integer(-(1l << grid), 1l << grid),
                      off = static_cast<std::int64_t>(std::ldexp(r, grid)) * w;
@@ -136,7 +126,6 @@ Case make_planar(Source& source) {
   made.query.x = symmetry(x);
   set_corridor_direction(source, symmetry(v), 3, made);
   move_off_edge(source, on_grid(r, source.precision), 3, made);
-  return made;
 }
 
 }  // namespace
@@ -152,15 +141,9 @@ Family corridor_edge() {
             "v a few ulps off the axis: the corridor is left after some 10^6 cells"},
            {"closing", "the radius is within 2^10 ulps of half the corridor's width"},
            {"planar-channel", "the same beside lattice planes, in space"}},
-          [](Source& source) {
-            switch (source.scene.below(4)) {
-              case 0:
-                return make_planar(source);
-              case 1:
-                return make_lattice(source);
-              default:
-                return make_square(source);
-            }
+          [](Source& source, Case& made) {
+            const std::uint64_t kind = source.scene.below(4);
+            (kind == 0 ? make_planar : kind == 1 ? make_lattice : make_square)(source, made);
           }};
 }
 

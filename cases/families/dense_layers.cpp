@@ -7,11 +7,19 @@
 // else.
 //
 // Starts are a few spacings above the wall, so that a walk from cell to cell can get there, too.
+//
+// dense-rows: layers far apart, made of dense rows at right angles to the flight, which comes down to a layer
+// at a small slope. Obstacles are about r / 80 apart within a row, rows are 1 apart, and layers are far
+// enough apart for a free path of about a thousand rows. The layer's section of the cylinder begins at a tip;
+// at the distance s from it, it is sqrt(2 r slope s) wide, which soon exceeds the spacing of the obstacles.
+// So the first row after the tip is the one that is hit, and the search has to find it in a stretch of many
+// rows. A search that takes the stretch in parts, short ones first, must leave no gap between them.
 #include <algorithm>
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {
@@ -57,10 +65,8 @@ void coarsen(Scene& scene, double s) {
 
 Layers drawn_dense_layers(Random& drawn, Case& made) {
   Layers layers{};
-  const bool rods = drawn.one_in(4);
-  made.tags.push_back(rods ? "rods" : "walls");
-  layers.coarse = drawn.one_in(3);
-  if (layers.coarse) made.tags.push_back("coarse");
+  const bool rods = tagged(made.tags, drawn.one_in(4), "rods", "walls");
+  layers.coarse = tagged(made.tags, drawn.one_in(3), "coarse");
   const bool usual = !drawn.one_in(4);  // the cost of a walk grows with the square
   layers.s =
       layers.coarse ? (usual ? 0.125 : 0.0625) : 1 / (usual ? drawn.between(8, 14) : drawn.between(5, 24));
@@ -77,8 +83,8 @@ Scene layered_scene(Random& drawn, const Layers& layers, Case& made) {
                      Vec{layers.s * drawn.between(-1, 1), layers.other * skew, layers.period}};
   const bool ellipsoids = !drawn.one_in(3);
   const std::int64_t atoms = drawn.integer(ellipsoids ? 2 : 1, 3);
-  made.tags.push_back(atoms == 1 ? "one-atom" : "several-atoms");
-  if (ellipsoids) made.tags.push_back("ellipsoids");
+  tagged(made.tags, atoms == 1, "one-atom", "several-atoms");
+  tagged(made.tags, ellipsoids, "ellipsoids");
   const std::int64_t first = drawn.one_in(4) ? 0 : 1;  // then every other one
   for (std::int64_t n = 0; n < atoms; ++n)
     lattice.atoms.push_back(drawn_atom(drawn, layers, ellipsoids && n % 2 == first));
@@ -88,58 +94,56 @@ Scene layered_scene(Random& drawn, const Layers& layers, Case& made) {
 
 // A velocity down onto the wall: at any slope, steeply, straight down, or with small integers.
 Vec layered_velocity(Random& random, Case& made) {
-  switch (random.below(8)) {
-    case 0:
-      made.tags.push_back("straight");
-      return {0, 0, -1};
-    case 1:
-      made.tags.push_back("steep");
-      return {random.octave(-40, -2) * random.sign(), random.octave(-40, -2) * random.sign(), -1};
-    case 2:
-    case 3:
-      made.tags.push_back("few-bits");
-      return {static_cast<double>(random.integer(-8, 8)), static_cast<double>(random.integer(-8, 8)),
-              static_cast<double>(random.integer(-8, -1))};
-    default: {
-      made.tags.push_back("any-slope");
-      Vec v = random.direction(3);
-      v[2] = -std::max(std::fabs(v[2]) * random.octave(-3, 0), 0.0625);
-      return v;
-    }
-  }
+  const std::string_view kind = drawn_tag(
+      random, made.tags,
+      {"straight", "steep", "few-bits", "few-bits", "any-slope", "any-slope", "any-slope", "any-slope"});
+  if (kind == "straight") return {0, 0, -1};
+  if (kind == "steep")
+    return {random.octave(-40, -2) * random.sign(), random.octave(-40, -2) * random.sign(), -1};
+  if (kind == "few-bits") return {random.whole(-8, 8), random.whole(-8, 8), random.whole(-8, -1)};
+  Vec v = random.direction(3);
+  v[2] = -std::max(std::fabs(v[2]) * random.octave(-3, 0), 0.0625);
+  return v;
 }
 
 // A start on top of the first obstacle, up to rounding; the flight goes to the next layer.
 void leave_layer(Random& random, const Layers& layers, Case& made) {
   const Atom& atom = made.scene.lattices[0].atoms[0];
   made.tags.push_back("leaving");
-  made.query.x = atom.position;
-  if (atom.is_ball())
-    made.query.x[2] += atom.radius;
-  else
-    made.query.x = sum(made.query.x, atom.semiaxes[2]);
+  made.query.x = sum(atom.position, semiaxes_of(atom, 3)[2]);
   made.query.v[2] = -made.query.v[2];
   made.query.from = ObstacleId{};
-  if (!random.one_in(3)) return;
-  made.query.x[2] += layers.s * random.uniform();
+  if (random.one_in(3)) made.query.x[2] += layers.s * random.uniform();
 }
 
-Case make_dense(Source& source) {
-  Case made;
+void make_dense(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   const Layers layers = drawn_dense_layers(drawn, made);
   made.scene = layered_scene(drawn, layers, made);
   made.query.v = layered_velocity(random, made);
-  if (random.one_in(6)) {
-    leave_layer(random, layers, made);
-    return made;
-  }
+  if (random.one_in(6)) return leave_layer(random, layers, made);
   const bool coarse = random.one_in(2);
   const auto place = [&](double across) {
-    return coarse ? across * static_cast<double>(random.integer(-8, 8)) / 8 : across * random.between(-1, 1);
+    return coarse ? across * random.whole(-8, 8) / 8 : across * random.between(-1, 1);
   };
   made.query.x = {place(layers.s), place(layers.other), 1 + layers.s * random.octave(-6, 1)};
-  return made;
+}
+
+void make_dense_rows(Source& source, Case& made) {
+  Random &drawn = source.scene, &random = source.random;
+  const double r = drawn.octave(-5, -3), apart = r / drawn.between(66, 95);
+  const double layers = 400 * r * r / apart * drawn.octave(0, 4);
+  const Symmetry symmetry(drawn, 3);
+  made.scene = lattice_scene(3,
+                             {symmetry(Vec{apart, 0, 0}), symmetry(Vec{apart * drawn.uniform(), 1, 0}),
+                              symmetry(Vec{drawn.uniform(), drawn.uniform(), layers})},
+                             r);
+  const bool skew = tagged(made.tags, random.one_in(4), "skew", "straight");
+  const double slope = r * random.octave(-10, -6);
+  made.query =
+      symmetry(Query{Vec{apart * random.uniform(), random.uniform(), -r - slope * random.between(0, 2)},
+                     Vec{skew ? random.octave(-12, -4) : 0, 1, slope},
+                     {}});
 }
 
 }  // namespace
@@ -159,6 +163,13 @@ Family dense_layers() {
            {"any-slope", "isotropic, but not along the layers"},
            {"leaving", "from the top of an obstacle to the next layer"}},
           make_dense};
+}
+
+Family dense_rows() {
+  return {"dense-rows",
+          "Down to layers of dense rows at right angles to the flight: the first of many rows.",
+          {{"straight", "at right angles"}, {"skew", "off that by 2^-12 to 2^-4"}},
+          make_dense_rows};
 }
 
 }  // namespace lorentz::cases

@@ -11,23 +11,19 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/corridor.hpp"
-#include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {
-
-__extension__ typedef __int128 Wide;
 
 // Lattice planes whose normal has k bits.
 struct SlantedLayers {
   std::int64_t P, Q;
   int k;
 
-  explicit SlantedLayers(Random& drawn) : k(static_cast<int>(drawn.integer(4, 20))) {
+  explicit SlantedLayers(Random& drawn) : k(drawn.exponent(4, 20)) {
     const std::int64_t half = std::int64_t{1} << (k - 1);
     P = drawn.integer(-half, half) | 1, Q = drawn.integer(-half, half) | 1;
   }
@@ -54,8 +50,7 @@ struct SlantedLayers {
   std::int64_t low() const { return (std::int64_t{1} << k) - 1; }
 };
 
-Case make_drift(Source& source) {
-  Case made;
+void make_drift(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   const bool layers = drawn.one_in(2);
   const SlantedLayers drawn_layers(drawn);
@@ -78,17 +73,13 @@ Case make_drift(Source& source) {
                                          static_cast<std::int64_t>(-side) * random.integer(1, 4));
   } else if (random.one_in(2)) {
     made.tags.push_back("by-slope");
-    const double slope =
-        random.octave(source.precision == NumberFormat::binary64 ? -40 : -20, -4) * length(made.query.v);
-    made.query.v = sum(made.query.v, scaled(normal, -side * slope));
+    const double slope = random.octave(source.is_wide() ? -40 : -20, -4) * length(made.query.v);
+    made.query.v = plus(made.query.v, -side * slope, normal);
   } else {
     made.tags.push_back("by-rounding");
   }
-  const double out = r + (half - r) * random.octave(source.precision == NumberFormat::binary64 ? -20 : -16,
-                                                    random.one_in(2) ? 0 : -8);
-  made.query.x =
-      sum(sum(scaled(a, random.uniform()), scaled(b, random.uniform())), scaled(normal, side * out));
-  return made;
+  const double out = r + (half - r) * random.octave(source.is_wide() ? -20 : -16, random.one_in(2) ? 0 : -8);
+  made.query.x = plus(sum(scaled(a, random.uniform()), scaled(b, random.uniform())), side * out, normal);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
@@ -18,55 +19,34 @@ namespace {
 // near.
 std::vector<Vec> drawn_semiaxes(Random& drawn, int dimension) {
   const double longest = drawn.between(0.1, 0.3), slender = drawn.octave(-10, -6);
-  const Vec along = drawn.direction(dimension);
-  if (dimension == 2) return {scaled(along, longest), scaled({-along[1], along[0], 0}, longest * slender)};
-  Vec across = cross(along, drawn.direction(3));
-  if (across == Vec{}) across = cross(along, along[0] == 0 ? Vec{1, 0, 0} : Vec{0, 1, 0});
-  across = scaled(across, 1 / length(across));
+  const auto [along, across, upright] = drawn_frame(drawn, drawn.direction(dimension), dimension);
+  std::vector<Vec> semiaxes{scaled(along, longest), scaled(across, longest * slender)};
+  if (dimension == 2) return semiaxes;
   const double third = drawn.one_in(2) ? slender : drawn.between(slender, 1);
-  return {scaled(along, longest), scaled(across, longest * slender),
-          scaled(cross(along, across), longest * third)};
+  semiaxes.push_back(scaled(upright, longest * third));
+  return semiaxes;
 }
 
-Vec image(const std::vector<Vec>& semiaxes, const Vec& y) {
-  Vec sum_of{};
-  for (std::size_t i = 0; i < semiaxes.size(); ++i) sum_of = sum(sum_of, scaled(semiaxes[i], y[i]));
-  return sum_of;
-}
-
-// A unit vector at a right angle to w.
-Vec normal_to(Random& random, const Vec& w, int dimension) {
-  const Vec n = dimension == 2 ? Vec{-w[1] * random.sign(), w[0], 0} : cross(w, random.direction(3));
-  const double size = length(n);
-  return size > 0 ? scaled(n, 1 / size) : Vec{0, 1, 0};
-}
-
-Case make_edge(Source& source) {
-  Case made;
+void make_edge(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   const int dimension = drawn.one_in(2) ? 3 : 2;
   const std::vector<Vec> semiaxes = drawn_semiaxes(drawn, dimension);
   made.scene = unit_scene(dimension, 1);
   Atom& atom = made.scene.lattices[0].atoms[0];
-  atom.radius = 0;
-  atom.semiaxes = semiaxes;
+  atom = {{}, 0, semiaxes};
   if (drawn.one_in(4))
     for (int i = 0; i < dimension; ++i) atom.position[i] = drawn.uniform();
-  if (random.one_in(4)) {
-    made.tags.push_back("surface");
+  if (tagged(made.tags, random.one_in(4), "surface", "tangent")) {
     made.query.x = sum(atom.position, image(semiaxes, random.direction(dimension)));
     made.query.v = random.direction(dimension);
   } else {
-    made.tags.push_back("tangent");
     Vec w{1, random.octave(-6, 0) * random.sign(), 0};
     if (dimension == 3) w[2] = random.octave(-6, 0) * random.sign();
-    const Vec n = normal_to(random, w, dimension);
-    made.query.x =
-        sum(atom.position, image(semiaxes, sum(n, scaled(w, -random.between(1.05, 1.3) / length(w)))));
+    const Vec n = drawn_across(random, w, dimension);
+    made.query.x = sum(atom.position, image(semiaxes, plus(n, -random.between(1.05, 1.3) / length(w), w)));
     made.query.v = image(semiaxes, w);
   }
   if (random.one_in(3)) jitter(random, made.query.x, dimension, 2, source.precision);
-  return made;
 }
 
 }  // namespace

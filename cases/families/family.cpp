@@ -3,8 +3,8 @@
 #include <stdexcept>
 
 #include <lorentz/scene_check.hpp>
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
 
 namespace lorentz::cases {
 
@@ -32,7 +32,9 @@ Case Family::attempt(std::uint64_t seed, std::uint64_t index, NumberFormat preci
   const Series series(name_);
   Source source{index, Random(seed, series, index / kCasesPerScene, Use::scenes, scene),
                 Random(seed, series, index, Use::cases, query), precision};
-  return maker_(source);
+  Case made;
+  maker_(source, made);
+  return made;
 }
 
 // The scene depends only on its own random numbers, and so does the number of the first sound attempt at it.

@@ -11,7 +11,7 @@ namespace lorentz::cases {
 
 class Family {
  public:
-  using Maker = Case (*)(Source&);
+  using Maker = void (*)(Source&, Case&);
   /// `description_in_binary32` is the description of the family in binary32, if that differs.
   Family(std::string_view name, std::string_view description, std::vector<Tag> tags, Maker maker,
          std::string_view description_in_binary32 = {})

@@ -12,10 +12,9 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {
@@ -25,14 +24,10 @@ Scene far_scene(Random& drawn, NumberFormat precision, std::vector<std::string>&
   const int least = precision == NumberFormat::binary64 ? -40 : -16;
   const int dimension = drawn.one_in(3) ? 2 : 3;
   const double size = drawn.one_in(2) ? drawn.between(0.5, 2) : drawn.octave(-20, 20);
-  const bool box = !drawn.one_in(4);
-  tags.push_back(box ? "box" : "crystal");
+  const bool box = tagged(tags, !drawn.one_in(4), "box", "crystal");
   if (!box) {
     Scene scene = drawn_crystal(drawn, dimension).scene;
-    for (Lattice& lattice : scene.lattices) {
-      for (Vec& u : lattice.vectors) u = scaled(u, size);
-      for (Atom& atom : lattice.atoms) atom.position = scaled(atom.position, size);
-    }
+    scale_places(scene, size);
     scale_obstacles(
         scene, size * (drawn.one_in(2) ? 1.25 * (1 - drawn.octave(least, -8)) : drawn.between(0.9, 1.25)));
     return scene;
@@ -56,37 +51,31 @@ int matching_distance(double gap, NumberFormat precision) {
 }
 
 // A cell up to 2^this many cells out along one vector; in every third case along all of them.
-IntVec drawn_cell(Random& random, int dimension, std::uint64_t along, int bits,
-                  std::vector<std::string>& tags) {
+IntVec drawn_cell(Random& random, int dimension, int along, int bits, std::vector<std::string>& tags) {
   const auto size = std::int64_t{1} << bits;
   IntVec cell{};
-  const bool all = random.one_in(3);
-  tags.push_back(all ? "anywhere" : "along-a-row");
-  for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(dimension); ++i)
+  const bool all = tagged(tags, random.one_in(3), "anywhere", "along-a-row");
+  for (int i = 0; i < dimension; ++i)
     cell[i] = all || i == along ? random.integer(-size, size) : random.integer(-6, 6);
   return cell;
 }
 
-Case make_far_start(Source& source) {
-  Case made;
+void make_far_start(Source& source, Case& made) {
   Random& random = source.random;
   made.scene = far_scene(source.scene, source.precision, made.tags);
   const int dimension = made.scene.dimension;
   const Lattice& lattice = made.scene.lattices[0];
-  const std::uint64_t along = random.below(static_cast<std::uint64_t>(dimension));
+  const int along = random.axis(dimension);
   const Atom& atom = lattice.atoms[random.below(lattice.atoms.size())];
   const Vec& u = lattice.vectors[along];
   const double gap = gap_along(u, atom);
-  const bool is_wide = source.precision == NumberFormat::binary64;
-  const bool matching = !random.one_in(4);
-  if (matching) made.tags.push_back("matching");
-  const auto bits =
-      static_cast<int>(matching  ? matching_distance(gap, source.precision) + random.integer(-1, 0)
-                       : is_wide ? random.integer(10, 50)
-                                 : random.integer(4, 20));
+  const bool is_wide = source.is_wide();
+  const bool matching = tagged(made.tags, !random.one_in(4), "matching");
+  const int bits = matching  ? matching_distance(gap, source.precision) + random.exponent(-1, 0)
+                   : is_wide ? random.exponent(10, 50)
+                             : random.exponent(4, 20);
   const IntVec cell = drawn_cell(random, dimension, along, bits, made.tags);
-  const bool midway = !random.one_in(4) || !atom.is_ball();
-  made.tags.push_back(midway ? "midway" : "edge");
+  const bool midway = tagged(made.tags, !random.one_in(4) || !atom.is_ball(), "midway", "edge");
   const double off = random.one_in(4)   ? 0
                      : random.one_in(4) ? random.octave(is_wide ? -40 : -16, -6)
                                         : random.between(gap, 2 * gap);
@@ -96,7 +85,6 @@ Case make_far_start(Source& source) {
     for (int i = 0; i < dimension; ++i)
       made.query.x[i] += random.octave(is_wide ? -30 : -16, -8) * length(u) * random.sign();
   made.query.v = random.direction(dimension);
-  return made;
 }
 
 }  // namespace

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "cases/crystals.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {
@@ -16,19 +15,16 @@ constexpr const char* kDecades[] = {"radius-1e-1", "radius-1e-2", "radius-1e-3",
                                     "radius-1e-4", "radius-1e-5", "radius-1e-6"};
 constexpr double kPowers[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
 
-Case make_generic(Source& source, int dimension) {
-  Case made;
+void make_generic(Source& source, int dimension, Case& made) {
   const bool unit = source.scene.one_in(2);
   made.scene = unit ? unit_scene(dimension, 1) : drawn_crystal(source.scene, dimension).scene;
   // In binary32 flights beyond 10^6 cells are noise: nothing can be told of radii below 1e-3.
-  const std::uint64_t decades = source.precision == NumberFormat::binary64 ? std::size(kPowers) : 3;
+  const std::uint64_t decades = source.is_wide() ? std::size(kPowers) : 3;
   const std::uint64_t decade = source.index / kCasesPerScene % decades;
   const double largest = decade > 0 ? 10 : made.scene.lattices[0].atoms.size() == 1 ? 3 : 2.1;
   set_radius(made.scene, kPowers[decade] * source.scene.between(1, largest));
-  made.query.x = free_point(source.random, made.scene);
-  made.query.v = source.random.direction(dimension);
+  made.query = free_flight(source.random, made.scene);
   made.tags = {kDecades[decade], unit ? "unit-cell" : "crystal"};
-  return made;
 }
 
 std::vector<Tag> tags() {
@@ -48,12 +44,12 @@ std::vector<Tag> tags() {
 
 Family generic_2d() {
   return {"generic-2d", "Uniform free starts and isotropic directions in the plane.", tags(),
-          [](Source& source) { return make_generic(source, 2); }};
+          [](Source& source, Case& made) { make_generic(source, 2, made); }};
 }
 
 Family generic_3d() {
   return {"generic-3d", "Uniform free starts and isotropic directions in space.", tags(),
-          [](Source& source) { return make_generic(source, 3); }};
+          [](Source& source, Case& made) { make_generic(source, 3, made); }};
 }
 
 }  // namespace lorentz::cases

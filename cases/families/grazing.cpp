@@ -22,7 +22,7 @@
 #include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/symmetry.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
@@ -37,13 +37,12 @@ constexpr int grazing_grid(NumberFormat precision) {
 void move_off(Random& random, NumberFormat precision, int dimension, Case& made) {
   const std::uint64_t how = random.below(8);
   if (how < 4) return;
-  const auto i = static_cast<std::size_t>(random.below(static_cast<std::uint64_t>(dimension)));
+  const int i = random.axis(dimension);
   made.tags.push_back(how < 7 ? "ulps-off" : "near-graze");
   const std::int64_t ulps =
       (how < 7 ? random.integer(1, 4) : random.integer(5, 1024)) * (random.one_in(2) ? 1 : -1);
   double& component = how == 6 ? made.query.v[i] : made.query.x[i];
-  component = component == 0 ? std::ldexp(static_cast<double>(ulps), -bits_of(precision))
-                             : moved(component, ulps, precision);
+  component = nudged(component, ulps, std::ldexp(1, -bits_of(precision)), precision);
 }
 
 // The query that passes the obstacle of the cell 0 with v x d = turns 2^-exponent across, in one of the
@@ -57,16 +56,14 @@ void set_query(Source& source, int dimension, const IntVec& v, const IntVec& acr
     x = start_beside(v, across, turns, exponent, along, bits);
   if (!x) x = Vec{-1.5 * r, 0, 0};  // no start is exact: take any
   const Symmetry symmetry(random, dimension);
-  made.query.x = symmetry(*x);
-  made.query.v = symmetry(to_vec(v));
+  made.query = symmetry(Query{*x, to_vec(v), {}});
   if (random.one_in(4))
-    made.query.v = scaled(made.query.v, std::ldexp(1, static_cast<int>(random.integer(-longest, longest))));
+    made.query.v = scaled(made.query.v, std::ldexp(1, random.exponent(-longest, longest)));
 }
 
 // Integers give the distance exactly. r is a multiple of the grid, or a few ulps from one.
-Case make_squares(Source& source) {
-  Case made;
-  const bool is_wide = source.precision == NumberFormat::binary64;
+void make_squares(Source& source, Case& made) {
+  const bool is_wide = source.is_wide();
   const int grid = grazing_grid(source.precision), least = is_wide ? -14 : -8;
   const int dimension = source.scene.one_in(3) ? 3 : 2;
   const auto steps = static_cast<std::int64_t>(std::ldexp(
@@ -92,12 +89,10 @@ Case make_squares(Source& source) {
   }
   if (!r_moved) move_off(random, source.precision, dimension, made);
   if (made.tags.empty()) made.tags.push_back("exact-tangent");
-  return made;
 }
 
 // v and h belong to the scene, because r depends on them.
-Case make_pell(Source& source) {
-  Case made;
+void make_pell(Source& source, Case& made) {
   made.tags.push_back("pell");
   Random& drawn = source.scene;
   const int dimension = drawn.one_in(3) ? 3 : 2;
@@ -112,28 +107,28 @@ Case make_pell(Source& source) {
   }
   const std::size_t few = fractions.size() / 4;  // the first convergents are not near
   const auto [k, r_steps] = fractions[few + drawn.below(fractions.size() - few)];
-  const int exponent = std::ilogb(static_cast<double>(r_steps)) + static_cast<int>(drawn.integer(3, 6));
+  const int exponent = std::ilogb(static_cast<double>(r_steps)) + drawn.exponent(3, 6);
   const double r = std::ldexp(static_cast<double>(r_steps), -exponent);
   made.scene = unit_scene(dimension, r);
   // A finer grid, so that there are enough starts.
   const int finer = std::max(0, (bits == 53 ? 43 : 21) - std::ilogb(static_cast<double>(r_steps)));
   set_query(source, dimension, v, h, k << finer, exponent + finer, r, made);
   move_off(source.random, source.precision, dimension, made);
-  return made;
 }
 
 }  // namespace
 
 Family grazing() {
-  return {"grazing",
-          "Lines that pass an obstacle at the distance of its radius, exactly or within ulps.",
-          {{"exact-tangent", "exactly tangent: the line touches, and does not hit"},
-           {"near-square", "v^2 is a square plus or minus 1: tangent but for a relative 1/(2 v^2)"},
-           {"pell", "radius and distance from Pell's equation: tangent but for as little as 2^-100",
-            "radius and distance from Pell's equation: tangent but for as little as 2^-42"},
-           {"ulps-off", "one of x, v, r up to 4 ulps from such a case"},
-           {"near-graze", "x 5 to 1024 ulps from such a case"}},
-          [](Source& source) { return source.scene.one_in(3) ? make_pell(source) : make_squares(source); }};
+  return {
+      "grazing",
+      "Lines that pass an obstacle at the distance of its radius, exactly or within ulps.",
+      {{"exact-tangent", "exactly tangent: the line touches, and does not hit"},
+       {"near-square", "v^2 is a square plus or minus 1: tangent but for a relative 1/(2 v^2)"},
+       {"pell", "radius and distance from Pell's equation: tangent but for as little as 2^-100",
+        "radius and distance from Pell's equation: tangent but for as little as 2^-42"},
+       {"ulps-off", "one of x, v, r up to 4 ulps from such a case"},
+       {"near-graze", "x 5 to 1024 ulps from such a case"}},
+      [](Source& source, Case& made) { (source.scene.one_in(3) ? make_pell : make_squares)(source, made); }};
 }
 
 }  // namespace lorentz::cases

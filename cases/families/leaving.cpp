@@ -6,10 +6,9 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/crystals.hpp"
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {
@@ -26,8 +25,7 @@ Vec outwards(Random& random, const Vec& n, int dimension) {
 
 Scene left_scene(Random& drawn, std::vector<std::string>& tags) {
   const int dimension = drawn.one_in(3) ? 3 : 2;
-  const bool unit = drawn.one_in(2);
-  tags.push_back(unit ? "unit-cell" : "crystal");
+  const bool unit = tagged(tags, drawn.one_in(2), "unit-cell", "crystal");
   Scene scene =
       unit ? unit_scene(dimension, drawn.one_in(3) ? drawn.octave(-12, -3) : drawn.between(0.05, 0.5))
            : drawn_crystal(drawn, dimension).scene;
@@ -35,19 +33,15 @@ Scene left_scene(Random& drawn, std::vector<std::string>& tags) {
   return scene;
 }
 
-Case make_leaving(Source& source) {
-  Case made;
+void make_leaving(Source& source, Case& made) {
   Random& random = source.random;
   made.scene = left_scene(source.scene, made.tags);
   const int dimension = made.scene.dimension;
   const Lattice& lattice = made.scene.lattices[0];
-  ObstacleId own;
-  own.atom = static_cast<int>(random.below(lattice.atoms.size()));
-  IntVec cell{};
+  const auto which = static_cast<int>(random.below(lattice.atoms.size()));
   const bool home = random.one_in(2);
-  for (int i = 0; i < dimension && !home; ++i)
-    cell[i] = random.integer(-9, 9), own.cell[i] = Integer(cell[i]);
-  const Atom& atom = lattice.atoms[own.atom];
+  const IntVec cell = home ? IntVec{} : drawn_integers(random, dimension, 9);
+  const Atom& atom = lattice.atoms[which];
   Vec n = random.direction(dimension);
   const bool few_bits = random.one_in(4);  // directions and starts that a person would type
   if (few_bits) {
@@ -61,9 +55,8 @@ Case make_leaving(Source& source) {
     for (double& component : made.query.v) component = std::round(size * component);
     if (made.query.v == Vec{}) made.query.v = n;
   }
-  made.query.from = own;
-  made.tags.push_back(home ? "home-cell" : "other-cell");
-  return made;
+  made.query.from = obstacle(cell, which);
+  tagged(made.tags, home, "home-cell", "other-cell");
 }
 
 }  // namespace

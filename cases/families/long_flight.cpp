@@ -10,40 +10,32 @@
 #include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {
 
-double drift(Random& random, NumberFormat precision) {
-  const int k = static_cast<int>(random.integer(8, precision == NumberFormat::binary64 ? 100 : 46));
+double drawn_drift(Random& random, NumberFormat precision) {
+  const int k = random.exponent(8, precision == NumberFormat::binary64 ? 100 : 46);
   return random.sign() * (random.one_in(2) ? std::ldexp(1, -k) : random.octave(-k, -k + 1));
 }
 
 // A lattice whose rows along the first axis are 1 apart, turned or not; the axis is a lattice direction.
 std::array<Vec, 3> drawn_rows(Random& random, std::vector<std::string>& tags) {
-  switch (random.below(3)) {
-    case 0:
-      return {Vec{1, 0}, Vec{0, 1}, Vec{}};
-    case 1:
-      tags.push_back("oblique");
-      return {Vec{random.between(0.8, 2), 0}, Vec{random.uniform(), 1}, Vec{}};
-    default: {
-      tags.push_back("turned");
-      IntVec a;
-      do a = drawn_primitive(random, 2, 4);
-      while (a[0] == 0 || a[1] == 0);
-      const auto p = static_cast<double>(a[0]), q = static_cast<double>(a[1]);
-      return {Vec{p, q}, Vec{-q, p}, Vec{}};
-    }
-  }
+  const std::uint64_t kind = random.below(3);
+  if (kind == 0) return {Vec{1, 0}, Vec{0, 1}, Vec{}};
+  if (tagged(tags, kind == 1, "oblique", "turned"))
+    return {Vec{random.between(0.8, 2), 0}, Vec{random.uniform(), 1}, Vec{}};
+  IntVec a{};
+  while (a[0] == 0 || a[1] == 0) a = drawn_primitive(random, 2, 4);
+  const Vec p = to_vec(a);
+  return {p, Vec{-p[1], p[0]}, Vec{}};
 }
 
-Case make_long(Source& source) {
-  Case made;
+void make_long(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   const std::uint64_t kind = drawn.below(4);
-  const int least = source.precision == NumberFormat::binary64 ? -30 : -16;
+  const int least = source.is_wide() ? -30 : -16;
   Vec &x = made.query.x, &v = made.query.v;
   x[0] = random.between(-2, 2);
   if (kind < 2) {
@@ -51,29 +43,26 @@ Case make_long(Source& source) {
     const auto vectors = drawn_rows(drawn, made.tags);
     const double r = drawn.one_in(3) ? 0.5 * (1 - drawn.octave(least, -4)) : drawn.between(0.01, 0.39);
     made.scene = lattice_scene(2, vectors, r);
-    x[1] = static_cast<double>(random.integer(-2, 2)) + 0.5 + (0.5 - r) * 0.9 * random.between(-1, 1);
-    v = {random.sign(), drift(random, source.precision)};
+    x[1] = random.whole(-2, 2) + 0.5 + (0.5 - r) * 0.9 * random.between(-1, 1);
+    v = {random.sign(), drawn_drift(random, source.precision)};
   } else if (kind == 2) {
     made.tags.push_back("plane-drift");
     const double r = drawn.one_in(3) ? 0.5 * (1 - drawn.octave(least, -4)) : drawn.between(0.01, 0.49);
     made.scene = unit_scene(3, r);
     x[1] = random.uniform();
     x[2] = 0.5 + (0.5 - r) * 0.9 * random.between(-1, 1);
-    v = {random.sign(),
-         random.one_in(3) ? std::ldexp(static_cast<double>(random.integer(-16, 16)), -4)
-                          : random.between(-1, 1),
-         drift(random, source.precision)};
+    v = {random.sign(), random.one_in(3) ? std::ldexp(random.whole(-16, 16), -4) : random.between(-1, 1),
+         drawn_drift(random, source.precision)};
   } else {
     made.tags.push_back("cylinder-drift");
     const double r = drawn.between(0.5, 0.7), room = (std::sqrt(0.5) - r) * 0.6;
     made.scene = unit_scene(3, r);
     x[1] = 0.5 + room * random.between(-1, 1);
     x[2] = 0.5 + room * random.between(-1, 1);
-    v = {random.sign(), drift(random, source.precision),
-         random.one_in(3) ? 0.0 : drift(random, source.precision)};
+    v = {random.sign(), drawn_drift(random, source.precision),
+         random.one_in(3) ? 0.0 : drawn_drift(random, source.precision)};
   }
   if (random.one_in(3)) v = scaled(v, random.octave(-20, 20));
-  return made;
 }
 
 }  // namespace

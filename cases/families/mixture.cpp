@@ -6,15 +6,15 @@
 
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
-#include "cases/crystals.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {
 
 // Semiaxes along a drawn frame in the plane of the first two axes, the third upright.
-Atom drawn_obstacle(Random& drawn, int dimension, double size) {
+Atom mixed_obstacle(Random& drawn, int dimension, double size) {
   Atom atom;
   for (int i = 0; i < dimension; ++i) atom.position[i] = drawn.one_in(2) ? 0 : drawn.uniform();
   if (drawn.one_in(2)) {
@@ -35,9 +35,9 @@ Lattice drawn_lattice(Random& drawn, int dimension, bool many_cells) {
   for (Vec& vector : lattice.vectors) vector = scaled(vector, spacing);
   lattice.atoms.clear();
   for (std::int64_t n = drawn.integer(1, 3); n > 0; --n)
-    lattice.atoms.push_back(drawn_obstacle(drawn, dimension, drawn.octave(-9, -3)));
+    lattice.atoms.push_back(mixed_obstacle(drawn, dimension, drawn.octave(-9, -3)));
   if (many_cells)
-    lattice.atoms[0] = drawn_obstacle(drawn, dimension, drawn.octave(0, dimension == 2 ? 3 : 1));
+    lattice.atoms[0] = mixed_obstacle(drawn, dimension, drawn.octave(0, dimension == 2 ? 3 : 1));
   return lattice;
 }
 
@@ -53,21 +53,15 @@ void leave(Random& random, Case& made) {
   }
 }
 
-Case make_mixture(Source& source) {
-  Case made;
+void make_mixture(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   made.scene.dimension = drawn.one_in(3) ? 3 : 2;
-  const bool many_cells = drawn.one_in(3);
-  made.tags.push_back(many_cells ? "many-cells" : "small");
+  const bool many_cells = tagged(made.tags, drawn.one_in(3), "many-cells", "small");
   for (std::int64_t n = drawn.integer(1, 3); n > 0; --n)
     made.scene.lattices.push_back(drawn_lattice(drawn, made.scene.dimension, many_cells && n == 1));
   made.query.x = many_cells ? point_in_cell(random, made.scene) : free_point(random, made.scene);
   made.query.v = random.direction(made.scene.dimension);
-  if (many_cells && random.one_in(2)) {
-    made.tags.push_back("leaving");
-    leave(random, made);
-  }
-  return made;
+  if (tagged(made.tags, many_cells && random.one_in(2), "leaving")) leave(random, made);
 }
 
 }  // namespace

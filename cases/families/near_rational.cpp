@@ -9,12 +9,10 @@
 #include <utility>
 
 #include <lorentz/geometry.hpp>
-#include "cases/corridor.hpp"
-#include "cases/crystals.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
@@ -23,20 +21,12 @@ namespace {
 // A radius near the half width at which the corridors close.
 double drawn_radius(Random& random, NumberFormat precision, double closing, std::vector<std::string>& tags) {
   const int least = -51 + missing_bits(precision);
-  switch (random.below(4)) {
-    case 0:
-      tags.push_back("corridor-open");
-      return closing * random.between(0.05, 0.9);
-    case 1:
-      tags.push_back("just-open");
-      return closing * (1 - random.octave(least, -10));
-    case 2:
-      tags.push_back("just-closed");
-      return closing * (1 + random.octave(least, -10));
-    default:
-      tags.push_back("small-radius");
-      return closing * random.octave(-18, -4);
-  }
+  const std::string_view size =
+      drawn_tag(random, tags, {"corridor-open", "just-open", "just-closed", "small-radius"});
+  if (size == "corridor-open") return closing * random.between(0.05, 0.9);
+  if (size == "just-open") return closing * (1 - random.octave(least, -10));
+  if (size == "just-closed") return closing * (1 + random.octave(least, -10));
+  return closing * random.octave(-18, -4);
 }
 
 // F_(n+1) u_1 + F_n u_2
@@ -50,34 +40,24 @@ IntVec golden(Random& random, NumberFormat precision) {
 Vec flat_direction(Random& random, NumberFormat precision, const Lattice& lattice, const IntVec& g,
                    const IntVec& next, std::vector<std::string>& tags) {
   const int missing = missing_bits(precision);
-  switch (random.below(4)) {
-    case 0: {
-      tags.push_back("ulps-off-rational");
-      Vec v = scaled(cartesian(lattice, g), static_cast<double>(random.integer(1, 99)));
-      jitter(random, v, 2, 3, precision);
-      return v;
-    }
-    case 1: {
-      tags.push_back("neighbours");
-      const std::int64_t n = random.integer(1, std::int64_t{1} << random.integer(2, 44 - missing));
-      return cartesian(lattice, {n * g[0] + next[0], n * g[1] + next[1], 0});
-    }
-    case 2: {
-      tags.push_back("huge-quotient");
-      const double drift = random.octave(-52 + missing, -8) * random.sign();
-      return sum(cartesian(lattice, g), scaled(cartesian(lattice, next), drift));
-    }
-    default: {
-      tags.push_back("golden");
-      Vec v = cartesian(lattice, golden(random, precision));
-      jitter(random, v, 2, 2, precision);
-      return v;
-    }
+  const std::string_view kind =
+      drawn_tag(random, tags, {"ulps-off-rational", "neighbours", "huge-quotient", "golden"});
+  if (kind == "neighbours") {
+    const std::int64_t n = random.integer(1, std::int64_t{1} << random.integer(2, 44 - missing));
+    return cartesian(lattice, {n * g[0] + next[0], n * g[1] + next[1], 0});
   }
+  if (kind == "huge-quotient") {
+    const double drift = random.octave(-52 + missing, -8) * random.sign();
+    return plus(cartesian(lattice, g), drift, cartesian(lattice, next));
+  }
+  const bool golden_mean = kind == "golden";
+  Vec v = golden_mean ? cartesian(lattice, golden(random, precision))
+                      : scaled(cartesian(lattice, g), random.whole(1, 99));
+  jitter(random, v, 2, golden_mean ? 2 : 3, precision);
+  return v;
 }
 
-Case make_flat(Source& source) {
-  Case made;
+void make_flat(Source& source, Case& made) {
   made.scene = source.scene.one_in(2) ? unit_scene(2, 1) : drawn_crystal(source.scene, 2).scene;
   const Lattice& lattice = made.scene.lattices[0];
   const IntVec g = drawn_primitive(source.scene, 2, source.scene.one_in(4) ? 200 : 9), u = bezout(g);
@@ -93,21 +73,18 @@ Case make_flat(Source& source) {
   } else {
     made.query.x = free_point(random, made.scene);
   }
-  return made;
 }
 
 Vec solid_direction(Random& random, NumberFormat precision, const Lattice& lattice, const IntVec& g1,
                     const IntVec& g2, const IntVec& next, std::vector<std::string>& tags) {
-  if (random.one_in(2)) {
-    tags.push_back("ulps-off-rational");
+  if (tagged(tags, random.one_in(2), "ulps-off-rational", "near-plane")) {
     IntVec g{};
     const std::int64_t a = random.integer(-9, 9), b = random.integer(1, 9);
     for (int i = 0; i < 3; ++i) g[i] = a * g1[i] + b * g2[i];
-    Vec v = scaled(cartesian(lattice, g), static_cast<double>(random.integer(1, 99)));
+    Vec v = scaled(cartesian(lattice, g), random.whole(1, 99));
     jitter(random, v, 3, 3, precision);
     return v;
   }
-  tags.push_back("near-plane");
   const Vec in_plane = sum(scaled(cartesian(lattice, g1), random.between(-1, 1)),
                            scaled(cartesian(lattice, g2), random.between(0.1, 1)));
   const double slope = random.octave(-52 + missing_bits(precision), -8) * random.sign();
@@ -115,8 +92,7 @@ Vec solid_direction(Random& random, NumberFormat precision, const Lattice& latti
 }
 
 // Planes with the indices n: g_1, g_2 span a sublattice of each, and next . n = 1.
-Case make_solid(Source& source) {
-  Case made;
+void make_solid(Source& source, Case& made) {
   made.scene = source.scene.one_in(2) ? unit_scene(3, 1) : drawn_crystal(source.scene, 3).scene;
   const Lattice& lattice = made.scene.lattices[0];
   const IntVec n = drawn_primitive(source.scene, 3, source.scene.one_in(4) ? 12 : 2), next = bezout(n);
@@ -133,31 +109,31 @@ Case make_solid(Source& source) {
   } else {
     made.query.x = free_point(random, made.scene);
   }
-  return made;
 }
 
 }  // namespace
 
 Family near_rational() {
-  return {"near-rational",
-          "Directions ulps from lattice vectors, or with huge partial quotients.",
-          {{"ulps-off-rational", "an ulp decides whether the flight ends here or in 10^15 cells",
-            "an ulp decides whether the flight ends here or in 10^6 cells"},
-           {"neighbours",
-            "n times a lattice vector plus its neighbour in the Stern-Brocot tree: rows of n "
-            "obstacles, and 2^44 fold steps for who walks them",
-            "n times a lattice vector plus its neighbour in the Stern-Brocot tree: rows of n "
-            "obstacles, and 2^15 fold steps for who walks them"},
-           {"huge-quotient", "a small slope against a lattice vector: one partial quotient of up to 2^52",
-            "a small slope against a lattice vector: one partial quotient of up to 2^23"},
-           {"golden", "all partial quotients 1: the longest continued fraction"},
-           {"near-plane", "a small slope against a lattice plane: thousands of rows in one plane"},
-           {"corridor-open", "the corridors along the lattice vector are open"},
-           {"just-open", "they are open by a relative 2^-10 to 2^-51",
-            "they are open by a relative 2^-10 to 2^-22, before rounding"},
-           {"just-closed", "they are closed by as little"},
-           {"small-radius", "obstacles small against the corridors"}},
-          [](Source& source) { return source.scene.one_in(3) ? make_solid(source) : make_flat(source); }};
+  return {
+      "near-rational",
+      "Directions ulps from lattice vectors, or with huge partial quotients.",
+      {{"ulps-off-rational", "an ulp decides whether the flight ends here or in 10^15 cells",
+        "an ulp decides whether the flight ends here or in 10^6 cells"},
+       {"neighbours",
+        "n times a lattice vector plus its neighbour in the Stern-Brocot tree: rows of n "
+        "obstacles, and 2^44 fold steps for who walks them",
+        "n times a lattice vector plus its neighbour in the Stern-Brocot tree: rows of n "
+        "obstacles, and 2^15 fold steps for who walks them"},
+       {"huge-quotient", "a small slope against a lattice vector: one partial quotient of up to 2^52",
+        "a small slope against a lattice vector: one partial quotient of up to 2^23"},
+       {"golden", "all partial quotients 1: the longest continued fraction"},
+       {"near-plane", "a small slope against a lattice plane: thousands of rows in one plane"},
+       {"corridor-open", "the corridors along the lattice vector are open"},
+       {"just-open", "they are open by a relative 2^-10 to 2^-51",
+        "they are open by a relative 2^-10 to 2^-22, before rounding"},
+       {"just-closed", "they are closed by as little"},
+       {"small-radius", "obstacles small against the corridors"}},
+      [](Source& source, Case& made) { (source.scene.one_in(3) ? make_solid : make_flat)(source, made); }};
 }
 
 }  // namespace lorentz::cases

@@ -12,13 +12,10 @@
 #include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
-#include "cases/symmetry.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {
-
-__extension__ typedef __int128 Wide;
 
 // A v with V_0 W_1 2^22 - V_1 W_0 = j (in binary32 2^10) times their common divisor g. V_0 is not 0:
 // u_0 K / g is 1 modulo W_0 / g, so that W_0 / g would divide j; but W_0 is odd, g at most W_1 < 2^30, and
@@ -33,10 +30,9 @@ Vec nearly_parallel_to(std::int64_t W0, std::int64_t W1, std::int64_t j, NumberF
           std::ldexp(static_cast<double>(V1), -1 - bits - shift), 0};
 }
 
-Case make_nearly_parallel(Source& source) {
-  Case made;
+void make_nearly_parallel(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
-  const bool is_wide = source.precision == NumberFormat::binary64;
+  const bool is_wide = source.is_wide();
   const int bits = bits_of(source.precision), few = is_wide ? 29 : 12;
   const std::int64_t unit = std::int64_t{1} << (bits - 2);
   const std::int64_t X0 = unit + drawn.integer(0, unit / 8), X1 = (unit + drawn.integer(0, unit / 8)) | 1;
@@ -50,15 +46,12 @@ Case make_nearly_parallel(Source& source) {
   const Vec b2 = dimension == 3 ? Vec{0, 0, drawn.between(1, 2)} : Vec{};
   const double r = drawn.octave(-8, -2);
   made.scene = lattice_scene(dimension, {symmetry(b0), symmetry(b1), symmetry(b2)}, r);
-  const bool exactly = random.one_in(8);
-  made.tags.push_back(exactly ? "parallel" : "nearly");
+  const bool exactly = tagged(made.tags, random.one_in(8), "parallel", "nearly");
   const std::int64_t j = random.integer(1, std::int64_t{1} << random.integer(0, is_wide ? 21 : 9));
   const Vec w = sum(b0, b1), v = exactly ? w : nearly_parallel_to(W0, W1, j, source.precision);
   // The start is in the middle between two rows along w; in space it is near their plane, or no plane is met.
   const Vec x = sum(scaled(b0, 0.5 + random.between(-0.05, 0.05)), scaled(w, random.between(-1, 1)));
-  made.query.x = symmetry(sum(x, Vec{0, 0, dimension == 3 ? r * random.between(-0.9, 0.9) : 0}));
-  made.query.v = symmetry(v);
-  return made;
+  made.query = symmetry(Query{sum(x, Vec{0, 0, dimension == 3 ? r * random.between(-0.9, 0.9) : 0}), v, {}});
 }
 
 }  // namespace

@@ -9,17 +9,16 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/corridor.hpp"
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {
 
 double sixty_fourths(Random& random, std::int64_t low, std::int64_t high) {
-  return static_cast<double>(random.integer(low, high)) / 64;
+  return random.whole(low, high) / 64;
 }
 
 // Between low and high; in one case in four close to low.
@@ -31,7 +30,6 @@ double within(Random& random, NumberFormat precision, double low, double high) {
 
 void corridor(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
-  made.tags.push_back("corridor");
   std::array<Vec, 3> vectors{Vec{1, 0}, Vec{0, 1}, Vec{}};
   if (drawn.one_in(2))
     vectors = {Vec{sixty_fourths(drawn, 48, 99), 0},
@@ -42,8 +40,7 @@ void corridor(Source& source, Case& made) {
   const double half = half_width(lattice, 2, g);
   set_radius(made.scene, half * drawn.between(0.01, 0.98));
   const double edge = lattice.atoms[0].radius / (2 * half);  // in distances of rows
-  const double rows =
-      static_cast<double>(random.integer(-3, 3)) + within(random, source.precision, edge, 1 - edge);
+  const double rows = random.whole(-3, 3) + within(random, source.precision, edge, 1 - edge);
   made.query = {sum(scaled(cartesian(lattice, g), random.between(-2, 2)),
                     scaled(cartesian(lattice, {-u[1], u[0], 0}), rows)),
                 cartesian(lattice, g),
@@ -52,7 +49,6 @@ void corridor(Source& source, Case& made) {
 
 void plane(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
-  made.tags.push_back("plane");
   const IntVec n = drawn_primitive(drawn, 3, 2);
   const double size = length(to_vec(n)), r = drawn.between(0.01, 0.98) / (2 * size);
   made.scene = unit_scene(3, r);
@@ -61,17 +57,13 @@ void plane(Source& source, Case& made) {
   made.query.x =
       sum(sum(scaled(to_vec(g1), random.between(-2, 2)), scaled(to_vec(g2), random.between(-2, 2))),
           scaled(u, within(random, source.precision, r * size, 1 - r * size)));
-  const bool simple = random.one_in(2);
-  const std::int64_t most =
-      simple ? 5 : std::int64_t{1} << (source.precision == NumberFormat::binary64 ? 30 : 12);
-  const auto a = static_cast<double>(random.integer(-most, most)),
-             b = static_cast<double>(random.integer(1, most));
+  const std::int64_t most = random.one_in(2) ? 5 : std::int64_t{1} << (source.is_wide() ? 30 : 12);
+  const double a = random.whole(-most, most), b = random.whole(1, most);
   made.query.v = sum(scaled(to_vec(g1), a), scaled(to_vec(g2), b));
 }
 
 void cylinder(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
-  made.tags.push_back("cylinder");
   const double r = drawn.between(0.5, 0.7), room = std::sqrt(0.5) - r;
   made.scene = unit_scene(3, r);
   const Vec off = scaled(random.direction(2), room * (random.one_in(4) ? 0.999 : random.uniform()));
@@ -81,7 +73,6 @@ void cylinder(Source& source, Case& made) {
 // Rows of two kinds of obstacles along the first axis.
 void motif(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
-  made.tags.push_back("motif");
   const double y = sixty_fourths(drawn, 24, 40), r = drawn.between(0.01, 0.15),
                other = drawn.between(0.01, 0.2);
   made.scene = unit_scene(2, r);
@@ -92,7 +83,6 @@ void motif(Source& source, Case& made) {
 // Two lattices whose rows along the first axis coincide, or are midway between each other's.
 void superposition(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
-  made.tags.push_back("superposition");
   const double r = drawn.between(0.01, 0.2), other = drawn.between(0.01, 0.2);
   made.scene = unit_scene(2, r);
   Lattice second = made.scene.lattices[0];
@@ -107,7 +97,6 @@ void superposition(Source& source, Case& made) {
 // An ellipse { A y : |y| < 1 } reaches as high as the length of the second row of A.
 void ellipse(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
-  made.tags.push_back("ellipse");
   made.scene = unit_scene(2, 1);
   const double size = drawn.between(0.05, 0.45), thin = size / drawn.between(1, 20);
   const Vec a = drawn.direction(2);
@@ -116,23 +105,26 @@ void ellipse(Source& source, Case& made) {
   made.query = {{random.between(-2, 2), within(random, source.precision, height, 1 - height)}, {1, 0}, {}};
 }
 
-Case make_never(Source& source) {
-  static constexpr void (*kKinds[])(Source&, Case&) = {corridor, plane,         cylinder,
-                                                       motif,    superposition, ellipse};
-  Case made;
+void make_never(Source& source, Case& made) {
+  static constexpr struct {
+    const char* tag;
+    void (*make)(Source&, Case&);
+  } kKinds[] = {{"corridor", corridor},           {"plane", plane},
+                {"cylinder", cylinder},           {"motif", motif},
+                {"superposition", superposition}, {"ellipse", ellipse}};
+  const auto& [tag, make] = kKinds[source.scene.below(6)];
+  made.tags.emplace_back(tag);
+  make(source, made);
   Random& random = source.random;
-  kKinds[source.scene.below(6)](source, made);
   Vec& v = made.query.v;
-  v = scaled(v, std::ldexp(random.sign(), static_cast<int>(random.integer(-6, 6))));
-  if (random.one_in(4)) {
-    made.tags.push_back("neighbour");
-    const auto i = static_cast<std::size_t>(random.below(static_cast<std::uint64_t>(made.scene.dimension)));
+  v = scaled(v, std::ldexp(random.sign(), random.exponent(-6, 6)));
+  if (tagged(made.tags, random.one_in(4), "neighbour")) {
+    const int i = random.axis(made.scene.dimension);
     const std::int64_t ulps = random.integer(1, 3);
     v[i] = v[i] == 0 ? std::ldexp(length(v) * random.sign(),
                                   static_cast<int>(-50 + missing_bits(source.precision) - ulps))
                      : moved(v[i], ulps, source.precision);
   }
-  return made;
 }
 
 }  // namespace

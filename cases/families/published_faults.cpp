@@ -9,10 +9,10 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/symmetry.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
@@ -42,18 +42,16 @@ const FaultExample kExamples[] = {
 };
 constexpr std::uint64_t kExampleCount = sizeof kExamples / sizeof kExamples[0];
 
-Case example(std::uint64_t index, NumberFormat precision) {
+void example(std::uint64_t index, NumberFormat precision, Case& made) {
   const FaultExample& one = kExamples[index];
-  Case made{unit_scene(one.dimension, one.radius), {one.x, one.v, {}}, {"example", one.tag}};
+  made = {unit_scene(one.dimension, one.radius), {one.x, one.v, {}}, {"example", one.tag}};
   Vec& x = made.query.x;
   if (one.ulps_off != 0) x = {moved(x[0], -one.ulps_off, precision), moved(x[1], one.ulps_off, precision)};
   if (one.leaving) made.query.from = ObstacleId{};
-  return made;
 }
 
-Query skipped_disc(Random& random, NumberFormat precision, double r, std::vector<std::string>& tags) {
-  const auto q = static_cast<double>(random.integer(1, 4)),
-             p = static_cast<double>(random.integer(1, static_cast<std::int64_t>(q)));
+Query skipped_disc(Random& random, NumberFormat precision, double r) {
+  const double q = random.whole(1, 4), p = random.whole(1, static_cast<std::int64_t>(q));
   double slope = p / q, b = 0;
   for (int step = 0; step < 3; ++step) {  // eps depends weakly on the slope
     const double eps = r * std::sqrt(1 + slope * slope);
@@ -64,9 +62,7 @@ Query skipped_disc(Random& random, NumberFormat precision, double r, std::vector
   const double m2 = 1 + slope * slope;
   const double x = (-b * slope + std::sqrt(std::max(0.0, r * r * m2 - b * b))) / m2;
   Query query{{x, b + slope * x}, {1, slope}, {}};
-  const bool leaving = random.one_in(2);
-  tags.push_back("skipped-disc");
-  if (leaving)
+  if (random.one_in(2))
     query.from = ObstacleId{};
   else
     query.x = {moved(query.x[0], -2, precision), moved(query.x[1], 2, precision)};  // x_1 < 0 < x_2: outwards
@@ -75,8 +71,7 @@ Query skipped_disc(Random& random, NumberFormat precision, double r, std::vector
 }
 
 // A flight along a small integer vector, in an open corridor.
-Query endless_channel(Random& random, double r, std::vector<std::string>& tags) {
-  tags.push_back("endless-channel");
+Query endless_channel(Random& random, double r) {
   IntVec g;
   do g = {random.integer(1, 7), random.integer(1, 7), 0};
   while (content_of(g) != 1 || r * std::sqrt(static_cast<double>(dot(g, g))) > 0.49);
@@ -86,57 +81,37 @@ Query endless_channel(Random& random, double r, std::vector<std::string>& tags) 
   return {{x0, (height + static_cast<double>(g[1]) * x0) / static_cast<double>(g[0])}, to_vec(g), {}};
 }
 
-Query slow_drift(Random& random, double r, std::vector<std::string>& tags) {
-  tags.push_back("slow-drift");
-  return {{0, random.between(0.26, 0.45)}, {1, r * random.between(2.1, 3)}, {}};
-}
-
-Query late_sphere(Random& random, const Scene& scene, std::vector<std::string>& tags) {
-  tags.push_back("late-sphere");
-  Query query{free_point(random, scene), random.direction(3), {}};
-  if (random.one_in(2)) {  // nearly along an axis, past many spheres
-    query.v = {static_cast<double>(random.integer(5, 40)), random.between(-3, 3), random.between(-3, 3)};
-  }
+Query late_sphere(Random& random, const Scene& scene) {
+  Query query = free_flight(random, scene);
+  if (random.one_in(2))  // nearly along an axis, past many spheres
+    query.v = {random.whole(5, 40), random.between(-3, 3), random.between(-3, 3)};
   return query;
 }
 
-Query along_axis(Random& random, const Scene& scene, std::vector<std::string>& tags) {
-  tags.push_back("along-axis");
-  Query query{free_point(random, scene), random.direction(scene.dimension), {}};
-  query.v[random.below(static_cast<std::uint64_t>(scene.dimension))] = 0;
+Query along_axis(Random& random, const Scene& scene) {
+  Query query = free_flight(random, scene);
+  query.v[random.axis(scene.dimension)] = 0;
   return query;
 }
 
-Case make_published(Source& source) {
-  if (source.index < kExampleCount) return example(source.index, source.precision);
-  Case made;
+void make_published(Source& source, Case& made) {
+  if (source.index < kExampleCount) return example(source.index, source.precision, made);
   Random &drawn = source.scene, &random = source.random;
-  const std::uint64_t kind = drawn.below(6);
-  const double r = kind == 2   ? drawn.octave(-6, -4)
-                   : kind == 3 ? drawn.octave(source.precision == NumberFormat::binary64 ? -24 : -16, -6)
-                               : drawn.between(0.05, kind == 4 ? 0.3 : 0.2);
-  made.scene = unit_scene(kind == 4 || (kind == 5 && drawn.one_in(2)) ? 3 : 2, r);
-  switch (kind) {
-    case 0:
-    case 1:
-      made.query = skipped_disc(random, source.precision, r, made.tags);
-      break;
-    case 2:
-      made.query = endless_channel(random, r, made.tags);
-      break;
-    case 3:
-      made.query = slow_drift(random, r, made.tags);
-      break;
-    case 4:
-      made.query = late_sphere(random, made.scene, made.tags);
-      break;
-    default:
-      made.query = along_axis(random, made.scene, made.tags);
-  }
-  const Symmetry symmetry(random, made.scene.dimension);
-  made.query.x = symmetry(made.query.x);
-  made.query.v = symmetry(made.query.v);
-  return made;
+  const std::string_view kind = drawn_tag(
+      drawn, made.tags,
+      {"skipped-disc", "skipped-disc", "endless-channel", "slow-drift", "late-sphere", "along-axis"});
+  const double r = kind == "endless-channel" ? drawn.octave(-6, -4)
+                   : kind == "slow-drift"    ? drawn.octave(source.is_wide() ? -24 : -16, -6)
+                                             : drawn.between(0.05, kind == "late-sphere" ? 0.3 : 0.2);
+  const bool in_space = kind == "late-sphere" || (kind == "along-axis" && drawn.one_in(2));
+  made.scene = unit_scene(in_space ? 3 : 2, r);
+  Query& query = made.query;
+  if (kind == "skipped-disc") query = skipped_disc(random, source.precision, r);
+  if (kind == "endless-channel") query = endless_channel(random, r);
+  if (kind == "slow-drift") query = {{0, random.between(0.26, 0.45)}, {1, r * random.between(2.1, 3)}, {}};
+  if (kind == "late-sphere") query = late_sphere(random, made.scene);
+  if (kind == "along-axis") query = along_axis(random, made.scene);
+  query = Symmetry(random, made.scene.dimension)(query);
 }
 
 }  // namespace

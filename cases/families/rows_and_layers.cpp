@@ -6,12 +6,10 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/crystals.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
-#include "cases/hard_moves.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
@@ -29,16 +27,15 @@ Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
   Scene scene = drawn_crystal(drawn, dimension).scene;
   scale_obstacles(scene, drawn.one_in(2) ? 1 : drawn.octave(-10, 0));
   const int rank = dimension == 2 || drawn.one_in(4) ? 1 : 2;
-  tags.push_back(rank == 2 ? "layer" : "row");
+  tagged(tags, rank == 2, "layer", "row");
   const Lattice whole = scene.lattices[0];
   scene.lattices[0] = cut(whole, dimension, rank);
-  if (drawn.one_in(2)) {
-    Lattice other = cut(whole, dimension, static_cast<int>(drawn.integer(0, dimension)));
+  if (tagged(tags, drawn.one_in(2), "mixed")) {
+    Lattice other = cut(whole, dimension, drawn.exponent(0, dimension));
     for (Atom& atom : other.atoms)
       for (int i = 0; i < dimension; ++i)
         atom.position[i] += drawn.between(0.3, 0.7) * length(whole.vectors[i]);
     scene.lattices.push_back(std::move(other));
-    tags.push_back("mixed");
   }
   return scene;
 }
@@ -46,58 +43,43 @@ Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
 // A velocity along the lattice, with small integers, exactly or up to ulps and tilts.
 Vec along(Random& random, NumberFormat precision, const Lattice& lattice, int dimension) {
   Vec v{};
-  for (int i = 0; i < lattice.rank(dimension); ++i)
-    v = sum(v, scaled(lattice.vectors[i], static_cast<double>(random.integer(-5, 5))));
+  for (int i = 0; i < lattice.rank(dimension); ++i) v = plus(v, random.whole(-5, 5), lattice.vectors[i]);
   if (v == Vec{}) v = lattice.vectors[0];
   if (random.one_in(2)) return v;
   return sum(
       v, scaled(random.direction(dimension), length(v) * random.octave(-50 + missing_bits(precision), -4)));
 }
 
-Case make_case(Source& source) {
-  Case made;
+void make_case(Source& source, Case& made) {
   Random& random = source.random;
   made.scene = drawn_scene(source.scene, made.tags);
   const int dimension = made.scene.dimension;
   const Lattice& lattice = made.scene.lattices[0];
   const Atom& atom = lattice.atoms[random.below(lattice.atoms.size())];
   Vec target = atom.position;
-  ObstacleId own{0, static_cast<int>(&atom - lattice.atoms.data()), {}};
-  for (int i = 0; i < lattice.rank(dimension); ++i) {
-    const std::int64_t n = random.integer(-50, 50);
-    own.cell[i] = Integer(n);
-    target = sum(target, scaled(lattice.vectors[i], static_cast<double>(n)));
-  }
+  const IntVec cell = drawn_integers(random, lattice.rank(dimension), 50);
+  for (int i = 0; i < lattice.rank(dimension); ++i)
+    target = plus(target, static_cast<double>(cell[i]), lattice.vectors[i]);
   const double reach = atom.is_ball() ? atom.radius : length(atom.semiaxes[0]);
   const Vec direction = random.direction(dimension);
-  made.query.x = sum(target, scaled(direction, -reach * random.octave(1, 12)));
-  made.query.v = direction;
-  switch (random.below(5)) {
-    case 0:
-      made.tags.push_back("aimed");
-      break;
-    case 1:
-      made.tags.push_back("away");
-      made.query.v = random.direction(dimension);
-      break;
-    case 2:
-      made.tags.push_back("along");
-      made.query.v = along(random, source.precision, lattice, dimension);
-      made.query.x = sum(target, scaled(random.direction(dimension), reach * random.between(1, 3)));
-      break;
-    case 3:
-      made.tags.push_back("leaving");
-      made.query.from = own;
-      made.query.x = sum(target, scaled(direction, reach));
-      made.query.v = random.one_in(2) ? along(random, source.precision, lattice, dimension)
-                                      : random.direction(dimension);
-      break;
-    default:
-      made.tags.push_back("edge");
-      made.query.x = sum(made.query.x, scaled(random.direction(dimension), reach * random.between(0.1, 0.9)));
-      move_to_edge(random, made.scene, oracle_of(made.scene), made.query, source.precision);
+  made.query = {plus(target, -reach * random.octave(1, 12), direction), direction, {}};
+  Vec &x = made.query.x, &v = made.query.v;
+  const std::string_view way = drawn_tag(random, made.tags, {"aimed", "away", "along", "leaving", "edge"});
+  if (way == "away") v = random.direction(dimension);
+  if (way == "along") {
+    v = along(random, source.precision, lattice, dimension);
+    x = sum(target, scaled(random.direction(dimension), reach * random.between(1, 3)));
   }
-  return made;
+  if (way == "leaving") {
+    made.query.from = obstacle(cell, static_cast<int>(&atom - lattice.atoms.data()));
+    x = plus(target, reach, direction);
+    v = random.one_in(2) ? along(random, source.precision, lattice, dimension) : random.direction(dimension);
+  }
+  if (way == "edge") {
+    x = sum(x, scaled(random.direction(dimension), reach * random.between(0.1, 0.9)));
+    move_to_edge([&] { return drawn_off_edge(random, source.precision); }, made.scene, oracle_of(made.scene),
+                 made.query, source.precision);
+  }
 }
 
 }  // namespace

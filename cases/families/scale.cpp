@@ -7,11 +7,10 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/crystals.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
@@ -19,74 +18,46 @@ namespace {
 
 constexpr double kTinyFlat = 1e-12, kTinySolid = 1e-7;
 
-// Multiplies every length by a power of two, which is exact.
-void scale_scene(Scene& scene, double factor) {
-  for (Lattice& lattice : scene.lattices) {
-    for (Vec& u : lattice.vectors) u = scaled(u, factor);
-    for (Atom& atom : lattice.atoms) atom.position = scaled(atom.position, factor);
-  }
-  scale_obstacles(scene, factor);
-}
-
 void set_limit_radius(Random& drawn, NumberFormat precision, Case& made) {
   const double tiny = made.scene.dimension == 2 ? kTinyFlat : kTinySolid;
-  switch (drawn.below(3)) {
-    case 0:
-      made.tags.push_back("tiny-radius");
-      return set_radius(made.scene, moved(tiny, drawn.integer(-2, 2), precision) *
-                                        (drawn.one_in(2) ? 1 : drawn.between(1, 10)));
-    case 1:
-      made.tags.push_back("half-radius");
-      return set_radius(made.scene, moved(0.5, drawn.integer(-2, 2), precision));
-    default:
-      made.tags.push_back("ordinary-radius");
-      return set_radius(made.scene, drawn.octave(-10, -1));
-  }
+  const std::string_view size =
+      drawn_tag(drawn, made.tags, {"tiny-radius", "half-radius", "ordinary-radius"});
+  if (size == "tiny-radius")
+    return set_radius(made.scene, moved(tiny, drawn.integer(-2, 2), precision) *
+                                      (drawn.one_in(2) ? 1 : drawn.between(1, 10)));
+  set_radius(made.scene,
+             size == "half-radius" ? moved(0.5, drawn.integer(-2, 2), precision) : drawn.octave(-10, -1));
 }
 
 void set_velocity(Source& source, int dimension, Case& made) {
   Random& random = source.random;
-  const bool is_wide = source.precision == NumberFormat::binary64;
+  const bool is_wide = source.is_wide();
   const int subnormal_bits = is_wide ? 30 : 20, smallest = is_wide ? -1074 : -149;
-  made.query.v = random.direction(dimension);
-  switch (random.below(4)) {
-    case 0:
-      made.tags.push_back("subnormal-velocity");
-      for (double& component : made.query.v)
-        component = std::ldexp(std::round(std::ldexp(component, subnormal_bits)), smallest);
-      break;
-    case 1:
-      made.tags.push_back("huge-velocity");
-      made.query.v = scaled(made.query.v, is_wide ? random.octave(1000, 1023) : random.octave(110, 127));
-      break;
-    case 2: {
-      made.tags.push_back("uneven-velocity");
-      const std::uint64_t which = random.below(static_cast<std::uint64_t>(dimension));
-      made.query.v[which] =
-          std::ldexp(made.query.v[which], -static_cast<int>(random.integer(1, is_wide ? 1060 : 135)));
-      break;
-    }
-    default:
-      made.tags.push_back("unit-velocity");
+  Vec& v = made.query.v;
+  v = random.direction(dimension);
+  const std::string_view kind = drawn_tag(
+      random, made.tags, {"subnormal-velocity", "huge-velocity", "uneven-velocity", "unit-velocity"});
+  if (kind == "subnormal-velocity")
+    for (double& component : v)
+      component = std::ldexp(std::round(std::ldexp(component, subnormal_bits)), smallest);
+  if (kind == "huge-velocity") v = scaled(v, is_wide ? random.octave(1000, 1023) : random.octave(110, 127));
+  if (kind == "uneven-velocity") {
+    double& component = v[random.axis(dimension)];
+    component = std::ldexp(component, -random.exponent(1, is_wide ? 1060 : 135));
   }
-  if (made.query.v == Vec{}) made.query.v[0] = std::ldexp(1, smallest);
+  if (v == Vec{}) v[0] = std::ldexp(1, smallest);
 }
 
 void set_far_start(Source& source, int dimension, Case& made) {
   Random& random = source.random;
   made.query.x = point_in_cell(random, made.scene);
-  if (!random.one_in(2)) return;
-  made.tags.push_back("far-start");
-  const int exponent = static_cast<int>(source.precision == NumberFormat::binary64 ? random.integer(10, 52)
-                                                                                   : random.integer(4, 23));
-  IntVec cell{};
-  for (int i = 0; i < dimension; ++i)
-    cell[i] = random.integer(-(std::int64_t{1} << exponent), std::int64_t{1} << exponent);
+  if (!tagged(made.tags, random.one_in(2), "far-start")) return;
+  const int exponent = source.is_wide() ? random.exponent(10, 52) : random.exponent(4, 23);
+  const IntVec cell = drawn_integers(random, dimension, std::int64_t{1} << exponent);
   made.query.x = sum(made.query.x, cartesian(made.scene.lattices[0], cell));
 }
 
-Case make_scale(Source& source) {
-  Case made;
+void make_scale(Source& source, Case& made) {
   Random& drawn = source.scene;
   const int dimension = drawn.one_in(3) ? 3 : 2;
   const bool unit = drawn.one_in(2);
@@ -94,14 +65,13 @@ Case make_scale(Source& source) {
   if (unit) set_limit_radius(drawn, source.precision, made);
   set_far_start(source, dimension, made);
   set_velocity(source, dimension, made);
-  if (drawn.one_in(2)) {
-    made.tags.push_back("scaled-scene");
-    const std::int64_t most = source.precision == NumberFormat::binary64 ? 300 : 80;
-    const double factor = std::ldexp(1, static_cast<int>(drawn.integer(-most, most)));
-    scale_scene(made.scene, factor);
+  if (tagged(made.tags, drawn.one_in(2), "scaled-scene")) {
+    const std::int64_t most = source.is_wide() ? 300 : 80;
+    const double factor = std::ldexp(1, drawn.exponent(-most, most));  // times which a number is exact
+    scale_places(made.scene, factor);
+    scale_obstacles(made.scene, factor);
     made.query.x = scaled(made.query.x, factor);
   }
-  return made;
 }
 
 }  // namespace

@@ -10,12 +10,10 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/crystals.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
-#include "cases/hard_moves.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
@@ -24,63 +22,48 @@ namespace {
 // Drawn, near-rational in coordinates of the first lattice, or grazing.
 void set_query(Source& source, Case& made) {
   Random& random = source.random;
-  const int dimension = made.scene.dimension;
   Query& query = made.query;
-  query.x = free_point(random, made.scene);
-  query.v = random.direction(dimension);
-  switch (random.below(3)) {
-    case 0:
-      made.tags.push_back("drawn");
-      return;
-    case 1: {
-      made.tags.push_back("near-rational");
-      query.v = cartesian(made.scene.lattices[random.below(made.scene.lattices.size())],
-                          drawn_primitive(random, dimension, 4));
-      query.v = scaled(query.v, random.octave(-1, 1));
-      jitter(random, query.v, dimension, 3, source.precision);
-      return;
-    }
-    default:
-      for (int tries = 0; tries < 4; ++tries) {
-        Query moved = query;
-        if (!move_to_edge(random, made.scene, oracle_of(made.scene), moved, source.precision)) {
-          query.v = random.direction(dimension);
-          continue;
-        }
-        query = moved;
-        made.tags.push_back("grazing");
-        return;
-      }
-      made.tags.push_back("drawn");
+  query = free_flight(random, made.scene);
+  const int dimension = made.scene.dimension;
+  const std::uint64_t kind = random.below(3);
+  if (kind == 1) {
+    made.tags.push_back("near-rational");
+    query.v = cartesian(made.scene.lattices[random.below(made.scene.lattices.size())],
+                        drawn_primitive(random, dimension, 4));
+    query.v = scaled(query.v, random.octave(-1, 1));
+    return jitter(random, query.v, dimension, 3, source.precision);
   }
+  for (int tries = 0; kind == 2 && tries < 4; ++tries) {
+    Query moved = query;
+    const auto off_edge = [&] { return drawn_off_edge(random, source.precision); };
+    if (move_to_edge(off_edge, made.scene, oracle_of(made.scene), moved, source.precision)) {
+      query = moved;
+      return made.tags.push_back("grazing");
+    }
+    query.v = random.direction(dimension);
+  }
+  made.tags.push_back("drawn");
 }
 
 std::vector<Tag> with_kinds(std::vector<Tag> tags) {
-  tags.push_back({"drawn", "uniform free start, isotropic direction"});
-  tags.push_back({"near-rational", "a lattice vector, to a few ulps"});
-  tags.push_back({"grazing", "the first obstacle is passed or met within 2^-10 to 2^-50 of its edge",
-                  "the first obstacle is passed or met within 2^-10 to 2^-21 of its edge"});
+  tags.insert(tags.end(),
+              {{"drawn", "uniform free start, isotropic direction"},
+               {"near-rational", "a lattice vector, to a few ulps"},
+               {"grazing", "the first obstacle is passed or met within 2^-10 to 2^-50 of its edge",
+                "the first obstacle is passed or met within 2^-10 to 2^-21 of its edge"}});
   return tags;
 }
 
-Case make_crystal(Source& source) {
-  Case made;
+void make_crystal(Source& source, Case& made) {
   // Crystals take turns; in every third turn a crystal has its own size.
   const std::uint64_t turn = source.index / kCasesPerScene, which = turn % crystals().size();
   const Crystal& crystal = crystals()[which];
   made.scene = crystal.scene;
   made.tags = {std::string(crystal.name)};
-  switch ((turn / crystals().size() + which) % 3) {
-    case 0:
-      break;
-    case 1:
-      scale_obstacles(made.scene, source.scene.between(0.1, 1.1));
-      break;
-    default:
-      scale_obstacles(made.scene, source.scene.octave(-13, -3));
-  }
+  const std::uint64_t size = (turn / crystals().size() + which) % 3;
+  if (size > 0)
+    scale_obstacles(made.scene, size == 1 ? source.scene.between(0.1, 1.1) : source.scene.octave(-13, -3));
   set_query(source, made);
-  return made;
 }
 
 // The unit lattice turned by pi / 5 or pi / 7 (in space about an axis), as rounded in the catalogue.
@@ -94,91 +77,63 @@ Lattice turned(int dimension, bool fifth, int axis, double radius) {
   return lattice;
 }
 
-Case make_superposition(Source& source) {
-  Case made;
+void make_superposition(Source& source, Case& made) {
   Random& drawn = source.scene;
   const int dimension = drawn.one_in(3) ? 3 : 2;
   const double r = drawn.octave(-13, -3);
   made.scene = unit_scene(dimension, r);
   auto& lattices = made.scene.lattices;
-  switch (drawn.below(4)) {
-    case 0:
-      made.tags.push_back("turned");
-      lattices.push_back(turned(dimension, drawn.one_in(2), static_cast<int>(drawn.below(3)), r));
-      break;
-    case 1:
-      made.tags.push_back("three-lattices");
-      lattices.push_back(turned(dimension, true, 0, r));
-      lattices.push_back(turned(dimension, false, 1, r));
-      break;
-    case 2: {
-      made.tags.push_back("incommensurate");
-      Lattice other = lattices[0];
-      const double spacing = drawn.between(0.6, 1.7);
-      for (Vec& vector : other.vectors) vector = scaled(vector, spacing);
-      other.atoms[0].radius = r * drawn.between(0.3, 3);
-      lattices.push_back(other);
-      break;
-    }
-    default: {
-      made.tags.push_back("shifted");
-      Lattice other = lattices[0];
-      for (int i = 0; i < dimension; ++i) other.atoms[0].position[i] = drawn.uniform();
-      if (drawn.one_in(2)) other.vectors[0] = scaled(other.vectors[0], 1.5);
-      lattices.push_back(other);
-    }
+  Lattice other = lattices[0];
+  const std::string_view kind =
+      drawn_tag(drawn, made.tags, {"turned", "three-lattices", "incommensurate", "shifted"});
+  if (kind == "turned") other = turned(dimension, drawn.one_in(2), drawn.axis(3), r);
+  if (kind == "three-lattices") {
+    other = turned(dimension, false, 1, r);
+    lattices.push_back(turned(dimension, true, 0, r));
   }
-  if (dimension == 3) made.tags.push_back("space");
-  Random& random = source.random;
+  if (kind == "incommensurate") {
+    const double spacing = drawn.between(0.6, 1.7);
+    for (Vec& vector : other.vectors) vector = scaled(vector, spacing);
+    other.atoms[0].radius = r * drawn.between(0.3, 3);
+  }
+  if (kind == "shifted") {
+    for (int i = 0; i < dimension; ++i) other.atoms[0].position[i] = drawn.uniform();
+    if (drawn.one_in(2)) other.vectors[0] = scaled(other.vectors[0], 1.5);
+  }
+  lattices.push_back(std::move(other));
+  tagged(made.tags, dimension == 3, "space");
   set_query(source, made);
   if (made.tags.back() == "drawn")  // far from the point that turned lattices share
-    for (int i = 0; i < dimension; ++i) made.query.x[i] += static_cast<double>(random.integer(-20, 20));
-  return made;
+    for (int i = 0; i < dimension; ++i) made.query.x[i] += source.random.whole(-20, 20);
 }
 
-// An ellipsoid with semiaxes along a drawn frame, `slender` times as long as wide.
-Atom ellipsoid(Random& random, int dimension, double size, double slender) {
-  Atom atom;
-  Vec a = random.direction(dimension), b{-a[1], a[0], 0};
-  atom.semiaxes = {scaled(a, size), scaled(b, size / slender)};
-  if (dimension == 3) {
-    const Vec other = random.direction(3);
-    b = {a[1] * other[2] - a[2] * other[1], a[2] * other[0] - a[0] * other[2],
-         a[0] * other[1] - a[1] * other[0]};
-    b = scaled(b, 1 / length(b));
-    const Vec c{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    const double third = random.one_in(2) ? size : size / slender;
-    atom.semiaxes = {scaled(a, size), scaled(b, size / slender), scaled(c, third)};
-  }
-  return atom;
+// Semiaxes along a drawn frame, `slender` times as long as wide.
+std::vector<Vec> stretched_semiaxes(Random& random, int dimension, double size, double slender) {
+  const auto [a, b, c] = drawn_frame(random, random.direction(dimension), dimension);
+  std::vector<Vec> semiaxes{scaled(a, size), scaled(b, size / slender)};
+  if (dimension == 3) semiaxes.push_back(scaled(c, random.one_in(2) ? size : size / slender));
+  return semiaxes;
 }
 
-Case make_ellipsoid(Source& source) {
-  Case made;
+void make_ellipsoid(Source& source, Case& made) {
   Random& drawn = source.scene;
   const int dimension = drawn.one_in(2) ? 3 : 2;
   made.scene = drawn.one_in(2) ? unit_scene(dimension, 0.1) : drawn_crystal(drawn, dimension).scene;
-  const bool slender = drawn.one_in(2);
-  made.tags.push_back(dimension == 2 ? "ellipse" : "ellipsoid");
-  if (slender) made.tags.push_back("slender");
+  tagged(made.tags, dimension == 2, "ellipse", "ellipsoid");
+  const bool slender = tagged(made.tags, drawn.one_in(2), "slender");
   const double stretch = slender ? drawn.between(8, 100) : drawn.between(1.2, 4);
   const double size = drawn.one_in(3) ? drawn.octave(-12, -3) : drawn.between(0.1, 0.4);
   auto& atoms = made.scene.lattices[0].atoms;
-  atoms[0] = {atoms[0].position, 0, ellipsoid(drawn, dimension, size, stretch).semiaxes};
-  if (drawn.one_in(3)) {
-    made.tags.push_back("sheared-axes");  // semiaxes not at right angles span an ellipsoid, too
-    atoms[0].semiaxes[0] = sum(atoms[0].semiaxes[0], scaled(atoms[0].semiaxes[1], drawn.between(-2, 2)));
-  }
-  if (drawn.one_in(2)) {
-    made.tags.push_back("mixed");
+  auto semiaxes = stretched_semiaxes(drawn, dimension, size, stretch);
+  if (tagged(made.tags, drawn.one_in(3), "sheared-axes"))  // such semiaxes span an ellipsoid, too
+    semiaxes[0] = plus(semiaxes[0], drawn.between(-2, 2), semiaxes[1]);
+  atoms[0] = {atoms[0].position, 0, std::move(semiaxes)};
+  if (tagged(made.tags, drawn.one_in(2), "mixed")) {
     const Vec middle = dimension == 2 ? Vec{0.5, 0.5} : Vec{0.5, 0.5, 0.5};
-    Atom other = ellipsoid(drawn, dimension, size * 0.7, drawn.between(1, 5));
-    other.position = middle;
-    atoms.push_back(other);
+    atoms.push_back({middle, 0, stretched_semiaxes(drawn, dimension, size * 0.7, drawn.between(1, 5))});
     atoms.push_back({Vec{0.5, 0, 0}, size * 0.3, {}});
   }
   set_query(source, made);
-  return made;
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/symmetry.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
@@ -27,11 +27,9 @@ struct Touching {
 
 // (a, b, c, d) with a^2 + b^2 + c^2 = d^2, or with c = 0.
 Touching drawn_touching(Random& drawn, Random& random, int dimension) {
-  static constexpr std::int64_t kCirclePoints[][3] = {
+  static constexpr double kCirclePoints[][3] = {
       {3, 4, 5}, {5, 12, 13}, {16, 63, 65}, {36, 77, 85}, {264, 23, 265}};
-  const auto& [a, b, w] = kCirclePoints[drawn.below(5)];
-  const auto [x, y, size] =
-      std::tuple(static_cast<double>(a), static_cast<double>(b), static_cast<double>(w));
+  const auto& [x, y, size] = kCirclePoints[drawn.below(5)];
   const Symmetry symmetry(random, dimension);
   if (dimension == 2) return {size, symmetry(Vec{x, y, 0}), symmetry(Vec{-y, x, 0})};
   // The rows of a rotation by quaternions have the length of its norm: here (x, y, 0) in a tilted plane.
@@ -46,16 +44,10 @@ struct Ray {
   std::vector<std::string> tags;
 };
 
-Vec across(Random& random, const Vec& v, int dimension) {
-  Vec n = dimension == 2 ? Vec{-v[1] * random.sign(), v[0], 0} : cross(v, random.direction(3));
-  const double size = length(n);
-  return size > 0 ? scaled(n, 1 / size) : Vec{0, 1, 0};
-}
-
 // A ray from the distance `far`, past the centre at the distance `beside`, up to rounding, in any direction.
 Ray aimed(Random& random, int dimension, double far, double beside) {
   const Vec v = random.direction(dimension);
-  return {sum(scaled(across(random, v, dimension), beside), scaled(v, -far)), v, false, {}};
+  return {sum(scaled(drawn_across(random, v, dimension), beside), scaled(v, -far)), v, false, {}};
 }
 
 Ray plain(Random& random, int dimension, double w) {
@@ -98,8 +90,7 @@ Ray past_edge(Random& random, const RayRange& range, int dimension, double w, bo
 }
 
 Ray tangent(Random& random, const RayRange& range, const Touching& touching) {
-  const double steps =
-      random.one_in(4) ? 0 : static_cast<double>(random.integer(1, std::int64_t{1} << range.tangent_bits));
+  const double steps = random.one_in(4) ? 0 : random.whole(1, std::int64_t{1} << range.tangent_bits);
   Ray ray{sum(touching.n, scaled(touching.tangent, -steps)), touching.tangent, steps == 0, {"tangent"}};
   if (steps == 0) ray.tags.push_back("self-intersection");
   return ray;
@@ -108,30 +99,16 @@ Ray tangent(Random& random, const RayRange& range, const Touching& touching) {
 // A start on the surface, or a few ulps to 10^-3 radii off it; flights inwards, outwards, along it or nearly
 // so.
 Ray at_surface(Random& random, const RayRange& range, int dimension, const Touching& touching) {
-  Ray ray{touching.n, {}, true, {"self-intersection"}};
-  switch (random.below(3)) {
-    case 0:
-      break;
-    case 1:
-      jitter(random, ray.x, dimension, 4, range.precision);
-      break;
-    default:
-      ray.x = scaled(ray.x, 1 + random.octave(3 - range.bits, -10) * random.sign());
-  }
-  const Vec inward = scaled(touching.n, -1);
-  switch (random.below(4)) {
-    case 0:
-      ray.v = sum(inward, scaled(touching.tangent, random.between(-2, 2)));
-      break;
-    case 1:
-      ray.v = sum(touching.n, scaled(touching.tangent, random.between(-2, 2)));
-      break;
-    case 2:
-      ray.v = sum(touching.tangent, scaled(inward, random.octave(-range.bits, -4) * random.sign()));
-      break;
-    default:
-      ray.v = random.direction(dimension);
-  }
+  const auto& [w, n, along] = touching;
+  Ray ray{n, {}, true, {"self-intersection"}};
+  const std::uint64_t start = random.below(3);
+  if (start == 1) jitter(random, ray.x, dimension, 4, range.precision);
+  if (start == 2) ray.x = scaled(n, 1 + random.octave(3 - range.bits, -10) * random.sign());
+  const Vec inward = scaled(n, -1);
+  const std::uint64_t way = random.below(4);
+  if (way < 2) ray.v = plus(way == 0 ? inward : n, random.between(-2, 2), along);
+  if (way == 2) ray.v = plus(along, random.octave(-range.bits, -4) * random.sign(), inward);
+  if (way == 3) ray.v = random.direction(dimension);
   return ray;
 }
 
@@ -151,24 +128,14 @@ Ray far_origin(Random& random, const RayRange& range, int dimension, double w) {
 
 Ray ray_beside(Random& random, const RayRange& range, int dimension, const Touching& touching) {
   const double w = touching.w;
-  switch (random.below(10)) {
-    case 0:
-      return plain(random, dimension, w);
-    case 1:
-    case 2:
-      return past_edge(random, range, dimension, w, false);
-    case 3:
-      return tangent(random, range, touching);
-    case 4:
-    case 5:
-      return at_surface(random, range, dimension, touching);
-    case 6:
-      return from_inside(random, range, dimension, w);
-    case 7:
-      return past_edge(random, range, dimension, w, true);
-    default:
-      return far_origin(random, range, dimension, w);
-  }
+  const std::uint64_t kind = random.below(10);
+  if (kind == 0) return plain(random, dimension, w);
+  if (kind <= 2) return past_edge(random, range, dimension, w, false);
+  if (kind == 3) return tangent(random, range, touching);
+  if (kind <= 5) return at_surface(random, range, dimension, touching);
+  if (kind == 6) return from_inside(random, range, dimension, w);
+  if (kind == 7) return past_edge(random, range, dimension, w, true);
+  return far_origin(random, range, dimension, w);
 }
 
 // Does b^2 - a c, of the quadratic a t^2 + 2 b t + c, lose half of its bits or more?
@@ -189,7 +156,7 @@ void stretch(Random& random, const RayRange& range, Ray& ray) {
                                      : subnormal ? -132
                                                  : -90);
   const int give_or_take = range.is_wide ? 20 : subnormal ? 5 : 10;
-  const auto exponent = about + static_cast<int>(random.integer(-give_or_take, give_or_take));
+  const auto exponent = about + random.exponent(-give_or_take, give_or_take);
   ray.v =
       scaled(ray.v, std::ldexp(1.0, exponent - std::ilogb(std::max({std::fabs(ray.v[0]), std::fabs(ray.v[1]),
                                                                     std::fabs(ray.v[2])}))));
@@ -215,29 +182,21 @@ Ray finished_ray(Random& random, const RayRange& range, int dimension, const Tou
   return ray;
 }
 
-Case ball_case(Source& source, int dimension) {
-  Case made;
+void ball_case(Source& source, int dimension, Case& made) {
   Random& drawn = source.scene;
   const RayRange range(source.precision);
-  const int size = drawn.one_in(2) ? 0 : static_cast<int>(drawn.integer(range.smallest, range.largest));
-  const double shift = drawn.one_in(2) ? 0 : static_cast<double>(drawn.integer(1, 1 << 12));
+  const int size = drawn.one_in(2) ? 0 : drawn.exponent(range.smallest, range.largest);
+  const double shift = drawn.one_in(2) ? 0 : drawn.whole(1, 1 << 12);
   const Touching touching = drawn_touching(drawn, source.random, dimension);
   const double unit = std::ldexp(1.0, size);
   Vec centre{};
-  for (int i = 0; i < dimension; ++i) centre[i] = shift * static_cast<double>(drawn.integer(-5, 5));
+  for (int i = 0; i < dimension; ++i) centre[i] = shift * drawn.whole(-5, 5);
   made.scene = alone(dimension, Atom{scaled(centre, unit), touching.w * unit, {}});
   const Ray ray = finished_ray(source.random, range, dimension, touching, made);
   made.query.x = scaled(sum(centre, ray.x), unit);
   made.query.v = ray.v;
   if (size < -range.ordinary) made.tags.push_back("tiny-ball");
   if (size > range.ordinary) made.tags.push_back("huge-ball");
-  return made;
-}
-
-Vec image(const std::vector<Vec>& semiaxes, const Vec& y) {
-  Vec result{};
-  for (std::size_t i = 0; i < semiaxes.size(); ++i) result = sum(result, scaled(semiaxes[i], y[i]));
-  return result;
 }
 
 // Semiaxes at right angles to each other, or along the axes and powers of two; the longest is up to 2^8 times
@@ -246,27 +205,23 @@ std::vector<Vec> semiaxes_alone(Random& drawn, int dimension, bool aligned) {
   std::vector<Vec> semiaxes(static_cast<std::size_t>(dimension), Vec{});
   for (int i = 0; i < dimension; ++i) semiaxes[i][i] = 1;
   if (!aligned) {
-    const Vec a = drawn.direction(dimension);
-    Vec b = dimension == 2 ? Vec{-a[1], a[0], 0} : cross(a, drawn.direction(3));
-    if (b == Vec{}) b = cross(a, a[0] == 0 ? Vec{1, 0, 0} : Vec{0, 1, 0});
-    semiaxes[0] = a, semiaxes[1] = scaled(b, 1 / length(b));
-    if (dimension == 3) semiaxes[2] = cross(a, semiaxes[1]);
+    const auto frame = drawn_frame(drawn, drawn.direction(dimension), dimension);
+    std::copy_n(frame.begin(), dimension, semiaxes.begin());
+    if (dimension == 2) semiaxes[1] = scaled(semiaxes[1], 1 / length(semiaxes[1]));
   }
   for (Vec& axis : semiaxes)
-    axis =
-        scaled(axis, aligned ? std::ldexp(1.0, static_cast<int>(drawn.integer(-8, 0))) : drawn.octave(-8, 0));
+    axis = scaled(axis, aligned ? std::ldexp(1.0, drawn.exponent(-8, 0)) : drawn.octave(-8, 0));
   return semiaxes;
 }
 
-Case ellipsoid_case(Source& source) {
-  Case made;
+void ellipsoid_case(Source& source, Case& made) {
   Random& drawn = source.scene;
   const int dimension = drawn.one_in(3) ? 2 : 3;
   const bool aligned = drawn.one_in(2), moved = drawn.one_in(2);
   const std::vector<Vec> semiaxes = semiaxes_alone(drawn, dimension, aligned);
   Vec centre{};
   if (moved)
-    for (int i = 0; i < dimension; ++i) centre[i] = static_cast<double>(drawn.integer(-64, 64));
+    for (int i = 0; i < dimension; ++i) centre[i] = drawn.whole(-64, 64);
   const Touching touching = drawn_touching(drawn, source.random, dimension);
   // The ray was made beside the ball of radius w.
   Atom atom{centre, 0, semiaxes};
@@ -277,7 +232,6 @@ Case ellipsoid_case(Source& source) {
   made.query.v = image(semiaxes, ray.v);
   if (made.query.v == Vec{}) made.query.v[0] = 1;  // a subnormal v vanished
   made.tags.push_back(aligned ? "axis-aligned" : "rotated");
-  return made;
 }
 
 std::vector<Tag> ray_tags() {
@@ -309,12 +263,12 @@ const Tag kTiny{"tiny-ball", "a radius of 2^-600 to 2^-30", "a radius of 2^-90 t
 
 Family ball_2d() {
   return {"ball-2d", "A ray and one disc: far, grazing, on the surface, tiny and huge.",
-          with(ray_tags(), {kTiny, kHuge}), [](Source& source) { return ball_case(source, 2); }};
+          with(ray_tags(), {kTiny, kHuge}), [](Source& source, Case& made) { ball_case(source, 2, made); }};
 }
 
 Family ball_3d() {
   return {"ball-3d", "A ray and one ball: far, grazing, on the surface, tiny and huge.",
-          with(ray_tags(), {kTiny, kHuge}), [](Source& source) { return ball_case(source, 3); }};
+          with(ray_tags(), {kTiny, kHuge}), [](Source& source, Case& made) { ball_case(source, 3, made); }};
 }
 
 Family ellipsoid_alone() {

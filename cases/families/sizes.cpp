@@ -7,24 +7,20 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/crystals.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
-#include "cases/hard_moves.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {
 
 enum Kind : std::size_t { kUnit, kCell, kMotif, kEllipsoid, kSuperposition, kMixed };
-constexpr std::string_view kKinds[] = {"unit", "cell", "motif", "ellipsoid", "superposition", "mixed"};
+constexpr std::string_view kScenes[] = {"unit", "cell", "motif", "ellipsoid", "superposition", "mixed"};
 
 // An obstacle whose radius or shortest semiaxis is `size`; an ellipsoid is up to 2^5 times as long as wide.
-Atom drawn_obstacle(Random& drawn, int dimension, double size, bool is_ball) {
+Atom sized_obstacle(Random& drawn, int dimension, double size, bool is_ball) {
+  if (is_ball) return {{}, size, {}};
   Atom atom;
-  atom.radius = size;
-  if (is_ball) return atom;
-  atom.radius = 0;
   const double most = std::min(0.4, 32 * size);
   const Vec a = drawn.direction(2);
   atom.semiaxes = {scaled(a, size), scaled({-a[1], a[0], 0}, drawn.between(size, most))};
@@ -38,15 +34,15 @@ Scene sized_scene(Random& drawn, std::size_t kind, int dimension, double size) {
   if (kind == kCell)
     for (int i = 1; i < dimension; ++i) lattice.vectors[i] = {drawn.uniform(), 1, i == 2 ? 1.0 : 0.0};
   if (kind == kMotif) {
-    lattice.atoms.push_back(drawn_obstacle(drawn, dimension, size * drawn.between(1, 2), true));
+    lattice.atoms.push_back(sized_obstacle(drawn, dimension, size * drawn.between(1, 2), true));
     for (int i = 0; i < dimension; ++i) lattice.atoms[1].position[i] = drawn.uniform();
   }
-  if (kind == kEllipsoid) lattice.atoms[0] = drawn_obstacle(drawn, dimension, size, false);
+  if (kind == kEllipsoid) lattice.atoms[0] = sized_obstacle(drawn, dimension, size, false);
   if (kind == kSuperposition || kind == kMixed) {
     Lattice other = lattice;
     for (int i = 0; i < dimension; ++i) other.vectors[i] = scaled(lattice.vectors[i], drawn.between(1, 2));
     for (int i = 0; i < dimension; ++i) other.atoms[0].position[i] = drawn.uniform();
-    if (kind == kMixed) other.atoms[0] = drawn_obstacle(drawn, dimension, size, false);
+    if (kind == kMixed) other.atoms[0] = sized_obstacle(drawn, dimension, size, false);
     scene.lattices.push_back(other);
   }
   return scene;
@@ -60,34 +56,27 @@ void leave_obstacle(Random& random, Case& made) {
   const int which = static_cast<int>(random.below(atoms.size()));
   const Atom& atom = atoms[which];
   const Vec n = random.direction(dimension);
-  Vec arm = scaled(n, atom.radius);
-  for (std::size_t k = 0; k < atom.semiaxes.size(); ++k) arm = sum(arm, scaled(atom.semiaxes[k], n[k]));
+  const Vec arm = atom.is_ball() ? scaled(n, atom.radius) : image(atom.semiaxes, n);
   made.query.x = sum(atom.position, arm);
   made.query.v = sum(scaled(arm, 1 / length(arm)), scaled(random.direction(dimension), random.uniform()));
   made.query.from = ObstacleId{lattice, which, {}};
 }
 
-Case make_sizes(Source& source) {
+void make_sizes(Source& source, Case& made) {
   constexpr std::uint64_t kFlat = 38, kSolid = 22, kStepFlat = 23, kStepSolid = 13;
-  Case made;
   Random &drawn = source.scene, &random = source.random;
-  const std::uint64_t number = source.index / kCasesPerScene, kind = number % std::size(kKinds),
-                      turn = number / std::size(kKinds);
+  const std::uint64_t number = source.index / kCasesPerScene, kind = number % std::size(kScenes),
+                      turn = number / std::size(kScenes);
   const int dimension = turn % 2 == 0 ? 2 : 3;
   const std::uint64_t octaves = dimension == 2 ? kFlat : kSolid,
                       step = dimension == 2 ? kStepFlat : kStepSolid;
   const int octave = -2 - static_cast<int>(turn / 2 * step % octaves);
-  made.tags.emplace_back(kKinds[kind]);
+  made.tags.emplace_back(kScenes[kind]);
   made.scene = sized_scene(drawn, kind, dimension, drawn.octave(octave, octave + 1));
-  if (random.one_in(3)) {
-    made.tags.push_back("leaving");
-    leave_obstacle(random, made);
-    return made;
-  }
+  if (tagged(made.tags, random.one_in(3), "leaving")) return leave_obstacle(random, made);
   made.query.x = free_point(random, made.scene);
   made.query.v = random.one_in(4) ? near_integer_direction(random, dimension, source.precision)
                                   : random.direction(dimension);
-  return made;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {
@@ -26,12 +26,10 @@ struct Skewed {
 
 Skewed drawn_skewed(Random& drawn, int dimension, std::vector<std::string>& tags) {
   Skewed cells;
-  const double size = drawn.one_in(2) ? 1 : std::ldexp(1, static_cast<int>(drawn.integer(-20, 20)));
-  const bool box = drawn.one_in(3);
-  tags.push_back(box ? "box" : "cube");
-  for (int k = 0; k < dimension; ++k)
-    cells.edges[k][k] = size * (box ? static_cast<double>(drawn.integer(4, 8)) / 4 : 1);
-  if (dimension == 3) cells.i = static_cast<int>(drawn.below(3)), cells.j = (cells.i + 1) % 3;
+  const double size = drawn.one_in(2) ? 1 : std::ldexp(1, drawn.exponent(-20, 20));
+  const bool box = tagged(tags, drawn.one_in(3), "box", "cube");
+  for (int k = 0; k < dimension; ++k) cells.edges[k][k] = size * (box ? drawn.whole(4, 8) / 4 : 1);
+  if (dimension == 3) cells.i = drawn.axis(3), cells.j = (cells.i + 1) % 3;
   cells.a = (std::int64_t{1} << drawn.integer(1, 10)) + drawn.integer(-1, 1);
   if (drawn.one_in(2)) cells.a = -cells.a;
   return cells;
@@ -52,36 +50,28 @@ ObstacleId named(const Skewed& cells, const IntVec& c) {
   IntVec cell = c;
   cell[cells.i] = c[cells.i] - cells.a * c[cells.j];
   cell[cells.j] = (1 + cells.a * cells.a) * c[cells.j] - cells.a * c[cells.i];
-  return obstacle(cell[0], cell[1], cell[2]);
+  return obstacle(cell);
 }
 
-Case make_skewed_cells(Source& source) {
-  Case made;
+void make_skewed_cells(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   const int dimension = drawn.one_in(2) ? 3 : 2;
   const Skewed cells = drawn_skewed(drawn, dimension, made.tags);
   made.scene = skewed_scene(drawn, dimension, cells);
   const double radius = made.scene.lattices[0].atoms[0].radius;
-  const bool far = random.one_in(2);
-  made.tags.push_back(far ? "far" : "near");
-  const auto range =
-      std::int64_t{1} << (!far                                         ? random.integer(0, 8)
-                          : source.precision == NumberFormat::binary64 ? random.integer(20, 40)
-                                                                       : random.integer(9, 16));
-  IntVec c{};
+  const bool far = tagged(made.tags, random.one_in(2), "far", "near");
+  const auto range = std::int64_t{1} << (!far               ? random.integer(0, 8)
+                                         : source.is_wide() ? random.integer(20, 40)
+                                                            : random.integer(9, 16));
+  const IntVec c = drawn_integers(random, dimension, range);
   Vec centre{};
-  for (int k = 0; k < dimension; ++k) {
-    c[k] = random.integer(-range, range);
-    centre = sum(centre, scaled(cells.edges[k], static_cast<double>(c[k])));
-  }
+  for (int k = 0; k < dimension; ++k) centre = plus(centre, static_cast<double>(c[k]), cells.edges[k]);
   const Vec n = random.direction(dimension);
-  const bool inside = random.one_in(4);
-  made.tags.push_back(inside ? "inside" : "surface");
-  made.query.x = sum(centre, scaled(n, inside ? radius * random.uniform() : radius));
+  const bool inside = tagged(made.tags, random.one_in(4), "inside", "surface");
+  made.query.x = plus(centre, inside ? radius * random.uniform() : radius, n);
   made.query.v = random.direction(dimension);
   if (lorentz::dot(made.query.v, n) < 0) made.query.v = scaled(made.query.v, -1);
   made.query.from = named(cells, c);
-  return made;
 }
 
 }  // namespace

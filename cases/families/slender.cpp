@@ -6,36 +6,31 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
 #include "cases/integer_vectors.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {
 
-// A frame at random angles, or with a long axis of small integers.
-std::array<Vec, 3> drawn_frame(Random& drawn, int dimension) {
-  Vec a = drawn.direction(dimension);
-  if (drawn.one_in(3)) {
-    a = to_vec(drawn_primitive(drawn, dimension, 4));
-    a = scaled(a, 1 / length(a));
-  }
-  if (dimension == 2) return {a, Vec{-a[1], a[0], 0}, Vec{0, 0, 1}};
-  Vec b = cross(a, drawn.direction(3));
-  b = scaled(b, 1 / length(b));
-  return {a, b, cross(a, b)};
+// The long axis: at random angles, or of small integers.
+Vec drawn_axis(Random& drawn, int dimension) {
+  const Vec any = drawn.direction(dimension);
+  if (!drawn.one_in(3)) return any;
+  const Vec a = to_vec(drawn_primitive(drawn, dimension, 4));
+  return scaled(a, 1 / length(a));
 }
 
 // Needles, and in space blades, too.
 Atom drawn_needle(Random& drawn, int dimension, Case& made) {
-  const std::array<Vec, 3> frame = drawn_frame(drawn, dimension);
+  const std::array<Vec, 3> frame = drawn_frame(drawn, drawn_axis(drawn, dimension), dimension);
   const bool cell = drawn.one_in(2);
   const double size = cell ? drawn.between(0.2, 0.49) : drawn.octave(-1, 2),
                thin = size * drawn.octave(-12, -2);
-  made.tags.push_back(cell ? "in-its-cell" : "through-cells");
-  const bool blade = dimension == 3 && drawn.one_in(2);
-  made.tags.push_back(blade ? "blade" : "needle");
+  tagged(made.tags, cell, "in-its-cell", "through-cells");
+  const bool blade = tagged(made.tags, dimension == 3 && drawn.one_in(2), "blade", "needle");
   Atom atom;
   atom.semiaxes = {scaled(frame[0], size), scaled(frame[1], thin)};
   if (dimension == 3) atom.semiaxes.push_back(scaled(frame[2], blade ? size * drawn.between(0.5, 1) : thin));
@@ -50,12 +45,11 @@ Vec beside(Random& random, NumberFormat precision, const Atom& atom) {
       random.one_in(3)
           ? random.between(-1.5, 1.5)
           : random.sign() * (1 + random.octave(-50 + missing_bits(precision), -1) * random.sign());
-  return sum(atom.position,
-             sum(scaled(along, -random.between(0.5, random.one_in(2) ? 2 : 40)), scaled(across, edge)));
+  const Vec before = scaled(along, -random.between(0.5, random.one_in(2) ? 2 : 40));
+  return sum(atom.position, plus(before, edge, across));
 }
 
-Case make_slender(Source& source) {
-  Case made;
+void make_slender(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   const int dimension = drawn.one_in(2) ? 3 : 2;
   made.scene = unit_scene(dimension, 0.25);
@@ -63,22 +57,13 @@ Case make_slender(Source& source) {
   const Atom& atom = made.scene.lattices[0].atoms[0];
   const Vec& along = atom.semiaxes[0];
   made.query.v = random.one_in(2) ? along : scaled(along, random.between(0.5, 2) / length(along));
-  if (random.one_in(2)) {
-    made.tags.push_back("leaning");
+  if (tagged(made.tags, random.one_in(2), "leaning", "lengthwise"))
     made.query.v = sum(made.query.v, scaled(random.direction(dimension),
                                             length(made.query.v) *
                                                 random.octave(-40 + missing_bits(source.precision) / 2, -4)));
-  } else {
-    made.tags.push_back("lengthwise");
-  }
-  if (random.one_in(3)) {
-    made.tags.push_back("anywhere");
-    made.query.x = free_point(random, made.scene);
-  } else {
-    made.tags.push_back("at-its-edge");
-    made.query.x = beside(random, source.precision, atom);
-  }
-  return made;
+  made.query.x = tagged(made.tags, random.one_in(3), "anywhere", "at-its-edge")
+                     ? free_point(random, made.scene)
+                     : beside(random, source.precision, atom);
 }
 
 }  // namespace

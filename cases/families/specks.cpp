@@ -10,7 +10,7 @@
 #include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {
@@ -27,10 +27,8 @@ struct SpeckRange {
 // The smallest numbers, or any below 2^-400 of the size; in half of the cases with all digits.
 double speck(Random& random, const SpeckRange& range, int exponent_of_size) {
   const int most = std::max(range.least, std::min(exponent_of_size - range.below, -range.below));
-  const auto exponent = static_cast<int>(
-      random.one_in(2)
-          ? range.least + static_cast<int>(random.below(static_cast<std::uint64_t>(range.next_to_least)))
-          : random.integer(range.least, most));
+  const int exponent = random.one_in(2) ? random.exponent(range.least, range.least + range.next_to_least - 1)
+                                        : random.exponent(range.least, most);
   return std::ldexp(random.one_in(2) ? 1 : 1 + random.uniform(), std::min(exponent, most)) * random.sign();
 }
 
@@ -41,18 +39,13 @@ void add_specks(Random& random, const SpeckRange& range, Vec& a, int dimension, 
 }
 
 int drawn_exponent(Random& drawn, const SpeckRange& range) {
-  switch (drawn.below(3)) {
-    case 0:
-      return static_cast<int>(drawn.integer(-2, 2));
-    case 1:
-      return static_cast<int>(drawn.integer(-range.ordinary, range.ordinary));
-    default:
-      return static_cast<int>(drawn.integer(range.ordinary, range.largest));
-  }
+  const std::uint64_t kind = drawn.below(3);
+  if (kind == 0) return drawn.exponent(-2, 2);
+  return drawn.exponent(kind == 1 ? -range.ordinary : range.ordinary,
+                        kind == 1 ? range.ordinary : range.largest);
 }
 
-Case make_specks(Source& source) {
-  Case made;
+void make_specks(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   const SpeckRange range(source.precision);
   const int dimension = drawn.one_in(3) ? 3 : 2, exponent = drawn_exponent(drawn, range);
@@ -61,29 +54,23 @@ Case make_specks(Source& source) {
   const bool skewed = drawn.one_in(4);
   for (int i = 0; i < dimension; ++i) {
     vectors[i][i] = size;
-    if (skewed && i > 0) vectors[i][0] = size * static_cast<double>(drawn.integer(-2, 2)) / 4;
+    if (skewed && i > 0) vectors[i][0] = size * drawn.whole(-2, 2) / 4;
     add_specks(drawn, range, vectors[i], dimension, exponent);
   }
   made.scene = lattice_scene(dimension, vectors, size * (drawn.one_in(2) ? 0.25 : drawn.between(0.02, 0.5)));
   if (drawn.one_in(4))
     add_specks(drawn, range, made.scene.lattices[0].atoms[0].position, dimension, exponent);
-  const bool row = random.one_in(2);
-  made.tags.push_back(row ? "row" : "across");
+  const bool row = tagged(made.tags, random.one_in(2), "row", "across");
   Vec x{}, v = random.direction(dimension);
-  for (int i = 0; i < dimension; ++i) x[i] = static_cast<double>(random.integer(-4, 4)) / 4;
+  for (int i = 0; i < dimension; ++i) x[i] = random.whole(-4, 4) / 4;
   if (row) v = to_vec(drawn_primitive(random, dimension, random.one_in(2) ? 1 : 3));
   made.query.x = scaled(x, size);
-  made.query.v =
-      scaled(v, std::ldexp(1, random.one_in(2) ? 0
-                                               : static_cast<int>(random.integer(range.is_wide ? -300 : -40,
-                                                                                 range.is_wide ? 300 : 40))));
-  const bool more = random.one_in(3);
-  made.tags.push_back(more ? "specks-in-the-flight" : "specks-in-the-cell");
-  if (more) {
+  const int fastest = range.is_wide ? 300 : 40;
+  made.query.v = scaled(v, std::ldexp(1, random.one_in(2) ? 0 : random.exponent(-fastest, fastest)));
+  if (tagged(made.tags, random.one_in(3), "specks-in-the-flight", "specks-in-the-cell")) {
     add_specks(random, range, made.query.x, dimension, exponent);
     add_specks(random, range, made.query.v, dimension, std::ilogb(length(made.query.v)));
   }
-  return made;
 }
 
 }  // namespace

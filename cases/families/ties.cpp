@@ -9,33 +9,27 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
 #include "cases/integer_vectors.hpp"
-#include "cases/symmetry.hpp"
+#include "cases/scenes.hpp"
 #include "cases/ulps.hpp"
 
 namespace lorentz::cases {
 namespace {
 
-Atom ball(const Vec& position, double radius) {
-  return {position, radius, {}};
-}
-
 double dyadic(Random& random, int low, int high) {  // eighths of a power of two: few bits
-  return std::ldexp(static_cast<double>(random.integer(8, 15)),
-                    static_cast<int>(random.integer(low, high)) - 3);
+  return std::ldexp(random.whole(8, 15), random.exponent(low, high) - 3);
 }
 
 // A start at a multiple of 2^-40 (in binary32 2^-20) along the line behind the origin, so that it is exact.
 double behind(Random& random, NumberFormat precision) {
   const int grid = precision == NumberFormat::binary64 ? 40 : 20;
-  return std::ldexp(static_cast<double>(random.integer(1l << (grid - 2), 1l << (grid - 1))), -grid);
+  return std::ldexp(random.whole(1l << (grid - 2), 1l << (grid - 1)), -grid);
 }
 
 // Atoms that are mirror images in the line of flight, which runs along the first axis or the diagonal.
-Case make_mirrored(Source& source, int dimension) {
-  Case made;
+void make_mirrored(Source& source, int dimension, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   made.tags.push_back("mirrored");
   const double r = dyadic(drawn, -4, -3), off = r * dyadic(drawn, -3, -2) * 1.5,
@@ -56,12 +50,10 @@ Case make_mirrored(Source& source, int dimension) {
       atoms.insert(atoms.end(), {ball({ahead, 0, off}, r), ball({ahead, 0, -off}, r)});
     made.query = {{-s, 0}, {1, 0}, {}};
   }
-  return made;
 }
 
 // Two balls through the origin, with centres at triples; any line through it into both enters both there.
-Case make_shared_point(Source& source, int dimension) {
-  Case made;
+void make_shared_point(Source& source, int dimension, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   made.tags.push_back("shared-point");
   made.scene = unit_scene(dimension, 1);
@@ -73,91 +65,63 @@ Case make_shared_point(Source& source, int dimension) {
     if (i == 0) first = one.v;
     if (dot(one.v, first) < 0)  // both on the same side
       for (std::int64_t& component : one.v) component = -component;
-    const int exponent = -std::ilogb(static_cast<double>(one.length)) - static_cast<int>(drawn.integer(3, 5));
+    const int exponent = -std::ilogb(static_cast<double>(one.length)) - drawn.exponent(3, 5);
     atoms.push_back(ball(scaled(to_vec(one.v), std::ldexp(1, exponent)),
                          std::ldexp(static_cast<double>(one.length), exponent)));
   }
   // x is a multiple of v and must be exact: the bits of both factors fit into one significand.
-  const bool is_wide = source.precision == NumberFormat::binary64;
+  const bool is_wide = source.is_wide();
   const int velocity_bits = is_wide ? 20 : 12, multiple_bits = is_wide ? 16 : 12;
   const Vec middle = sum(atoms[0].position, atoms[1].position);
   for (int i = 0; i < dimension; ++i)
     made.query.v[i] = std::round(std::ldexp(middle[i] * random.between(0.5, 1.5), velocity_bits));
-  const double far = std::ldexp(static_cast<double>(random.integer(1, 1 << multiple_bits)),
-                                -velocity_bits - multiple_bits - 1);
+  const double far = std::ldexp(random.whole(1, 1 << multiple_bits), -velocity_bits - multiple_bits - 1);
   for (int i = 0; i < dimension; ++i) made.query.x[i] = made.query.v[i] == 0 ? 0.0 : -far * made.query.v[i];
-  return made;
 }
 
 // The same obstacles twice: as two atoms, in two lattices, or in two lattices with different bases.
-Case make_twice(Source& source, int dimension) {
-  Case made;
+void make_twice(Source& source, int dimension, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   made.scene = unit_scene(dimension, drawn.one_in(2) ? dyadic(drawn, -8, -3) : drawn.octave(-12, -2));
   Lattice& lattice = made.scene.lattices[0];
   const std::uint64_t how = drawn.below(3);
-  made.tags.push_back(how == 0 ? "identical-atoms" : "superposed");
-  if (how == 0) {
+  if (tagged(made.tags, how == 0, "identical-atoms", "superposed")) {
     lattice.atoms.push_back(lattice.atoms[0]);
   } else {
     Lattice other = lattice;
     if (how == 2) {
       other.vectors[0] = sum(other.vectors[0], other.vectors[1]);
       std::swap(other.vectors[0], other.vectors[1]);
-      other.atoms[0].position[0] = static_cast<double>(drawn.integer(-2, 2));
+      other.atoms[0].position[0] = drawn.whole(-2, 2);
     }
     made.scene.lattices.push_back(other);
   }
-  made.query.x = free_point(random, made.scene);
-  made.query.v = random.direction(dimension);
-  return made;
+  made.query = free_flight(random, made.scene);
 }
 
 // Neighbours that overlap, entered where they meet: along the middle line between two rows.
-Case make_neighbours(Source& source, int dimension) {
-  Case made;
+void make_neighbours(Source& source, int dimension, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   made.tags.push_back("overlapping-neighbours");
   made.scene = unit_scene(dimension, drawn.between(0.5, 0.55));
-  made.query.x = {-0.5 + std::ldexp(static_cast<double>(random.integer(-1000, 1000)), -17), 0.5, 0};
-  if (dimension == 3)
-    made.query.x[2] =
-        random.one_in(2) ? 0.0 : std::ldexp(static_cast<double>(random.integer(-1000, 1000)), -14);
-  made.query.v = {1, 0, 0};
-  const Symmetry symmetry(random, dimension);
-  made.query.x = symmetry(made.query.x);
-  made.query.v = symmetry(made.query.v);
-  return made;
+  Vec x{-0.5 + std::ldexp(random.whole(-1000, 1000), -17), 0.5, 0};
+  if (dimension == 3) x[2] = random.one_in(2) ? 0.0 : std::ldexp(random.whole(-1000, 1000), -14);
+  made.query = Symmetry(random, dimension)(Query{x, {1, 0, 0}, {}});
 }
 
-Case make_tie(Source& source) {
+void make_tie(Source& source, Case& made) {
+  static constexpr void (*kKinds[])(Source&, int, Case&) = {make_mirrored, make_shared_point, make_twice,
+                                                            make_neighbours};
   const int dimension = source.scene.one_in(3) ? 3 : 2;
-  Case made;
-  switch (source.scene.below(4)) {
-    case 0:
-      made = make_mirrored(source, dimension);
-      break;
-    case 1:
-      made = make_shared_point(source, dimension);
-      break;
-    case 2:
-      made = make_twice(source, dimension);
-      break;
-    default:
-      made = make_neighbours(source, dimension);
-  }
+  kKinds[source.scene.below(4)](source, dimension, made);
   Random& random = source.random;
   // Multiplied by a number of few bits, so that an exact tie stays exact.
-  made.query.v = scaled(made.query.v, std::ldexp(static_cast<double>(random.integer(1, 4095)), -12));
-  if (random.one_in(3)) {
-    made.tags.push_back("within-ulps");
-    Vec& moved_one = random.one_in(2) ? made.query.x : made.query.v;
-    for (int i = 0; i < dimension; ++i)
-      moved_one[i] = moved_one[i] == 0 ? std::ldexp(static_cast<double>(random.integer(-4, 4)),
-                                                    -54 + missing_bits(source.precision))
-                                       : moved(moved_one[i], random.integer(-4, 4), source.precision);
-  }
-  return made;
+  made.query.v = scaled(made.query.v, std::ldexp(random.whole(1, 4095), -12));
+  if (!tagged(made.tags, random.one_in(3), "within-ulps")) return;
+  const double unit = std::ldexp(1, -54 + missing_bits(source.precision));
+  Vec& moved_one = random.one_in(2) ? made.query.x : made.query.v;
+  for (int i = 0; i < dimension; ++i)
+    moved_one[i] = nudged(moved_one[i], random.integer(-4, 4), unit, source.precision);
 }
 
 }  // namespace

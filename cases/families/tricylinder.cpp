@@ -11,6 +11,7 @@
 
 #include <lorentz/geometry.hpp>
 #include "cases/families/family_list.hpp"
+#include "cases/integer_vectors.hpp"
 
 namespace lorentz::cases {
 namespace {
@@ -44,35 +45,27 @@ HexagonRay drawn_ray(Random& random) {
   return ray;
 }
 
-Case make_tricylinder(Source& source) {
-  Case made;
+void make_tricylinder(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   const double r = drawn.one_in(2) ? drawn.between(0.05, 0.3) : drawn.octave(-9, -2);
   made.scene = unit_scene(3, r);
-  const bool cell = drawn.one_in(4);
-  if (cell) {  // the transformed sphere is an ellipsoid, and its shadows are wider still
-    made.tags.push_back("other-cell");
+  const bool cell = tagged(made.tags, drawn.one_in(4), "other-cell");
+  if (cell)  // the transformed sphere is an ellipsoid, and its shadows are wider still
     made.scene.lattices[0].vectors = {Vec{1, 0, 0}, Vec{0.25, 1, 0}, Vec{-0.125, 0.25, 1.125}};
-  }
   const HexagonRay ray = drawn_ray(random);
   // Decades that an ulp of the position does not blur: 2^-53 and 2^-24.
-  const std::uint64_t decade = random.below(source.precision == NumberFormat::binary64 ? 7 : 3);
+  const std::uint64_t decade = random.below(source.is_wide() ? 7 : 3);
   const double margin =
       kBottom[decade] + (kTop[decade] - kBottom[decade]) * random.uniform() * random.uniform();
   const bool hit = random.one_in(3);
   double out = 1 + std::min(margin, 0.98 * (ray.reach - 1));
   if (out < 1 + kBottom[decade]) out = 1 + kBottom[decade];
   if (hit) out = 1 - margin * 0.9;
-  made.tags.push_back(hit ? "hit" : kMisses[decade]);
+  tagged(made.tags, hit, "hit", kMisses[decade]);
   const double along = r * random.between(0.5, 1.5);
   const Vec across = scaled(cross(ray.h, ray.v), r * out);  // v x (h x v) = h for unit v
-  const Vec d = sum(across, scaled(ray.v, along));
-  Vec centre{};
-  if (!cell)
-    for (double& component : centre) component = static_cast<double>(random.integer(-2, 2));
-  for (int i = 0; i < 3; ++i) made.query.x[i] = centre[i] - d[i];
-  made.query.v = ray.v;
-  return made;
+  const Vec centre = cell ? Vec{} : to_vec(drawn_integers(random, 3, 2));
+  made.query = {plus(centre, -1, plus(across, along, ray.v)), ray.v, {}};
 }
 
 }  // namespace

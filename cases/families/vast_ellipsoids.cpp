@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/crystals.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/families/family_list.hpp"
-#include "cases/free_start.hpp"
+#include "cases/scenes.hpp"
 
 namespace lorentz::cases {
 namespace {
@@ -21,8 +21,7 @@ Atom drawn_vast(Random& drawn, int dimension) {
   return atom;
 }
 
-Case make_vast(Source& source) {
-  Case made;
+void make_vast(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   const int dimension = drawn.one_in(4) ? 2 : 3;
   made.scene = drawn.one_in(2) ? unit_scene(dimension, 1) : drawn_crystal(drawn, dimension).scene;
@@ -30,13 +29,9 @@ Case make_vast(Source& source) {
   lattice.atoms = {drawn_vast(drawn, dimension)};
   made.query.x = point_in_cell(random, made.scene);
   made.query.v = random.direction(dimension);
-  const bool leaving = random.one_in(2);
-  made.tags.push_back(leaving ? "leaving" : "inside");
-  if (leaving) {
-    const Answer answer = oracle_of(made.scene).first_hit(made.query);
-    if (answer.outcome == Outcome::inside) made.query.from = answer.obstacle;
-  }
-  return made;
+  if (!tagged(made.tags, random.one_in(2), "leaving", "inside")) return;
+  const Answer answer = oracle_of(made.scene).first_hit(made.query);
+  if (answer.outcome == Outcome::inside) made.query.from = answer.obstacle;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/exchange.hpp>
+#include "fuzz/rewording/notation.hpp"
 
 namespace lorentz::fuzz {
 namespace {
@@ -59,16 +60,9 @@ std::string features_of(const Scene& scene, const Query& query) {
   return text;
 }
 
-std::string_view without_line_end(const std::string& line) {
-  return std::string_view(line).substr(0, line.size() - 1);
-}
-
 // Reads a line that text_of() wrote.
 StreamItem read(const std::string& line, const Scene* scene) {
-  static thread_local ExchangeReader reader;
-  const std::string padded = line + std::string(LineReader::kPadding, ' ');
-  StreamItem item;
-  reader.read_query_line({std::string_view(padded).substr(0, line.size()), 1, false}, scene, item);
+  StreamItem item = read_line(line, scene);
   if (item.kind != (scene ? StreamItem::Kind::query : StreamItem::Kind::scene))
     throw FileError("the store holds an invalid line: " + line);
   return item;
@@ -139,8 +133,9 @@ CaseText text_of(const std::string& id, const Scene& scene, const Query& query, 
   std::string scene_line, query_line;
   append_scene_line(scene_line, scene);
   append_query_line(query_line, quoted, query, scene);
-  return {std::string(without_line_end(scene_line)),
-          std::string(without_line_end(query_line)),
+  scene_line.pop_back(), query_line.pop_back();  // the line ends
+  return {std::move(scene_line),
+          std::move(query_line),
           answer_text(quoted, examined.given, scene),
           answer_text(quoted, examined.exact, scene),
           examined.departs,
@@ -173,12 +168,9 @@ std::string flaw_of(const Finding& f) {
 }
 
 int rank_of(std::string_view kind) {
-  int rank = 0;
-  for (const Kind one : kInOrder) {
-    if (name_of(one) == kind) break;
-    ++rank;
-  }
-  return rank;
+  const auto found =
+      std::find_if(std::begin(kInOrder), std::end(kInOrder), [&](Kind one) { return name_of(one) == kind; });
+  return static_cast<int>(found - kInOrder);
 }
 
 std::string sort_of(const Scene& scene, const Query& query, const Examined& examined) {

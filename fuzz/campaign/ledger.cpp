@@ -155,6 +155,7 @@ void Ledger::hand_in(Done done) {
   const std::lock_guard lock(mutex_);
   Track& track = tracks_[done.stint.target];
   track.seconds += done.seconds;
+  if (done.answerer_failed) answerer_failed_ = true;
   if (const std::uint64_t cases = done.stint.end - done.stint.begin) {
     const double each = done.seconds / static_cast<double>(cases);
     track.usual = track.usual ? (*track.usual + each) / 2 : each;
@@ -167,10 +168,6 @@ void Ledger::hand_in(Done done) {
     if (done.shrunk) track.shrunk.push_back(std::move(*done.shrunk));
   }
   changed_.notify_all();
-}
-
-void Ledger::answerer_failed() {
-  answerer_failed_ = true;
 }
 
 void Ledger::fail(std::exception_ptr failure) {

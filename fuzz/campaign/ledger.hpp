@@ -19,7 +19,6 @@ class Ledger final : public WorkSource {
 
   std::optional<Assignment> take(std::uint64_t batch_size) override;
   void hand_in(Done done) override;
-  void answerer_failed() override;
   void fail(std::exception_ptr failure) override;
   const std::atomic<bool>& stop() const override { return stop_; }
 

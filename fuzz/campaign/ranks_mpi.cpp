@@ -69,7 +69,7 @@ void serialize(Archive& archive, StintResult& r, unsigned) {
 }
 template <class Archive>
 void serialize(Archive& archive, Done& d, unsigned) {
-  archive& d.stint& d.seconds;
+  archive& d.stint& d.seconds& d.answerer_failed;
   transfer(archive, d.result);
   transfer(archive, d.shrunk);
 }
@@ -83,12 +83,12 @@ namespace {
 struct Report {
   std::vector<Done> done;
   std::uint64_t wants = 0, batch_size = 1;
-  bool answerer_failed = false, last = false;
+  bool last = false;
   std::string failure;
 
   template <class Archive>
   void serialize(Archive& archive, unsigned) {
-    archive& done& wants& batch_size& answerer_failed& last& failure;
+    archive& done& wants& batch_size& last& failure;
   }
 };
 
@@ -120,10 +120,6 @@ class RemoteWork final : public WorkSource {
   void hand_in(Done done) override {
     const std::lock_guard lock(mutex_);
     report_.done.push_back(std::move(done));
-  }
-  void answerer_failed() override {
-    const std::lock_guard lock(mutex_);
-    report_.answerer_failed = true;
   }
   void fail(std::exception_ptr failure) override {
     const std::lock_guard lock(mutex_);
@@ -163,25 +159,15 @@ class RemoteWork final : public WorkSource {
   std::condition_variable changed_;
 };
 
-Report received(const mpi::communicator& world, int source) {
-  Report report;
-  world.recv(source, kReport, report);
-  return report;
-}
-
-void take_in(Ledger& ledger, Report& report) {
-  for (Done& done : report.done) ledger.hand_in(std::move(done));
-  if (report.answerer_failed) ledger.answerer_failed();
-  if (!report.failure.empty()) ledger.fail(std::make_exception_ptr(std::runtime_error(report.failure)));
-}
-
 }  // namespace
 
 void Ranks::serve(Ledger& ledger) {
   const mpi::communicator& world = mpi().world;
   while (const auto status = world.iprobe(mpi::any_source, kReport)) {
-    Report report = received(world, status->source());
-    take_in(ledger, report);
+    Report report;
+    world.recv(status->source(), kReport, report);
+    for (Done& done : report.done) ledger.hand_in(std::move(done));
+    if (!report.failure.empty()) ledger.fail(std::make_exception_ptr(std::runtime_error(report.failure)));
     dismissed_ += report.last;
     if (report.last) continue;
     Orders orders{ledger.take_some(report.wants, report.batch_size), ledger.stop()};

@@ -28,6 +28,10 @@ constexpr double kShrinkWork = 1.5e7;
 // limit, and one in kCasesPerNotation in other digits instead.
 constexpr std::uint64_t kWordings = 3, kCasesPerLimit = 4, kCasesPerNotation = 8;
 
+Examiner examiner_in(const Scene& scene, Answerer& answerer, const Plan& plan) {
+  return {answerer, std::make_shared<Place>(scene, plan.truth, plan.claim), plan.counts.ulps};
+}
+
 // Does a case fail as another one did, in the same kind and with the same two outcomes?
 class SameFailure {
  public:
@@ -37,7 +41,7 @@ class SameFailure {
   bool operator()(const Scene& scene, const Query& query) {
     if (!examiner_ || examiner_->scene() != scene) {
       if (!is_sound(scene) || !is_sane(scene)) return false;
-      examiner_.emplace(examiner_in(scene));
+      examiner_.emplace(examiner_in(scene, answerer_, plan_));
     }
     if (flaw_of(query, scene) || !examiner_->place()->has_numbers_for(query)) return false;
     last_ = examiner_->examine(query, limit_);
@@ -52,16 +56,7 @@ class SameFailure {
 
   double flight() const { return last_.exact.time ? *last_.exact.time * speed_ : -1; }
 
-  // Ignores the budget.
-  Examined examine(const Scene& scene, const Query& query) const {
-    return examiner_in(scene).examine(query, limit_);
-  }
-
  private:
-  Examiner examiner_in(const Scene& scene) const {
-    return {answerer_, std::make_shared<Place>(scene, plan_.truth, plan_.claim), plan_.counts.ulps};
-  }
-
   Answerer& answerer_;
   const Plan& plan_;
   const Examined& like_;
@@ -71,16 +66,12 @@ class SameFailure {
   double work_ = 0, speed_ = 0;
 };
 
-std::optional<double> margin_of(const oracle::Margins& margins, const Query& query, const Answer& exact) {
-  const auto decision = margins.hardest_decision(query, exact);
-  return decision ? std::optional(decision->margin) : std::nullopt;
-}
-
 // Makes this case the simplest known one of the finding.
-void take_for_shrunk(Finding& finding, const Scene& scene, const Query& query, const Examined& examined,
-                     std::optional<double> margin) {
+void take_for_shrunk(Finding& finding, const Place& place, const Query& query, const Examined& examined) {
+  const Scene& scene = place.scene();
   finding.shrunk = text_of(label_of(finding), scene, query, examined);
-  finding.shrunk.margin = margin;
+  if (const auto decision = place.margins().hardest_decision(query, examined.exact))
+    finding.shrunk.margin = decision->margin;
   finding.cause = cause_of(scene, query, examined);
   finding.bits = most_bits(scene, query);
   finding.complexity = complexity(scene, query);
@@ -90,7 +81,6 @@ void take_for_shrunk(Finding& finding, const Scene& scene, const Query& query, c
 
 // A case or a variant to be asked, as it was made or in other words.
 struct StintRunner::Case {
-  const Target* target;
   std::uint64_t index;
   int step;
   Question question;
@@ -98,17 +88,18 @@ struct StintRunner::Case {
   std::string words = {};                // the other words, if any
   bool is_carried = false;               // the exact answer came from the case in its own words
   std::optional<Examined> misread = {};  // if set, the engine is not asked
+  std::optional<Reply> reply = {};       // of the engine
 };
 
 // A scene, with all that is needed to ask and to judge in it.
 struct StintRunner::SceneContext {
   SceneContext(Answerer& answerer, const Scene& scene, const Plan& plan, std::size_t number)
-      : number(number),
-        examiner(answerer, std::make_shared<Place>(scene, plan.truth, plan.claim), plan.counts.ulps) {}
+      : number(number), examiner(examiner_in(scene, answerer, plan)) {}
   const std::size_t number;  // in the order in which the contexts were needed
   Examiner examiner;
 
   const std::shared_ptr<Place>& place() const { return examiner.place(); }
+  const Scene& scene() const { return examiner.scene(); }
 
   // The scene in other words, and the context of that scene.
   struct OtherWords {
@@ -118,14 +109,12 @@ struct StintRunner::SceneContext {
   std::map<std::uint64_t, OtherWords> other_words;
 };
 
-// All questions of one stint, and the margins met in its climbs.
+// All questions of one stint, and what comes of them.
 struct StintRunner::Questions {
-  std::deque<SceneContext> contexts;
-  std::vector<Case> cases;
-  std::vector<std::size_t> asked;  // indices of the cases, in the order in which they were asked
-  std::vector<Reply> replies;      // to these
-  TargetTally met;
-  SceneContext* as_made = nullptr;  // the context of the scene in which cases are being made
+  const Target& target;
+  std::deque<SceneContext> contexts = {};
+  std::vector<Case> cases = {};
+  StintResult result = {};
 
   SceneContext& add_context(Answerer& answerer, const Scene& scene, const Plan& plan) {
     return contexts.emplace_back(answerer, scene, plan, contexts.size());
@@ -137,9 +126,9 @@ struct StintRunner::Questions {
                                         std::uint64_t number) {
     auto& known = one.context->other_words;
     if (const auto found = known.find(number); found != known.end()) return found->second;
-    Random random(plan.seed, one.target->name(), one.index / kCasesPerScene * kWordings + number,
+    Random random(plan.seed, target.name(), one.index / kCasesPerScene * kWordings + number,
                   Use::reworded_scenes);
-    Rewording rewording(random, one.context->examiner.scene());
+    Rewording rewording(random, one.context->scene());
     SceneContext& context = add_context(answerer, rewording.scene(), plan);
     return known.emplace(number, SceneContext::OtherWords{std::move(rewording), &context}).first->second;
   }
@@ -151,15 +140,13 @@ StintRunner::~StintRunner() = default;
 
 std::optional<StintResult> StintRunner::run(const Stint& stint,
                                             const std::map<std::string, std::uint64_t>& known) {
-  Questions questions;
+  Questions questions{*plan_.targets[stint.target]};
   pose(stint, questions);
   if (stop_) return std::nullopt;
-  StintResult result;
-  result.met = questions.met;
-  take(questions, known, result);
+  take(questions, known);
   replace_broken_answerer();
   if (stop_) return std::nullopt;
-  return result;
+  return std::move(questions.result);
 }
 
 void StintRunner::replace_broken_answerer() {
@@ -170,35 +157,31 @@ void StintRunner::replace_broken_answerer() {
 
 // Makes the cases and variants, with their exact answers, and asks about them.
 void StintRunner::pose(const Stint& stint, Questions& questions) {
-  const Target& target = *plan_.targets[stint.target];
+  const Target& target = questions.target;
+  TargetTally& met = questions.result.met;
+  SceneContext* context = nullptr;
   for (std::uint64_t index = stint.begin; index < stint.end && !stop_; ++index) {
     if (index % plan_.shards != plan_.shard) continue;
     const cases::Case base = target.make(plan_.seed, index, plan_.claim.precision);
     if (!plan_.scope.admits(base.scene)) continue;
-    if (!questions.as_made || questions.as_made->examiner.scene() != base.scene)
-      questions.as_made = &questions.add_context(*answerer_, base.scene, plan_);
-    SceneContext& context = *questions.as_made;
+    if (!context || context->scene() != base.scene)
+      context = &questions.add_context(*answerer_, base.scene, plan_);
+    const std::shared_ptr<Place>& place = context->place();
     const std::size_t first = questions.cases.size();
-    const std::shared_ptr<Place>& place = context.place();
-    questions.cases.push_back({&target,
-                               index,
-                               0,
-                               {.place = place, .query = base.query, .exact = place->exact(base.query)},
-                               &context});
-    ++questions.met.cases;
+    const auto add = [&](int step, const Query& query, const Answer& exact) {
+      questions.cases.push_back({index, step, {.place = place, .query = query, .exact = exact}, context});
+    };
+    add(0, base.query, place->exact(base.query));
+    ++met.cases;
     if (Random random(plan_.seed, target.name(), index, Use::variants);
         plan_.mutate > 0 && random.one_in(plan_.mutate)) {
       int step = 0;
-      for (Variant& variant : climb(random, base.query, *place)) {
-        if (variant.margin() > 0 && variant.margin() < questions.met.margin)
-          questions.met.margin = variant.margin(), questions.met.margin_index = index;
-        questions.cases.push_back({&target,
-                                   index,
-                                   ++step,
-                                   {.place = place, .query = variant.query, .exact = variant.exact},
-                                   &context});
+      for (const Variant& variant : climb(random, base.query, *place)) {
+        if (variant.margin() > 0 && variant.margin() < met.margin)
+          met.margin = variant.margin(), met.margin_index = index;
+        add(++step, variant.query, variant.exact);
       }
-      questions.met.variants += static_cast<std::uint64_t>(step);
+      met.variants += static_cast<std::uint64_t>(step);
     }
     if (Random random(plan_.seed, target.name(), index, Use::rewordings);
         plan_.reword > 0 && random.one_in(plan_.reword))
@@ -218,7 +201,7 @@ void StintRunner::pose_in_other_words(Random& random, Questions& questions, std:
     }
     const auto number = (one.index + static_cast<std::uint64_t>(one.step)) % kWordings;
     auto& [rewording, context] = questions.other_words(plan_, *answerer_, one, number);
-    if (!plan_.scope.admits(context->examiner.scene())) continue;
+    if (!plan_.scope.admits(context->scene())) continue;
     auto reworded = rewording.reword(random, one.question.query);
     if (!reworded || !context->place()->has_numbers_for(reworded->query)) continue;
     auto carried = rewording.carried(one.question.exact, *reworded);
@@ -231,49 +214,46 @@ void StintRunner::pose_in_other_words(Random& random, Questions& questions, std:
       if (limit != LimitAt::none) words += (words.empty() ? "" : ", ") + words_of(limit);
     }
     if (words.empty()) continue;
-    questions.cases.push_back({one.target, one.index, one.step, std::move(question), context,
-                               std::move(words), carried.has_value()});
+    questions.cases.push_back(
+        {one.index, one.step, std::move(question), context, std::move(words), carried.has_value()});
   }
 }
 
 // The case in other digits, if they are read differently; the engine does not see them.
 std::optional<StintRunner::Case> StintRunner::in_other_digits(Random& random, const Case& one) {
-  auto misread = misreading(random, one.context->examiner.scene(), one.question.query);
+  const auto misread = misreading(random, one.context->scene(), one.question.query);
   if (!misread) return std::nullopt;
-  Examined examined;
-  examined.kind = Kind::error;
-  examined.is_misreading = true;
-  examined.given = Answer::error("read back otherwise: " + misread->line);
-  examined.exact = one.question.exact;
-  return Case{one.target, one.index, one.step, one.question, one.context, misread->notation, false, examined};
+  const Examined examined{.kind = Kind::error,
+                          .given = Answer::error("read back otherwise: " + misread->line),
+                          .exact = one.question.exact,
+                          .is_misreading = true};
+  return Case{one.index, one.step, one.question, one.context, misread->notation, false, examined};
 }
 
 // Scene by scene, so that an engine is prepared once for each scene.
 void StintRunner::ask(Questions& questions) {
-  for (std::size_t i = 0; i < questions.cases.size(); ++i)
-    if (!questions.cases[i].misread) questions.asked.push_back(i);
-  const auto place = [&](std::size_t i) { return questions.cases[i].context->number; };
-  std::stable_sort(questions.asked.begin(), questions.asked.end(),
-                   [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  std::vector<Case*> asked;
+  for (Case& one : questions.cases)
+    if (!one.misread) asked.push_back(&one);
+  std::stable_sort(asked.begin(), asked.end(),
+                   [](const Case* a, const Case* b) { return a->context->number < b->context->number; });
   const auto in_order = [&, next = std::size_t{0}]() mutable -> std::optional<Question> {
-    if (stop_ || next == questions.asked.size()) return std::nullopt;
-    return questions.cases[questions.asked[next++]].question;
+    if (stop_ || next == asked.size()) return std::nullopt;
+    return asked[next++]->question;
   };
-  questions.replies = replies_to(in_order, *answerer_);
+  std::vector<Reply> replies = replies_to(in_order, *answerer_);
+  for (std::size_t i = 0; i < replies.size(); ++i) asked[i]->reply = std::move(replies[i]);
 }
 
 // Judges the replies. One finding of a sort is enough for a case and its variants.
-void StintRunner::take(Questions& questions, const std::map<std::string, std::uint64_t>& known,
-                       StintResult& result) {
-  std::vector<Reply>& replies = questions.replies;
-  std::vector<Reply*> reply_to(questions.cases.size(), nullptr);
-  for (std::size_t i = 0; i < replies.size(); ++i) reply_to[questions.asked[i]] = &replies[i];
+void StintRunner::take(Questions& questions, const std::map<std::string, std::uint64_t>& known) {
+  StintResult& result = questions.result;
   std::set<std::tuple<std::uint64_t, std::string>> kept;
-  for (std::size_t i = 0; i < questions.cases.size() && !stop_; ++i) {
-    const Case& one = questions.cases[i];
-    if (!one.misread && !reply_to[i]) continue;
+  for (Case& one : questions.cases) {
+    if (stop_) break;
+    if (!one.misread && !one.reply) continue;
     const Examined examined =
-        one.misread ? *one.misread : one.context->examiner.judge(one.question, *reply_to[i], one.is_carried);
+        one.misread ? *one.misread : one.context->examiner.judge(one.question, *one.reply, one.is_carried);
     const bool in_other_words = !one.words.empty();
     // That an engine does not support the other words is not a finding.
     if (in_other_words && examined.kind == Kind::unsupported) continue;
@@ -281,30 +261,28 @@ void StintRunner::take(Questions& questions, const std::map<std::string, std::ui
     ++result.met.kinds[static_cast<std::size_t>(examined.kind)];
     if (examined.stage) ++result.met.stages[static_cast<std::size_t>(*examined.stage)];
     if (!plan_.counts.is_finding(examined.kind)) continue;
-    const std::string sort = sort_of(one.context->examiner.scene(), one.question.query, examined) +
+    const std::string sort = sort_of(one.context->scene(), one.question.query, examined) +
                              (in_other_words ? ", in other words" : "");
     std::uint64_t& number = result.met.sorts[sort];
     if (!kept.emplace(one.index, sort).second) continue;
     ++number;
     const auto before = known.find(sort);
     if (number + (before == known.end() ? 0 : before->second) > plan_.keep) continue;
-    result.kept.push_back({finding_of(one, sort, examined), number});
+    result.kept.push_back({finding_of(questions.target, one, sort, examined), number});
   }
 }
 
-Finding StintRunner::finding_of(const Case& one, const std::string& sort, const Examined& examined) {
-  const Scene& scene = one.context->examiner.scene();
+Finding StintRunner::finding_of(const Target& target, const Case& one, const std::string& sort,
+                                const Examined& examined) {
   Finding finding;
-  finding.target = one.target->name();
+  finding.target = target.name();
   finding.index = one.index;
   finding.step = one.step;
   finding.words = one.words;
   finding.kind = name_of(examined.kind);
   finding.sort = sort;
-  finding.text = text_of(label_of(finding), scene, one.question.query, examined);
-  const auto margin = margin_of(one.context->place()->margins(), one.question.query, examined.exact);
-  finding.text.margin = margin;
-  take_for_shrunk(finding, scene, one.question.query, examined, margin);
+  take_for_shrunk(finding, *one.context->place(), one.question.query, examined);
+  finding.text = finding.shrunk;
   if (one.misread || answerer_->failed()) finding.shrinking = Shrinking::done;
   return finding;
 }
@@ -314,27 +292,22 @@ std::optional<Finding> StintRunner::shrink(Finding finding, double seconds) {
   const auto start = Clock::now();
   const auto is_late = [&] { return std::chrono::duration<double>(Clock::now() - start).count() > seconds; };
   const ReadCase found = case_in(finding.text);
-  const Scene& scene = found.scene;
-  const Query& query = found.query;
   const LimitAt limit = limit_in(finding.words);
-  const Examined examined =
-      Examiner(*answerer_, std::make_shared<Place>(scene, plan_.truth, plan_.claim), plan_.counts.ulps)
-          .examine(query, limit);
+  const Examined examined = examiner_in(found.scene, *answerer_, plan_).examine(found.query, limit);
   finding.shrinking = Shrinking::done;
   if (!answerer_->failed() && name_of(examined.kind) == finding.kind) {
     SameFailure fails(*answerer_, plan_, examined, limit);
     const auto is_up = [&] { return stop_ || fails.is_over() || is_late(); };
-    const Shrunk shrunk =
-        fuzz::shrink(scene, query, std::ref(fails), [&] { return fails.flight(); }, {kShrinkTries, is_up});
+    const Shrunk shrunk = fuzz::shrink(found.scene, found.query, std::ref(fails),
+                                       [&] { return fails.flight(); }, {kShrinkTries, is_up});
     if (is_late()) finding.shrinking = Shrinking::cut_short;
     finding.tries = shrunk.tries;
     if (!stop_ && !answerer_->failed()) {
-      const Examined after = fails.examine(shrunk.scene, shrunk.query);
+      Examiner examiner = examiner_in(shrunk.scene, *answerer_, plan_);  // beyond the budget
+      const Examined after = examiner.examine(shrunk.query, limit);
       // Otherwise the engine's answers vary, and the finding stays as it was found.
       if (name_of(after.kind) == finding.kind)
-        take_for_shrunk(
-            finding, shrunk.scene, shrunk.query, after,
-            margin_of(oracle::Margins(shrunk.scene, plan_.claim.precision), shrunk.query, after.exact));
+        take_for_shrunk(finding, *examiner.place(), shrunk.query, after);
     }
   }
   replace_broken_answerer();

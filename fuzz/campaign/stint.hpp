@@ -54,8 +54,9 @@ class StintRunner {
   void pose_in_other_words(cases::Random& random, Questions& questions, std::size_t first);
   static std::optional<Case> in_other_digits(cases::Random& random, const Case& one);
   void ask(Questions& questions);
-  void take(Questions& questions, const std::map<std::string, std::uint64_t>& known, StintResult& result);
-  Finding finding_of(const Case& one, const std::string& sort, const Examined& examined);
+  void take(Questions& questions, const std::map<std::string, std::uint64_t>& known);
+  Finding finding_of(const cases::Target& target, const Case& one, const std::string& sort,
+                     const Examined& examined);
   void replace_broken_answerer();
 
   const Plan& plan_;

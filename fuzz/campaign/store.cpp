@@ -1,10 +1,8 @@
 #include "fuzz/campaign/store.hpp"
 
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <numeric>
-#include <set>
 
 #include "fuzz/campaign/stint.hpp"
 #include "runs/database.hpp"
@@ -17,6 +15,7 @@ using runs::Statement;
 
 namespace {
 
+// Rows are read and written in the order of these columns; a file with others is refused.
 constexpr const char* kSchema = R"sql(
   CREATE TABLE campaign (
     id INTEGER PRIMARY KEY, version TEXT NOT NULL, engine TEXT NOT NULL, targets TEXT NOT NULL,
@@ -42,11 +41,6 @@ constexpr const char* kSchema = R"sql(
     PRIMARY KEY (campaign, target, place, step, words)) WITHOUT ROWID;
 )sql";
 
-constexpr const char* kFindingColumns =
-    "campaign, target, place, step, words, kind, sort, cause, scene, query, given, exact, shrunk_scene, "
-    "shrunk_query, shrunk_given, shrunk_exact, departs, margin, shrunk_departs, shrunk_margin, shrinking, "
-    "bits, complexity, tries";
-
 const runs::FileKind& kind() {
   static const runs::FileKind kind{
       "store of lorentz fuzz", 0x6c6f667a,  // "lofz"
@@ -62,29 +56,13 @@ std::string Stored::label() const {
   return std::to_string(campaign) + '/' + label_of(finding);
 }
 
-struct Store::Impl {
-  Impl(const std::string& path, Access access, OnLeftOut on_left_out)
-      : database(path, access, kind()), on_left_out(std::move(on_left_out)) {}
-
-  const runs::Connection& connection() const { return database.connection(); }
-
-  // A finding that cannot be read does not affect the others.
-  void leave_out(const std::string& label, const std::string& why) {
-    if (left_out.insert(label).second && on_left_out)
-      on_left_out(database.path() + ": the finding " + label + " is left out: " + why);
-  }
-
-  runs::Database database;
-  const OnLeftOut on_left_out;
-  std::set<std::string> left_out;
-};
-
 Store::Store(const std::string& path, Access access, OnLeftOut on_left_out)
-    : impl_(std::make_unique<Impl>(path, access, std::move(on_left_out))) {}
-Store::~Store() = default;
+    : database_(path, access, kind()), on_left_out_(std::move(on_left_out)) {}
 
-const std::string& Store::path() const {
-  return impl_->database.path();
+// A finding that cannot be read does not affect the others.
+void Store::leave_out(const std::string& label, const std::string& why) const {
+  if (left_out_.insert(label).second && on_left_out_)
+    on_left_out_(path() + ": the finding " + label + " is left out: " + why);
 }
 
 namespace {
@@ -100,8 +78,7 @@ std::uint64_t seed_in(const std::string& text, const std::string& path) {
 }  // namespace
 
 std::vector<Campaign> Store::campaigns() const {
-  Statement all(impl_->connection(),
-                "SELECT id, version, engine, targets, seed, options, keep, shard FROM campaign ORDER BY id");
+  Statement all(database_.connection(), "SELECT * FROM campaign ORDER BY id");
   std::vector<Campaign> campaigns;
   while (all.step()) {
     Campaign one;
@@ -121,10 +98,8 @@ std::vector<Campaign> Store::campaigns() const {
 std::int64_t Store::open_campaign(const CampaignManifest& manifest) {
   for (const Campaign& campaign : campaigns())
     if (campaign.manifest == manifest) return campaign.id;
-  impl_->database.begin();
-  Statement(impl_->connection(),
-            "INSERT INTO campaign (version, engine, targets, seed, options, keep, shard) VALUES (?, ?, ?, ?, "
-            "?, ?, ?)")
+  database_.begin();
+  Statement(database_.connection(), "INSERT INTO campaign VALUES (NULL, ?, ?, ?, ?, ?, ?, ?)")
       .bind(manifest.version)
       .bind(manifest.engine)
       .bind(manifest.targets)
@@ -133,7 +108,7 @@ std::int64_t Store::open_campaign(const CampaignManifest& manifest) {
       .bind(manifest.keep)
       .bind(manifest.shard)
       .done();
-  const std::int64_t id = sqlite3_last_insert_rowid(impl_->connection().handle());
+  const std::int64_t id = sqlite3_last_insert_rowid(database_.connection().handle());
   commit();
   return id;
 }
@@ -155,7 +130,7 @@ TargetTally Store::tally(std::int64_t campaign, std::string_view target) const {
   constexpr std::uint64_t kMostCases = std::uint64_t{1} << 60;  // sums of all of them are below 2^63
   TargetTally tally;
   Statement row(
-      impl_->connection(),
+      database_.connection(),
       "SELECT next, cases, mutants, reworded, fine, unsupported, wrong, wrong_time, undecided, slow, error, "
       "binary64, double_double, exact, margin, margin_index FROM account WHERE campaign = ? AND target = ?");
   row.bind(campaign).bind(target);
@@ -170,7 +145,7 @@ TargetTally Store::tally(std::int64_t campaign, std::string_view target) const {
   if (!fits(tally))
     throw FileError(path() + ": the counts of " + std::string(target) +
                     " do not fit together: the store was changed; take a copy from before, or name another");
-  Statement sorts(impl_->connection(), "SELECT sort, number FROM sort WHERE campaign = ? AND target = ?");
+  Statement sorts(database_.connection(), "SELECT sort, number FROM sort WHERE campaign = ? AND target = ?");
   sorts.bind(campaign).bind(target);
   while (sorts.step()) {
     std::string sort = sorts.text();
@@ -204,8 +179,8 @@ Finding finding_in(Statement& row) {
 }  // namespace
 
 std::vector<Stored> Store::findings() const {
-  Statement row(impl_->connection(), std::string("SELECT ") + kFindingColumns +
-                                         " FROM finding ORDER BY campaign, target, place, step, words");
+  Statement row(database_.connection(),
+                "SELECT * FROM finding ORDER BY campaign, target, place, step, words");
   std::vector<Stored> all;
   for (std::uint64_t number = 1; row.step(); ++number) {
     std::string label = "in row " + std::to_string(number);
@@ -216,42 +191,35 @@ std::vector<Stored> Store::findings() const {
       if (const std::string flaw = flaw_of(one.finding); !flaw.empty()) throw BadValue("it has " + flaw);
       all.push_back(std::move(one));
     } catch (const BadValue& error) {
-      impl_->leave_out(label, error.what());
+      leave_out(label, error.what());
     }
   }
   return all;
 }
 
-bool Store::is_whole() const {
-  return impl_->left_out.empty();
-}
-
 void Store::put(std::int64_t campaign, std::string_view target, const TargetTally& tally) {
-  impl_->database.begin();
+  database_.begin();
   Statement row(
-      impl_->connection(),
+      database_.connection(),
       "INSERT OR REPLACE INTO account VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  row.bind(campaign)
-      .bind(target)
-      .bind(tally.next)
-      .bind(tally.cases)
-      .bind(tally.variants)
-      .bind(tally.reworded);
+  row.bind(campaign).bind(target);
+  for (const std::uint64_t number : {tally.next, tally.cases, tally.variants, tally.reworded})
+    row.bind(number);
   for (const std::uint64_t number : tally.kinds) row.bind(number);
   for (const std::uint64_t number : tally.stages) row.bind(number);
   row.bind(std::isfinite(tally.margin) ? std::optional(tally.margin) : std::nullopt)
       .bind(tally.margin_index)
       .done();
-  Statement sort(impl_->connection(), "INSERT OR REPLACE INTO sort VALUES (?, ?, ?, ?)");
+  Statement sort(database_.connection(), "INSERT OR REPLACE INTO sort VALUES (?, ?, ?, ?)");
   for (const auto& [name, number] : tally.sorts)
     sort.bind(campaign).bind(target).bind(name).bind(number).done();
 }
 
 void Store::put(std::int64_t campaign, const Finding& f) {
-  impl_->database.begin();
-  Statement row(impl_->connection(),
-                std::string("INSERT OR REPLACE INTO finding (") + kFindingColumns +
-                    ") VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  database_.begin();
+  Statement row(database_.connection(),
+                "INSERT OR REPLACE INTO finding VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
+                "?, ?, ?, ?, ?, ?, ?)");
   row.bind(campaign).bind(f.target).bind(f.index).bind(f.step);
   for (const std::string* text :
        {&f.words, &f.kind, &f.sort, &f.cause, &f.text.scene, &f.text.query, &f.text.given, &f.text.exact,
@@ -265,50 +233,32 @@ void Store::put(std::int64_t campaign, const Finding& f) {
       .done();
 }
 
-void Store::commit() {
-  impl_->database.commit();
-}
-
 // ---- a campaign's journal
-
-struct StoreJournal::Impl {
-  using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::milliseconds kBetweenCommits{500};
-
-  Store& store;
-  std::int64_t campaign;
-  std::map<std::string_view, TargetTally>
-      unwritten;  // each row is written once per commit, however often it changes
-  std::vector<Finding> findings;
-  Clock::time_point last_commit = Clock::now();
-
-  void write() {
-    for (const auto& [target, tally] : unwritten) store.put(campaign, target, tally);
-    for (const Finding& finding : findings) store.put(campaign, finding);
-    unwritten.clear();
-    findings.clear();
-    store.commit();
-    last_commit = Clock::now();
-  }
-};
-
-StoreJournal::StoreJournal(Store& store, std::int64_t campaign)
-    : impl_(std::make_unique<Impl>(Impl{store, campaign, {}, {}})) {}
 
 StoreJournal::~StoreJournal() {
   try {
-    impl_->write();
+    write();
   } catch (const FileError&) {  // another error ends the program already, or the last half second is lost
   }
 }
 
 void StoreJournal::record(const Target& target, const TargetTally& tally, const std::vector<Finding>& kept) {
-  impl_->unwritten[target.name()] = tally;
-  impl_->findings.insert(impl_->findings.end(), kept.begin(), kept.end());
+  unwritten_[target.name()] = tally;
+  findings_.insert(findings_.end(), kept.begin(), kept.end());
 }
 
 void StoreJournal::tick() {
-  if (Impl::Clock::now() - impl_->last_commit >= Impl::kBetweenCommits) impl_->write();
+  constexpr std::chrono::milliseconds kBetweenCommits{500};
+  if (JournalClock::now() - last_commit_ >= kBetweenCommits) write();
+}
+
+void StoreJournal::write() {
+  for (const auto& [target, tally] : unwritten_) store_.put(campaign_, target, tally);
+  for (const Finding& finding : findings_) store_.put(campaign_, finding);
+  unwritten_.clear();
+  findings_.clear();
+  store_.commit();
+  last_commit_ = JournalClock::now();
 }
 
 std::string store_libraries() {

@@ -2,9 +2,11 @@
 // that is killed loses at most what was not yet committed, and never the file.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
-#include <memory>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,11 +52,8 @@ class Store {
   /// The path ":memory:" is a store that ends with this object. A file must have exactly the tables of a
   /// store; its views and triggers never run.
   Store(const std::string& path, Access access, OnLeftOut on_left_out = {});
-  ~Store();
-  Store(const Store&) = delete;
-  Store& operator=(const Store&) = delete;
 
-  const std::string& path() const;
+  const std::string& path() const { return database_.path(); }
   std::vector<Campaign> campaigns() const;
 
   /// The id of the campaign with this manifest, which is added if it is missing.
@@ -65,30 +64,39 @@ class Store {
   /// The findings that can be read and have no flaw (flaw_of); the others are left out.
   std::vector<Stored> findings() const;
   /// False if findings() left some out.
-  bool is_whole() const;
+  bool is_whole() const { return left_out_.empty(); }
 
   /// Writes become durable together, by commit().
   void put(std::int64_t campaign, std::string_view target, const TargetTally& tally);
   void put(std::int64_t campaign, const Finding& finding);
-  void commit();
+  void commit() { database_.commit(); }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void leave_out(const std::string& label, const std::string& why) const;
+
+  runs::Database database_;
+  const OnLeftOut on_left_out_;
+  mutable std::set<std::string> left_out_;  // labels
 };
 
 /// A campaign's journal in a store. Commits every half second.
 class StoreJournal final : public Journal {
  public:
-  StoreJournal(Store& store, std::int64_t campaign);
+  StoreJournal(Store& store, std::int64_t campaign) : store_(store), campaign_(campaign) {}
   ~StoreJournal() override;
   void record(const cases::Target& target, const TargetTally& tally,
               const std::vector<Finding>& kept) override;
   void tick() override;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  using JournalClock = std::chrono::steady_clock;
+  void write();
+
+  Store& store_;
+  const std::int64_t campaign_;
+  std::map<std::string_view, TargetTally> unwritten_;  // a row is written once per commit, not at each change
+  std::vector<Finding> findings_;
+  JournalClock::time_point last_commit_ = JournalClock::now();
 };
 
 /// Merges the campaigns of shards into an empty store. If the shards are complete and equally far, the result

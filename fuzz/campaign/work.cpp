@@ -9,11 +9,6 @@ Workers::Workers(const Plan& plan, const MakeAnswerer& make_answerer, WorkSource
   for (unsigned i = 0; i < jobs; ++i) threads_.emplace_back([this] { work(); });
 }
 
-void Workers::join() {
-  for (std::thread& thread : threads_) thread.join();
-  threads_.clear();
-}
-
 void Workers::work() {
   using Clock = std::chrono::steady_clock;
   try {
@@ -26,7 +21,7 @@ void Workers::work() {
       else
         done.result = runner.run(assignment->stint, assignment->known);
       done.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-      if (runner.answerer_failed()) source_.answerer_failed();
+      done.answerer_failed = runner.answerer_failed();
       source_.hand_in(std::move(done));
     }
   } catch (...) {

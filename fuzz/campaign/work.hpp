@@ -29,6 +29,7 @@ struct Done {
   std::optional<StintResult> result = {};
   std::optional<Finding> shrunk = {};
   double seconds = 0;
+  bool answerer_failed = false;  ///< the engine broke by now, and was started again
 };
 
 /// Called by any thread.
@@ -40,9 +41,6 @@ class WorkSource {
   /// some. Nothing if all is done, or the campaign is stopped.
   virtual std::optional<Assignment> take(std::uint64_t batch_size) = 0;
   virtual void hand_in(Done done) = 0;
-
-  /// An engine broke, and was started again.
-  virtual void answerer_failed() = 0;
   virtual void fail(std::exception_ptr failure) = 0;
 
   /// True once all work under way may be dropped.
@@ -53,8 +51,7 @@ class WorkSource {
 class Workers {
  public:
   Workers(const Plan& plan, const MakeAnswerer& make_answerer, WorkSource& source, unsigned jobs);
-  ~Workers() { join(); }
-  void join();
+  void join() { threads_.clear(); }
 
  private:
   void work();
@@ -62,7 +59,7 @@ class Workers {
   const Plan& plan_;
   const MakeAnswerer& make_answerer_;
   WorkSource& source_;
-  std::vector<std::thread> threads_;
+  std::vector<std::jthread> threads_;
 };
 
 }  // namespace lorentz::fuzz

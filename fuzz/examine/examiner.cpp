@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include <lorentz/scene_check.hpp>
-#include "cases/free_start.hpp"
+#include "cases/drawn_flights.hpp"
 #include "fuzz/examine/answerers.hpp"
 #include "fuzz/examine/tie.hpp"
 #include "question/examine.hpp"
@@ -20,18 +20,9 @@ std::string_view name_of(Kind kind) {
 }
 
 bool Counts::is_finding(Kind kind) const {
-  switch (kind) {
-    case Kind::wrong:
-    case Kind::slow:
-    case Kind::error:
-      return true;
-    case Kind::wrong_time:
-      return times;
-    case Kind::undecided:
-      return undecided;
-    default:
-      return false;
-  }
+  if (kind == Kind::wrong_time) return times;
+  if (kind == Kind::undecided) return undecided;
+  return kind == Kind::wrong || kind == Kind::slow || kind == Kind::error;
 }
 
 // The exact answer to the question in its own words. Nothing if it contradicts the answer that was carried
@@ -61,15 +52,13 @@ Examined Examiner::judge(const Question& question, Reply& reply, bool is_carried
     own.exact = std::move(*exact_here);
     return judge_exact(own, reply);
   }
-  Examined contradiction;
-  contradiction.kind = Kind::error;
-  contradiction.given = question.exact;
-  contradiction.exact = place_->exact(question.query);
-  return contradiction;
+  return {.kind = Kind::error, .given = question.exact, .exact = place_->exact(question.query)};
 }
 
 Examined Examiner::judge_exact(const Question& question, Reply& reply) {
-  using oracle::Verdict;
+  // By Verdict. Right answers may still be slow, or their times wrong.
+  constexpr Kind kKindOf[] = {Kind::fine,        Kind::fine,  Kind::wrong, Kind::undecided,
+                              Kind::unsupported, Kind::error, Kind::error};
   const oracle::Judgement judgement = question::judgement_of(question, reply.answer, ulps_);
   const bool says = reply.answer.outcome != Outcome::undecided && reply.answer.outcome != Outcome::error;
   Examined one;
@@ -78,26 +67,11 @@ Examined Examiner::judge_exact(const Question& question, Reply& reply) {
   one.stage = reply.stage;
   one.exact = says && question.has_limit() && is_later(question) ? Answer::later() : question.exact;
   one.given = std::move(reply.answer);
-  switch (judgement.verdict) {
-    case Verdict::wrong:
-      one.kind = Kind::wrong;
-      break;
-    case Verdict::undecided:
-      one.kind = Kind::undecided;
-      break;
-    case Verdict::unsupported:
-      one.kind = Kind::unsupported;
-      break;
-    case Verdict::error:
-    case Verdict::missing:
-      one.kind = Kind::error;
-      break;
-    case Verdict::ill_posed:
-    case Verdict::agree:
-      one.kind = one.work && is_slow(*one.work) ? Kind::slow
-                 : judgement.wrong_time         ? Kind::wrong_time
-                                                : Kind::fine;
-  }
+  one.kind = kKindOf[static_cast<int>(judgement.verdict)];
+  if (one.kind == Kind::fine)
+    one.kind = one.work && is_slow(*one.work) ? Kind::slow
+               : judgement.wrong_time         ? Kind::wrong_time
+                                              : Kind::fine;
   return one;
 }
 

@@ -49,8 +49,8 @@ struct Examined {
   Kind kind = Kind::fine;
   Answer given, exact;
   double departs = 0;  ///< as in oracle::Judgement
-  std::optional<double> work;
-  std::optional<Stage> stage;
+  std::optional<double> work = {};
+  std::optional<Stage> stage = {};
   bool is_misreading = false;  ///< an error of the reader: the engine was not asked
 };
 

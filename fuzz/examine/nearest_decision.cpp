@@ -62,15 +62,12 @@ class ObstacleAndLine {
   }
 
   // |x - c| - r
-  Slope containing(const Vec& x) const {
-    const Wide3 arm = arm_of(x);
-    return size_less_radius(arm, [&](const Wide3& step) { return inner(arm, step); });
-  }
+  Slope containing(const Vec& x) const { return size_less_radius(arm_of(x)); }
 
   // The distance of the line from c, less r.
   Slope meeting(const Vec& x) const {
-    const Wide3 arm = arm_of(x), nearest = sum_of(arm, -inner(arm, v_) / v2_, v_);
-    return size_less_radius(nearest, [&](const Wide3& step) { return inner(nearest, step); });
+    const Wide3 arm = arm_of(x);
+    return size_less_radius(sum_of(arm, -inner(arm, v_) / v2_, v_));
   }
 
   // The time of entry; if the obstacle is not entered, that of the nearest approach.
@@ -106,11 +103,10 @@ class ObstacleAndLine {
 
   Wide3 arm_of(const Vec& x) const { return mapped(sum_of(wide(x), Wide(-1.0), centre_)); }
 
-  template <class Product>
-  Slope size_less_radius(const Wide3& a, const Product& product) const {
+  Slope size_less_radius(const Wide3& a) const {
     const Wide size = sqrt(inner(a, a));
     Slope slope{size - radius_, {}};
-    for (int k = 0; k < 3; ++k) slope.along[k] = (product(column_[k]) / size).hi;
+    for (int k = 0; k < 3; ++k) slope.along[k] = (inner(a, column_[k]) / size).hi;
     return slope;
   }
 

@@ -58,6 +58,10 @@ double rounded_to(double x, int bits, ShrinkWay way) {
   return std::isfinite(result) ? result : x;
 }
 
+double largest_of(const Vec& a) {
+  return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+}
+
 /// Rounds x to a multiple of 2^-places.
 double on_grid(double x, int places) {
   return std::fabs(x) < 0x1p40 ? std::ldexp(std::nearbyint(std::ldexp(x, places)), -places) : x;
@@ -107,23 +111,16 @@ class Shrinker {
 
   void round_everything() {
     for (const int bits : {2, 3, 4, 6, 8, 10, 12, 16, 24, 32}) {
-      for (const bool scene_too : {true, false}) {
-        const bool done = offer([&](Candidate& one) {
-          Query& q = one.query;
-          if (scene_too) {
-            for_each_number(one.scene, q, [&](double& x) { x = rounded_to(x, bits, ShrinkWay::nearest); });
-          } else {
-            for (double& x : q.x) x = rounded_to(x, bits, ShrinkWay::nearest);
-            for (double& x : q.v) x = rounded_to(x, bits, ShrinkWay::nearest);
-          }
-        });
-        if (done) return;
-      }
-      if (offer([&](Candidate& one) {
-            for (double& x : one.query.x) x = on_grid(x, bits);
-            for (double& x : one.query.v) x = rounded_to(x, bits, ShrinkWay::nearest);
-          }))
-        return;
+      const auto round = [bits](double& x) { x = rounded_to(x, bits, ShrinkWay::nearest); };
+      const auto whole = [&](Candidate& one) { for_each_number(one.scene, one.query, round); };
+      const auto query_alone = [&](Candidate& one) {
+        for (Vec* a : {&one.query.x, &one.query.v}) std::for_each(a->begin(), a->end(), round);
+      };
+      const auto start_on_grid = [&](Candidate& one) {
+        for (double& x : one.query.x) x = on_grid(x, bits);
+        std::for_each(one.query.v.begin(), one.query.v.end(), round);
+      };
+      if (offer(whole) || offer(query_alone) || offer(start_on_grid)) return;
     }
   }
 
@@ -183,31 +180,30 @@ class Shrinker {
   }
 
   void drop_lattice(std::size_t l) {
-    if (best_.scene.lattices.size() < 2 || l >= best_.scene.lattices.size()) return;
+    if (best_.scene.lattices.size() < 2) return;
     offer([&](Candidate& one) {
-      one.scene.lattices.erase(one.scene.lattices.begin() + static_cast<std::ptrdiff_t>(l));
       auto& from = one.query.from;
-      if (!from) return;
-      if (from->lattice == static_cast<int>(l))
-        from.reset();
-      else if (from->lattice > static_cast<int>(l))
-        --from->lattice;
+      const bool is_there = drop(one.scene.lattices, l, from ? &from->lattice : nullptr);
+      if (!is_there) from.reset();
     });
   }
 
   void drop_atom(std::size_t l, std::size_t a) {
-    const auto& atoms = best_.scene.lattices[l].atoms;
-    if (atoms.size() < 2 || a >= atoms.size()) return;
+    if (best_.scene.lattices[l].atoms.size() < 2) return;
     offer([&](Candidate& one) {
-      auto& kept = one.scene.lattices[l].atoms;
-      kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(a));
       auto& from = one.query.from;
-      if (!from || from->lattice != static_cast<int>(l)) return;
-      if (from->atom == static_cast<int>(a))
-        from.reset();
-      else if (from->atom > static_cast<int>(a))
-        --from->atom;
+      const bool is_here = from && from->lattice == static_cast<int>(l);
+      if (!drop(one.scene.lattices[l].atoms, a, is_here ? &from->atom : nullptr)) from.reset();
     });
+  }
+
+  // Erases an item, and renumbers another one; false if that is the one erased.
+  template <class Item>
+  static bool drop(std::vector<Item>& items, std::size_t erased, int* other) {
+    items.erase(items.begin() + static_cast<std::ptrdiff_t>(erased));
+    if (other && *other == static_cast<int>(erased)) return false;
+    if (other && *other > static_cast<int>(erased)) --*other;
+    return true;
   }
 
   void to_ball(std::size_t l, std::size_t a) {
@@ -273,32 +269,30 @@ class Shrinker {
   // Tries a velocity of small integers, the smallest first; or at least one of a length of about 1.
   void simplify_velocity() {
     const Vec& v = best_.query.v;
-    const double largest = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
+    const double largest = largest_of(v);
     if (!(largest > 0)) return;
     const Vec unit = scaled(scaled(v, std::ldexp(1, -std::ilogb(largest) / 2)),
                             std::ldexp(1, -std::ilogb(largest) + std::ilogb(largest) / 2));
-    const double top = std::max({std::fabs(unit[0]), std::fabs(unit[1]), std::fabs(unit[2])});
-    for (int size = 1; size <= 64; ++size) {
+    for (int size = 1; size <= 64; ++size)
       if (offer([&](Candidate& one) {
-            for (int i = 0; i < 3; ++i) one.query.v[i] = 0 + std::nearbyint(unit[i] / top * size);
+            for (int i = 0; i < 3; ++i)
+              one.query.v[i] = 0 + std::nearbyint(unit[i] / largest_of(unit) * size);
           }))
         return;
-    }
     offer([&](Candidate& one) { one.query.v = unit; });
   }
 
   // ---- one number at a time
 
   void simplify_numbers() {
-    std::size_t count = 0;
-    for_each_number(best_.scene, best_.query, [&](double&) { ++count; });
-    for (std::size_t index = 0; index < count; ++index) simplify_number(index);
+    for (std::size_t index = 0, count = numbers_of(best_).size(); index < count; ++index)
+      simplify_number(index);
   }
 
   void simplify_number(std::size_t index) {
-    const double x = number_at(best_, index);  // 0 stays: nothing is simpler
+    const double x = *numbers_of(best_)[index];  // 0 stays: nothing is simpler
     const auto set = [&](double y) {
-      return y != x && offer([&](Candidate& one) { number_at(one, index) = y; });
+      return y != x && offer([&](Candidate& one) { *numbers_of(one)[index] = y; });
     };
     if (set(0) || set(x < 0 ? -1 : 1) || set(std::fabs(x))) return;
     for (int bits = 1; bits < bits_of(x); bits += bits < 12 ? 1 : 6)
@@ -308,14 +302,10 @@ class Shrinker {
     if (std::fabs(x) < 0.5) set(2 * x);
   }
 
-  static double& number_at(Candidate& one, std::size_t index) {
-    double* found = nullptr;
-    std::size_t count = 0;
-    for_each_number(one.scene, one.query, [&](double& x) {
-      if (count++ == index) found = &x;
-    });
-    static double none = 0;
-    return found ? *found : none;
+  static std::vector<double*> numbers_of(Candidate& one) {
+    std::vector<double*> numbers;
+    for_each_number(one.scene, one.query, [&](double& x) { numbers.push_back(&x); });
+    return numbers;
   }
 
   // ---- the flight
@@ -328,13 +318,11 @@ class Shrinker {
     for (const double share : {0.875, 0.75, 0.5, 0.25})
       for (const int places : {1, 2, 4, 8}) {
         const double time = share * flight_ / speed;
-        const bool done = offer(
-            [&](Candidate& one) {
-              one.query.from.reset();
-              for (int i = 0; i < 3; ++i) one.query.x[i] = on_grid(query.x[i] + time * query.v[i], places);
-            },
-            0.75 * flight_);
-        if (done) return;
+        const auto later = [&](Candidate& one) {
+          one.query.from.reset();
+          for (int i = 0; i < 3; ++i) one.query.x[i] = on_grid(query.x[i] + time * query.v[i], places);
+        };
+        if (offer(later, 0.75 * flight_)) return;
       }
   }
 

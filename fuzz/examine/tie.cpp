@@ -3,8 +3,9 @@
 #include "fuzz/rewording/exact_sums.hpp"
 
 namespace lorentz::fuzz {
+namespace {
 
-// With d = x - p - U n and the semiaxes A, d in units of A is adj(A) d / det(A); x is inside if its length is
+// Does x lie in the open obstacle? With d = x - p - U n and the semiaxes A, d in units of A is adj(A) d / det(A); x is inside if its length is
 // below 1.
 bool contains(const Scene& scene, const ObstacleId& obstacle, const Vec& x) {
   const Lattice& lattice = scene.lattices[obstacle.lattice];
@@ -32,6 +33,8 @@ bool contains(const Scene& scene, const ObstacleId& obstacle, const Vec& x) {
   }
   return oracle::dot(d, d) < radius * radius;
 }
+
+}  // namespace
 
 bool is_tie(const Scene& scene, const oracle::Judge& judge, const Query& query, const Answer& exact,
             const Answer& other) {

@@ -9,12 +9,8 @@
 
 namespace lorentz::fuzz {
 
-/// Does x lie in the open obstacle? Decided exactly. The scene must have no flaw, and the obstacle must
-/// belong to it.
-bool contains(const Scene& scene, const ObstacleId& obstacle, const Vec& x);
-
 /// Whether an answer differs from the exact one only by the choice among obstacles that it may name: the
-/// outcome is the same, and the time is the same to the bit. The judge is the scene's.
+/// outcome is the same, and the time is the same to the bit. Decided exactly. The scene must have no flaw; its judge is given.
 bool is_tie(const Scene& scene, const oracle::Judge& judge, const Query& query, const Answer& exact,
             const Answer& other);
 

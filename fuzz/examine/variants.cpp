@@ -27,34 +27,22 @@ Query one_move(Random& random, const Scene& scene, Query query, NumberFormat pre
   const auto dimension = static_cast<std::uint64_t>(scene.dimension);
   Vec& a = random.one_in(2) ? query.x : query.v;
   const std::uint64_t i = random.below(dimension), k = random.below(dimension);
-  switch (random.below(12)) {
-    case 0:
-    case 1:
-    case 2:
-    case 3:
-      a[i] = moved(a[i], drawn_ulps(random), precision);
-      break;
-    case 4:
-    case 5:
-    case 6:
-      a[i] = with_bit_flipped(random, a[i], precision);
-      break;
-    case 7:
-      std::swap(a[i], a[k]);
-      break;
-    case 8:
-      a[i] = random.one_in(2) ? a[k] : random.one_in(2) ? -a[i] : 0.0;
-      break;
-    case 9:
-      query.v = scaled(query.v, random.one_in(2) ? random.octave(-3, 3)
-                                                 : std::ldexp(1, static_cast<int>(random.integer(-8, 8))));
-      break;
-    case 10:
-      query.x = sum(query.x, scaled(scene.lattices[0].vectors[i], random.sign()));
-      break;
-    default:
-      query.x = sum(query.x, scaled(query.v, std::ldexp(1, -static_cast<int>(random.integer(0, 40)))));
-  }
+  const std::uint64_t move = random.below(12);
+  if (move < 4)
+    a[i] = moved(a[i], drawn_ulps(random), precision);
+  else if (move < 7)
+    a[i] = with_bit_flipped(random, a[i], precision);
+  else if (move == 7)
+    std::swap(a[i], a[k]);
+  else if (move == 8)
+    a[i] = random.one_in(2) ? a[k] : random.one_in(2) ? -a[i] : 0.0;
+  else if (move == 9)
+    query.v = scaled(query.v, random.one_in(2) ? random.octave(-3, 3)
+                                               : std::ldexp(1, static_cast<int>(random.integer(-8, 8))));
+  else if (move == 10)
+    query.x = sum(query.x, scaled(scene.lattices[0].vectors[i], random.sign()));
+  else
+    query.x = sum(query.x, scaled(query.v, std::ldexp(1, -static_cast<int>(random.integer(0, 40)))));
   return rounded(query, precision);
 }
 

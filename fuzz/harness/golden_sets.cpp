@@ -39,22 +39,21 @@ std::optional<ReadSet> set_in(const BytesAsFile& file, std::string& reason) {
   }
 }
 
+// An end may be written in several ways: compared as a number if it is one, otherwise as text.
+bool same_end(const oracle::WindowEnd& a, const oracle::WindowEnd& b) {
+  const auto value = oracle::binary64_of(a), other = oracle::binary64_of(b);
+  return value == other && (value || oracle::text_of(a) == oracle::text_of(b));
+}
+
 bool same_proof(const oracle::Certificate& a, const oracle::Certificate& b) {
-  if (a.windows.size() != b.windows.size() || a.rows.size() != b.rows.size()) return false;
-  for (std::size_t i = 0; i < a.windows.size(); ++i) {
-    const oracle::Window &one = a.windows[i], &two = b.windows[i];
-    if (one.lattice != two.lattice || one.atom != two.atom || one.basis != two.basis) return false;
-    for (const auto end : {&oracle::Window::from, &oracle::Window::to}) {
-      // An end may be written in several ways: compared as a number if it is one, otherwise as text.
-      const auto value = oracle::binary64_of(one.*end), other = oracle::binary64_of(two.*end);
-      if (value != other || (!value && oracle::text_of(one.*end) != oracle::text_of(two.*end))) return false;
-    }
-  }
-  for (std::size_t i = 0; i < a.rows.size(); ++i) {
-    const oracle::Rows &one = a.rows[i], &two = b.rows[i];
-    if (one.lattice != two.lattice || one.atom != two.atom || one.basis != two.basis) return false;
-  }
-  return true;
+  const auto same_place = [](const auto& one, const auto& two) {
+    return one.lattice == two.lattice && one.atom == two.atom && one.basis == two.basis;
+  };
+  const auto same_window = [&](const oracle::Window& one, const oracle::Window& two) {
+    return same_place(one, two) && same_end(one.from, two.from) && same_end(one.to, two.to);
+  };
+  return std::ranges::equal(a.windows, b.windows, same_window) &&
+         std::ranges::equal(a.rows, b.rows, same_place);
 }
 
 bool same_record(const golden::Record& a, const golden::Record& b) {
@@ -77,10 +76,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   again.set(first->text);
   const auto second = set_in(again, reason);
   require(second.has_value(), "a set that was read can be read again", first->text + reason);
-  const bool as_many = second->records.size() == first->records.size();
-  require(as_many && second->text == first->text, "a set that is read again is the same", first->text);
-  for (std::size_t i = 0; i < first->records.size(); ++i)
-    require(same_record(first->records[i], second->records[i]), "a record that is read again is the same",
-            first->text);
+  require(second->text == first->text, "a set that is read again is the same", first->text);
+  require(std::ranges::equal(first->records, second->records, same_record),
+          "a record that is read again is the same", first->text);
   return 0;
 }

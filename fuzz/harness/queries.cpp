@@ -10,33 +10,19 @@
 namespace lorentz::harness {
 namespace {
 
-std::string without_line_end(std::string line) {
+// The line that `append` appends, without its end.
+template <class Append>
+std::string written(const Append& append) {
+  std::string line;
+  append(line);
   if (!line.ends_with('\n')) fail("a line that is written ends", line);
   line.pop_back();
   if (line.find('\n') != std::string::npos) fail("a line that is written is one line", line);
   return line;
 }
 
-std::string written(const Scene& scene) {
-  std::string line;
-  append_scene_line(line, scene);
-  return without_line_end(std::move(line));
-}
-
-std::string written(const Id& id, const Query& query, int dimension) {
-  std::string line;
-  append_query_line(line, id, query, dimension);
-  return without_line_end(std::move(line));
-}
-
-std::string written(const Id& id, const Answer& answer, int dimension) {
-  std::string line;
-  append_answer_line(line, id, answer, dimension);
-  return without_line_end(std::move(line));
-}
-
 void check_scene(const Scene& scene) {
-  const std::string line = written(scene);
+  const std::string line = written([&](std::string& to) { append_scene_line(to, scene); });
   require(!flaw_of(scene), "a scene that is read has no flaw", line);
   StreamItem again;
   ExchangeReader().read_query_line(LoneLine(line).line(), nullptr, again);
@@ -45,7 +31,8 @@ void check_scene(const Scene& scene) {
 }
 
 void check_query(const StreamItem& item, const Scene& scene) {
-  const std::string line = written(item.id, item.query, scene.dimension);
+  const std::string line =
+      written([&](std::string& to) { append_query_line(to, item.id, item.query, scene.dimension); });
   require(!flaw_of(item.query, scene), "a query that is read has no flaw", line);
   StreamItem again;
   ExchangeReader().read_query_line(LoneLine(line).line(), &scene, again);
@@ -55,7 +42,7 @@ void check_query(const StreamItem& item, const Scene& scene) {
 }
 
 void check_answer(const Id& id, const Answer& answer, int dimension) {
-  const std::string line = written(id, answer, dimension);
+  const std::string line = written([&](std::string& to) { append_answer_line(to, id, answer, dimension); });
   Id id_again;
   Answer again;
   std::size_t components = 0;

@@ -6,7 +6,6 @@
 #include "report/cell.hpp"
 #include "statistics/chaos/groups.hpp"
 #include "statistics/flights/account.hpp"
-#include "statistics/flights/plan.hpp"
 
 #include <lorentz/errors.hpp>
 

@@ -22,7 +22,11 @@ namespace {
 constexpr int kMostCellBits = 40, kLargestIndex = 8;
 constexpr std::size_t kMostAtoms = 24;
 
-class NewCells final : public RewordingStep {
+bool is_multiple(const IntegerVec& a, const Z& of) {
+  return std::all_of(a.begin(), a.end(), [&](const Z& component) { return component % of == 0; });
+}
+
+class NewCells {
  public:
   NewCells(int lattice, IntegerMatrix m, std::vector<IntegerVec> classes)
       : lattice_(lattice),
@@ -31,7 +35,7 @@ class NewCells final : public RewordingStep {
         determinant_(determinant(m_)),
         classes_(std::move(classes)) {}
 
-  std::string words() const override {
+  std::string words() const {
     long bits = 0;
     for (const IntegerVec& column : m_)
       for (const Z& entry : column) bits = std::max(bits, oracle::bit_length(entry) - 1);
@@ -40,14 +44,14 @@ class NewCells final : public RewordingStep {
            std::to_string(bits);
   }
 
-  void there(ObstacleId& id) const override {
+  void there(ObstacleId& id) const {
     if (id.lattice != lattice_) return;
     const IntegerVec n = to_integers(id.cell);
     for (std::size_t k = 0; k < classes_.size(); ++k) {
       IntegerVec a;
       for (std::size_t i = 0; i < 3; ++i) a[i] = n[i] - classes_[k][i];
       a = adjugate_ * a;
-      if (!is_multiple(a)) continue;
+      if (!is_multiple(a, determinant_)) continue;
       for (Z& component : a) component /= determinant_;
       id.cell = to_cell(a);
       id.atom = id.atom * static_cast<int>(classes_.size()) + static_cast<int>(k);
@@ -55,7 +59,7 @@ class NewCells final : public RewordingStep {
     }
   }
 
-  void back(ObstacleId& id) const override {
+  void back(ObstacleId& id) const {
     if (id.lattice != lattice_) return;
     const int count = static_cast<int>(classes_.size());
     IntegerVec n = m_ * to_integers(id.cell);
@@ -65,10 +69,6 @@ class NewCells final : public RewordingStep {
   }
 
  private:
-  bool is_multiple(const IntegerVec& a) const {
-    return std::all_of(a.begin(), a.end(), [&](const Z& component) { return component % determinant_ == 0; });
-  }
-
   int lattice_;
   IntegerMatrix m_, adjugate_;
   Z determinant_;
@@ -107,7 +107,7 @@ class Changing {
   // u_j *= factor.
   bool multiply(Random& random, std::int64_t factor) {
     const std::uint64_t j = random.below(rank_);
-    const auto product = exact_sum({}, {Z(static_cast<long>(factor)), 0, 0}, {vectors_[j], Vec{}, Vec{}});
+    const auto product = exact_sum({}, Z(static_cast<long>(factor)), vectors_[j]);
     if (!product) return false;
     vectors_[j] = *product;
     for (Z& entry : m_[j]) entry *= static_cast<long>(factor);
@@ -124,7 +124,7 @@ class Changing {
       column[k] += Z(static_cast<long>(c)) * m_[i][k];
       if (oracle::bit_length(column[k]) > kMostCellBits + 1) return false;
     }
-    const auto sum = exact_sum(vectors_[j], {Z(static_cast<long>(c)), 0, 0}, {vectors_[i], Vec{}, Vec{}});
+    const auto sum = exact_sum(vectors_[j], Z(static_cast<long>(c)), vectors_[i]);
     if (!sum) return false;
     vectors_[j] = *sum;
     m_[j] = std::move(column);
@@ -146,8 +146,7 @@ std::vector<IntegerVec> classes_of(const IntegerMatrix& m, int rank) {
     for (long b = 0; b < (rank >= 2 ? q : 1); ++b)
       for (long c = 0; c < (rank == 3 ? q : 1); ++c) {
         const bool known = std::any_of(classes.begin(), classes.end(), [&](const IntegerVec& other) {
-          const IntegerVec n = to_cells * IntegerVec{Z(a - other[0]), Z(b - other[1]), Z(c - other[2])};
-          return n[0] % index == 0 && n[1] % index == 0 && n[2] % index == 0;
+          return is_multiple(to_cells * IntegerVec{Z(a - other[0]), Z(b - other[1]), Z(c - other[2])}, index);
         });
         if (!known) classes.push_back({a, b, c});
         if (static_cast<long>(classes.size()) == q) return classes;
@@ -168,32 +167,35 @@ std::optional<std::vector<Atom>> copies_of(const Lattice& lattice, const std::ve
   return atoms;
 }
 
-std::unique_ptr<RewordingStep> draw_cells(Random& random, Scene& scene, std::int64_t factor) {
+std::optional<RewordingStep> draw_cells(Random& random, Scene& scene, std::int64_t factor) {
   const int l = static_cast<int>(random.below(scene.lattices.size()));
   Lattice& lattice = scene.lattices[l];
   const int rank = lattice.rank(scene.dimension);
-  if (rank == 0 || lattice.atoms.size() * static_cast<std::size_t>(factor) > kMostAtoms) return nullptr;
+  if (rank == 0 || lattice.atoms.size() * static_cast<std::size_t>(factor) > kMostAtoms) return std::nullopt;
   Changing changing(lattice.vectors, rank);
   for (std::uint64_t steps = random.below(4) + (factor == 1); steps > 0; --steps) changing.shear(random);
-  if (factor > 1 && !changing.multiply(random, factor)) return nullptr;
+  if (factor > 1 && !changing.multiply(random, factor)) return std::nullopt;
   for (std::uint64_t steps = random.below(3); steps > 0; --steps) changing.shear(random);
   if (random.one_in(2)) changing.exchange(random);
-  if (changing.matrix() == identity()) return nullptr;
+  if (changing.matrix() == identity()) return std::nullopt;
   std::vector<IntegerVec> classes = classes_of(changing.matrix(), rank);
   auto atoms = copies_of(lattice, classes);
-  if (!atoms) return nullptr;
+  if (!atoms) return std::nullopt;
   lattice.vectors = changing.vectors();
   lattice.atoms = std::move(*atoms);
-  return std::make_unique<NewCells>(l, changing.matrix(), std::move(classes));
+  const NewCells cells(l, changing.matrix(), std::move(classes));
+  return RewordingStep{.words = cells.words(),
+                       .there = [cells](ObstacleId& id) { cells.there(id); },
+                       .back = [cells](ObstacleId& id) { cells.back(id); }};
 }
 
 }  // namespace
 
-std::unique_ptr<RewordingStep> draw_basis(Random& random, Scene& scene) {
+std::optional<RewordingStep> draw_basis(Random& random, Scene& scene) {
   return draw_cells(random, scene, 1);
 }
 
-std::unique_ptr<RewordingStep> draw_superlattice(Random& random, Scene& scene) {
+std::optional<RewordingStep> draw_superlattice(Random& random, Scene& scene) {
   return draw_cells(random, scene, random.integer(2, kLargestIndex));
 }
 

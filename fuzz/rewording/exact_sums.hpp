@@ -1,8 +1,10 @@
 // Sums of integer multiples of binary64 values, if the sums are binary64 values again.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <lorentz/obstacle.hpp>
@@ -45,6 +47,11 @@ inline std::optional<Vec> exact_sum(const Vec& a, const IntegerVec& n, const std
   return result;
 }
 
+/// a + n u, if the components are binary64 values.
+inline std::optional<Vec> exact_sum(const Vec& a, const Z& n, const Vec& u) {
+  return exact_sum(a, {n, 0, 0}, {u, Vec{}, Vec{}});
+}
+
 /// a times 2^exponent, if the components are binary64 values.
 inline std::optional<Vec> exact_scaled(const Vec& a, int exponent) {
   Vec result{};
@@ -54,6 +61,20 @@ inline std::optional<Vec> exact_scaled(const Vec& a, int exponent) {
   }
   return result;
 }
+
+/// The lowest and the highest bit of numbers.
+struct BitRange {
+  long lowest = std::numeric_limits<long>::max(), highest = std::numeric_limits<long>::min();
+
+  void see(double value) {
+    if (value == 0) return;
+    lowest = std::min(lowest, oracle::Dyadic(value).exponent);
+    highest = std::max<long>(highest, std::ilogb(value));
+  }
+  void see(const Vec& a) {
+    for (const double component : a) see(component);
+  }
+};
 
 inline IntegerVec to_integers(const Cell& cell) {
   return {oracle::to_z(cell[0]), oracle::to_z(cell[1]), oracle::to_z(cell[2])};

@@ -23,6 +23,17 @@ void for_each_vector(TheScene& scene, const F& lengths, const F& positions) {
   }
 }
 
+Vec negated(Vec a) {
+  for (double& component : a) component = component == 0 ? 0.0 : -component;
+  return a;
+}
+
+// Sets x to its image, if that is made of binary64 values.
+bool set_if(Vec& x, const std::optional<Vec>& image) {
+  if (image) x = *image;
+  return image.has_value();
+}
+
 template <class T>
 void shuffle(Random& random, std::vector<T>& values) {
   for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[random.below(i)]);
@@ -37,7 +48,7 @@ std::vector<int> drawn_order(Random& random, std::size_t count) {
 
 // ---- coordinates exchanged and reflected
 
-class FrameAxes final : public RewordingStep {
+class FrameAxes {
  public:
   FrameAxes(Random& random, int dimension) {
     const std::vector<int> order = drawn_order(random, static_cast<std::size_t>(dimension));
@@ -45,12 +56,6 @@ class FrameAxes final : public RewordingStep {
   }
   bool changes() const {
     return from_ != std::array<int, 3>{0, 1, 2} || sign_ != std::array<int, 3>{1, 1, 1};
-  }
-  std::string words() const override { return "axes"; }
-  bool reword(Vec& x, Vec& v) const override {
-    turn(x);
-    turn(v);
-    return true;
   }
   void turn(Vec& a) const {
     const Vec before = a;
@@ -63,30 +68,10 @@ class FrameAxes final : public RewordingStep {
 
 // ---- everything moved
 
-class MovedScene final : public RewordingStep {
- public:
-  explicit MovedScene(const Vec& by) : by_(by) {}
-  std::string words() const override { return "scene moved"; }
-  bool reword(Vec& x, Vec&) const override { return move(x); }
-  bool move(Vec& a) const {
-    const auto sum = exact_sum(a, {1, 0, 0}, {by_, Vec{}, Vec{}});
-    if (sum) a = *sum;
-    return sum.has_value();
-  }
-
- private:
-  Vec by_;
-};
-
 // A translation that moves an atom to the origin, or one by numbers of few bits: in the cell, or far away.
 Vec drawn_translation(Random& random, const Scene& scene) {
-  Vec by{};
   const Lattice& lattice = scene.lattices[random.below(scene.lattices.size())];
-  if (random.one_in(3)) {
-    by = lattice.atoms[random.below(lattice.atoms.size())].position;
-    for (double& component : by) component = component == 0 ? 0.0 : -component;
-    return by;
-  }
+  if (random.one_in(3)) return negated(lattice.atoms[random.below(lattice.atoms.size())].position);
   const Atom& atom = lattice.atoms[0];
   const Vec size_of = lattice.rank(scene.dimension) > 0 ? lattice.vectors[0]
                       : atom.is_ball()                  ? Vec{atom.radius}
@@ -94,6 +79,7 @@ Vec drawn_translation(Random& random, const Scene& scene) {
   const int unit =
       std::ilogb(std::max({std::fabs(size_of[0]), std::fabs(size_of[1]), std::fabs(size_of[2])}));
   const int size = static_cast<int>(random.one_in(2) ? random.integer(-4, 4) : random.integer(5, 50));
+  Vec by{};
   for (int i = 0; i < scene.dimension; ++i)
     by[i] = std::ldexp(static_cast<double>(random.integer(-8, 8)), std::min(unit + size, 1000));
   return by;
@@ -101,44 +87,11 @@ Vec drawn_translation(Random& random, const Scene& scene) {
 
 // ---- other units
 
-class Scaled final : public RewordingStep {
- public:
-  explicit Scaled(int exponent) : exponent_(exponent) {}
-  std::string words() const override { return "lengths 2^" + std::to_string(exponent_); }
-  bool reword(Vec& x, Vec&) const override {
-    const auto product = exact_scaled(x, exponent_);
-    if (product) x = *product;
-    return product.has_value();
-  }
-  int time_exponent() const override { return exponent_; }
-
- private:
-  int exponent_;
-};
-
-// The lowest and the highest bit of a scene's numbers.
-struct BitRange {
-  long lowest = std::numeric_limits<long>::max(), highest = std::numeric_limits<long>::min();
-  void see(double value) {
-    if (value == 0) return;
-    lowest = std::min(lowest, oracle::OddMantissa(value).exponent);
-    highest = std::max<long>(highest, std::ilogb(value));
-  }
-  void see(const Vec& a) {
-    for (const double component : a) see(component);
-  }
-};
-
 BitRange range_of(const Scene& scene) {
   BitRange range;
-  for (const Lattice& lattice : scene.lattices) {
-    for (int i = 0; i < scene.dimension; ++i) range.see(lattice.vectors[i]);
-    for (const Atom& atom : lattice.atoms) {
-      range.see(atom.radius);
-      range.see(atom.position);
-      for (const Vec& axis : atom.semiaxes) range.see(axis);
-    }
-  }
+  const auto see = [&](const Vec& a) { range.see(a); };
+  for_each_vector(scene, see, see);
+  for_each_atom(scene, [&](const Atom& atom) { range.see(atom.radius); });
   return range;
 }
 
@@ -152,12 +105,11 @@ void scale_scene(Scene& scene, int exponent) {
 
 // ---- other names
 
-class AxisOrder final : public RewordingStep {
+class AxisOrder {
  public:
   AxisOrder(Random& random, const Scene& scene) : lattices_(drawn_order(random, scene.lattices.size())) {
     for (const Lattice& lattice : scene.lattices) atoms_.push_back(drawn_order(random, lattice.atoms.size()));
   }
-  std::string words() const override { return "order"; }
 
   // Lattice k of the new scene is lattices_[k] of the old one, its atom i is atoms_[..][i].
   Scene applied(const Scene& scene) const {
@@ -168,11 +120,11 @@ class AxisOrder final : public RewordingStep {
     }
     return result;
   }
-  void there(ObstacleId& id) const override {
+  void there(ObstacleId& id) const {
     id.atom = place_of(id.atom, atoms_[id.lattice]);
     id.lattice = place_of(id.lattice, lattices_);
   }
-  void back(ObstacleId& id) const override {
+  void back(ObstacleId& id) const {
     id.lattice = lattices_[id.lattice];
     id.atom = atoms_[id.lattice][id.atom];
   }
@@ -193,15 +145,6 @@ class AxisOrder final : public RewordingStep {
 
 // ---- one more dimension, other obstacles
 
-class NoChange final : public RewordingStep {
- public:
-  explicit NoChange(std::string words) : words_(std::move(words)) {}
-  std::string words() const override { return words_; }
-
- private:
-  std::string words_;
-};
-
 // At most 2^40 times what is needed, or anything up to the end of the range.
 double drawn_height(Random& random, int least) {
   if (random.one_in(8)) return std::ldexp(1, static_cast<int>(random.integer(least, kLargestExponent)));
@@ -211,75 +154,72 @@ double drawn_height(Random& random, int least) {
 
 std::vector<Vec> drawn_axes(Random& random, const std::vector<Vec>& axes) {
   std::vector<Vec> result;
-  for (const int k : drawn_order(random, axes.size())) {
-    result.push_back(axes[k]);
-    if (random.one_in(2))
-      for (double& component : result.back()) component = component == 0 ? 0.0 : -component;
-  }
+  for (const int k : drawn_order(random, axes.size()))
+    result.push_back(random.one_in(2) ? negated(axes[k]) : axes[k]);
   return result;
 }
 
 }  // namespace
 
-std::unique_ptr<RewordingStep> draw_axes(Random& random, Scene& scene) {
-  auto step = std::make_unique<FrameAxes>(random, scene.dimension);
-  if (!step->changes()) return nullptr;
-  const auto turn = [&](Vec& a) { step->turn(a); };
+std::optional<RewordingStep> draw_axes(Random& random, Scene& scene) {
+  const FrameAxes axes(random, scene.dimension);
+  if (!axes.changes()) return std::nullopt;
+  const auto turn = [axes](Vec& a) { axes.turn(a); };
   for_each_vector(scene, turn, turn);
-  return step;
+  return RewordingStep{.words = "axes", .reword = [turn](Vec& x, Vec& v) {
+                         turn(x);
+                         turn(v);
+                         return true;
+                       }};
 }
 
-std::unique_ptr<RewordingStep> draw_moved_scene(Random& random, Scene& scene) {
+std::optional<RewordingStep> draw_moved_scene(Random& random, Scene& scene) {
   const Vec by = drawn_translation(random, scene);
-  if (by == Vec{}) return nullptr;
-  auto step = std::make_unique<MovedScene>(by);
+  if (by == Vec{}) return std::nullopt;
+  const auto move = [by](Vec& a) { return set_if(a, exact_sum(a, 1, by)); };
   Scene moved = scene;
   for (Lattice& lattice : moved.lattices)
     for (Atom& atom : lattice.atoms)
-      if (!step->move(atom.position)) return nullptr;
+      if (!move(atom.position)) return std::nullopt;
   scene = std::move(moved);
-  return step;
+  return RewordingStep{.words = "scene moved", .reword = [move](Vec& x, Vec&) { return move(x); }};
 }
 
-std::unique_ptr<RewordingStep> draw_scaled(Random& random, Scene& scene) {
+std::optional<RewordingStep> draw_scaled(Random& random, Scene& scene) {
   const BitRange range = range_of(scene);
   // least <= 0 <= most, because the numbers are binary64 values as they are.
   const long least = kLeastExponent - range.lowest, most = kLargestExponent - range.highest;
-  long exponent = random.integer(least, most);
-  switch (random.below(4)) {
-    case 0:
-      exponent = least + static_cast<long>(random.below(4));
-      break;
-    case 1:
-      exponent = most - static_cast<long>(random.below(4));
-      break;
-    case 2:
-      exponent = static_cast<long>(random.integer(-8, 8));
-      break;
-    default:
-      break;
-  }
-  exponent = std::clamp(exponent, least, most);
-  if (exponent == 0) return nullptr;
-  scale_scene(scene, static_cast<int>(exponent));
-  return std::make_unique<Scaled>(static_cast<int>(exponent));
+  const std::int64_t anywhere = random.integer(least, most);
+  const std::uint64_t kind = random.below(4);
+  const long drawn = kind == 0   ? least + static_cast<long>(random.below(4))
+                     : kind == 1 ? most - static_cast<long>(random.below(4))
+                     : kind == 2 ? static_cast<long>(random.integer(-8, 8))
+                                 : static_cast<long>(anywhere);
+  const auto exponent = static_cast<int>(std::clamp(drawn, least, most));
+  if (exponent == 0) return std::nullopt;
+  scale_scene(scene, exponent);
+  return RewordingStep{.words = "lengths 2^" + std::to_string(exponent),
+                       .reword = [=](Vec& x, Vec&) { return set_if(x, exact_scaled(x, exponent)); },
+                       .time_exponent = exponent};
 }
 
-std::unique_ptr<RewordingStep> draw_order(Random& random, Scene& scene) {
-  auto step = std::make_unique<AxisOrder>(random, scene);
-  if (!step->changes()) return nullptr;
-  scene = step->applied(scene);
-  return step;
+std::optional<RewordingStep> draw_order(Random& random, Scene& scene) {
+  const AxisOrder order(random, scene);
+  if (!order.changes()) return std::nullopt;
+  scene = order.applied(scene);
+  return RewordingStep{.words = "order",
+                       .there = [order](ObstacleId& id) { order.there(id); },
+                       .back = [order](ObstacleId& id) { order.back(id); }};
 }
 
 // A ball or an ellipsoid whose centre is in the plane z = 0 meets that plane in the disc or ellipse that it
 // was. With a third vector (w, h), h more than twice any number of the scene, no obstacle of another layer
 // comes near the plane. The layer 0 is the old lattice, whatever w is. A row, or single obstacles, stay what
 // they were.
-std::unique_ptr<RewordingStep> draw_plane_in_space(Random& random, Scene& scene) {
-  if (scene.dimension != 2) return nullptr;
+std::optional<RewordingStep> draw_plane_in_space(Random& random, Scene& scene) {
+  if (scene.dimension != 2) return std::nullopt;
   const int least = static_cast<int>(range_of(scene).highest) + 2;
-  if (least > kLargestExponent) return nullptr;
+  if (least > kLargestExponent) return std::nullopt;
   for (Lattice& lattice : scene.lattices) {
     if (lattice.missing > 0) {
       ++lattice.missing;
@@ -296,12 +236,12 @@ std::unique_ptr<RewordingStep> draw_plane_in_space(Random& random, Scene& scene)
             {0, 0, std::ldexp(1, std::max(least - 1 - static_cast<int>(random.below(10)), kLeastExponent))});
   }
   scene.dimension = 3;
-  return std::make_unique<NoChange>("plane in space");
+  return RewordingStep{"plane in space"};
 }
 
 // A ball becomes an ellipsoid: r times a signed permutation of the unit vectors. The semiaxes of ellipsoids
 // are exchanged and reflected.
-std::unique_ptr<RewordingStep> draw_ellipsoids(Random& random, Scene& scene) {
+std::optional<RewordingStep> draw_ellipsoids(Random& random, Scene& scene) {
   const Scene before = scene;
   for (Lattice& lattice : scene.lattices)
     for (Atom& atom : lattice.atoms) {
@@ -315,8 +255,8 @@ std::unique_ptr<RewordingStep> draw_ellipsoids(Random& random, Scene& scene) {
       }
       atom.semiaxes = drawn_axes(random, atom.semiaxes);
     }
-  if (scene == before) return nullptr;
-  return std::make_unique<NoChange>("semiaxes");
+  if (scene == before) return std::nullopt;
+  return RewordingStep{"semiaxes"};
 }
 
 }  // namespace lorentz::fuzz

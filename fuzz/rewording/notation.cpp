@@ -17,7 +17,8 @@ namespace {
 enum class DigitsOfNumber { shortest, general, fixed, scientific, hexadecimal, mixed };
 constexpr const char* kNames[] = {"shortest", "%.17g", "%.20f", "%.40e", "hexadecimal", "of all kinds"};
 
-std::string printed(const char* format, double value) {
+template <class Value>
+std::string printed(const char* format, Value value) {
   char text[400];  // %.20f writes up to 309 digits before the point
   std::snprintf(text, sizeof text, format, value);
   return text;
@@ -97,13 +98,10 @@ class FreeJsonWriter {
 
   std::string key(const std::string& name) {
     std::string text = "\"";
-    for (const char c : name) text += escapes_ && random_.one_in(4) ? printed_escape(c) : std::string(1, c);
+    for (const char c : name)
+      text +=
+          escapes_ && random_.one_in(4) ? printed("\\u%04x", static_cast<unsigned>(c)) : std::string(1, c);
     return text + "\"";
-  }
-  static std::string printed_escape(char c) {
-    char text[8];
-    std::snprintf(text, sizeof text, "\\u%04x", static_cast<unsigned>(c));
-    return text;
   }
 
   std::string text_of(double value) {
@@ -143,7 +141,9 @@ class FreeJsonWriter {
   bool blanks_, shuffles_, escapes_;
 };
 
-StreamItem read_here(const std::string& line, const Scene* scene) {
+}  // namespace
+
+StreamItem read_line(const std::string& line, const Scene* scene) {
   static thread_local ExchangeReader reader;
   const std::string padded = line + std::string(LineReader::kPadding, ' ');
   StreamItem item;
@@ -151,15 +151,10 @@ StreamItem read_here(const std::string& line, const Scene* scene) {
   return item;
 }
 
-}  // namespace
-
 std::optional<Misreading> misreading(Random& random, const Scene& scene, const Query& query,
-                                     const ReadLine& reader) {
+                                     const ReadLine& read) {
   FreeJsonWriter writer(random);
   const std::string scene_line = writer.scene_line(scene), query_line = writer.query_line(query, scene);
-  const auto read = [&](const std::string& line, const Scene* known) {
-    return reader ? reader(line, known) : read_here(line, known);
-  };
   const StreamItem first = read(scene_line, nullptr);
   if (first.kind != StreamItem::Kind::scene || first.scene != scene)
     return Misreading{writer.notation(), scene_line};

@@ -2,17 +2,15 @@
 // answer must be the same. docs/campaigns.md, "In other words", lists the relations.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <lorentz/answer.hpp>
 #include <lorentz/query.hpp>
-#include <lorentz/scene.hpp>
-#include "cases/random.hpp"
+#include "fuzz/rewording/exact_sums.hpp"
+#include "fuzz/rewording/rewording_steps.hpp"
 
 namespace lorentz::fuzz {
 
@@ -24,18 +22,27 @@ struct Reworded {
   bool rounded = false;  ///< its start is the old one moved, rounded to binary64: another question
 };
 
+/// The vectors after which every lattice of a scene repeats: all multiples of `multiple` of lattice 0's vectors,
+/// if `multiple` is at most kMostBits long. For each lattice l a matrix P with U_l P k = multiple U_0 k. A lattice
+/// of fewer vectors than dimensions has its own if it is the only one; otherwise the scene has none.
+struct Periods {
+  static constexpr long kMostBits = 20;
+
+  explicit Periods(const Scene& scene);
+
+  Z multiple = 1;
+  std::vector<IntegerMatrix> in_cells;  ///< empty: none
+};
+
 /// Other words for one scene: a chain of a few steps, each drawn as mild or as hard as the numbers allow.
 /// Everything is exact: what binary64 cannot express is not said.
 class Rewording {
  public:
   /// The scene must be without flaws, its vectors independent.
   Rewording(cases::Random& random, const Scene& scene);
-  Rewording(Rewording&&) noexcept;
-  Rewording& operator=(Rewording&&) noexcept;
-  ~Rewording();
 
   /// The scene in the new words.
-  const Scene& scene() const;
+  const Scene& scene() const { return scene_; }
 
   /// What was done, like "basis 2^37, lengths 2^-1000, start moved 2^12, velocity 2^40".
   std::string words(const Reworded& reworded) const;
@@ -55,8 +62,15 @@ class Rewording {
   std::optional<Answer> carried(const Answer& exact, const Reworded& reworded) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<const Impl> impl_;
+  void move_start(cases::Random& random, Reworded& reworded) const;
+  void round_start(const std::array<std::int64_t, 3>& k, const IntegerVec& cells, Reworded& reworded) const;
+  void shift(ObstacleId& id, const Reworded& reworded, int sign) const;
+
+  int rank_;                    // of lattice 0
+  Scene scene_;                 // in the new words
+  std::array<Vec, 3> vectors_;  // of lattice 0, in the old
+  Periods periods_;             // in the old
+  std::vector<RewordingStep> steps_;
 };
 
 }  // namespace lorentz::fuzz

@@ -15,47 +15,22 @@ namespace {
 
 // The first `rank` vectors, without those that complete the lattice.
 template <std::size_t D>
-CertificateBasis certificate_basis(const Basis<D>& basis, std::size_t rank = D) {
+CertificateBasis certificate_basis(const Basis<D>& basis, std::size_t rank) {
   CertificateBasis result;
   for (std::size_t i = 0; i < rank; ++i) result[i] = to_cell<D>(basis[i].n);
   return result;
 }
 
-// The ends of a stretch as times T = s / v^2 2^exponent, rounded outwards by at most a 64th of rho, however
-// long the window is: there may be many obstacles just beyond its end.
-class Ends {
- public:
-  Ends(const Z& low, const std::optional<Z>& high, const Z& rho, const Z& v2, long exponent)
-      : v2_(v2), exponent_(exponent) {
-    unit_ = bit_length(rho) - bit_length(v2) - 8 + exponent;
-    from = end(low, false);
-    to = high ? end(*high, true) : WindowEnd(HUGE_VAL);
-  }
-  WindowEnd from, to;
-
- private:
-  WindowEnd end(const Z& s, bool upwards) const {
-    const long shift = exponent_ - unit_;
-    const Z numerator = shift >= 0 ? shifted_left(s, shift) : s;
-    const Z denominator = shift >= 0 ? v2_ : shifted_left(v2_, -shift);
-    Z mantissa = upwards ? ceil_div(numerator, denominator) : floor_div(numerator, denominator);
-    long exponent = unit_;
-    if (mantissa == 0) return {};
-    const long zeros = trailing_zeros(mantissa);
-    return {to_integer(mantissa >> zeros), exponent + zeros};
-  }
-
-  const Z& v2_;
-  long exponent_, unit_;
-};
-
-// The shortest integer vector parallel to n.
-template <std::size_t D>
-ZVec<D> primitive_vector(ZVec<D> n) {
-  Z divisor = 0;
-  for (const Z& component : n) divisor = gcd(divisor, component);
-  for (Z& component : n) component /= divisor;
-  return n;
+// s / v^2 2^exponent as the end of a window, rounded outwards by at most a 64th of rho, however long the
+// window is: there may be many obstacles just beyond its end.
+WindowEnd end_of(const Z& s, bool upwards, const Z& rho, const Z& v2, long exponent) {
+  const long unit = bit_length(rho) - bit_length(v2) - 8 + exponent, shift = exponent - unit;
+  const Z numerator = shift >= 0 ? shifted_left(s, shift) : s;
+  const Z denominator = shift >= 0 ? v2 : shifted_left(v2, -shift);
+  const Z mantissa = upwards ? ceil_div(numerator, denominator) : floor_div(numerator, denominator);
+  if (mantissa == 0) return {};
+  const long zeros = trailing_zeros(mantissa);
+  return {to_integer(mantissa >> zeros), unit + zeros};
 }
 
 // Bases of Z^d that begin with n, a vector without a common divisor. If the coordinates of n after the first
@@ -118,6 +93,14 @@ void shorten_along(const LatticePoint<D>& step, const ZVec<D>& v, LatticePoint<D
   b.add_multiple(-round_div(along > 0 ? s : Z(-s), abs(along)), step);
 }
 
+// An atom's obstacles as the query sees them.
+template <std::size_t D>
+struct SeenAtom {
+  int lattice, atom;
+  View<D> view;
+  Z rho_above = root_below(view.radius2 * view.velocity.v2) + 1;
+};
+
 template <std::size_t D>
 class Writer {
  public:
@@ -127,14 +110,14 @@ class Writer {
     if (exact.outcome != Outcome::hit && exact.outcome != Outcome::inside && exact.outcome != Outcome::never)
       return {};
     for_each_atom(scene_, [&](int l, int a) {
-      const View<D> view = query_.view(scene_, l, a);
-      const Z rho_above = root_below(view.radius2 * view.velocity.v2) + 1;
+      const SeenAtom<D> seen{l, a, query_.view(scene_, l, a)};
+      const Z& rho_above = seen.rho_above;
       if (exact.outcome == Outcome::never)
-        add_endless(view, l, a, rho_above);
+        add_endless(seen);
       else if (exact.outcome == Outcome::hit)
-        add_windows(view, l, a, rho_above, -rho_above, s_of_hit(view, exact.obstacle) + rho_above);
+        add_windows(seen, -rho_above, s_of_hit(seen.view, exact.obstacle) + rho_above);
       else if (std::pair(l, a) <= std::pair(exact.obstacle.lattice, exact.obstacle.atom))
-        add_windows(view, l, a, rho_above, -rho_above, rho_above);
+        add_windows(seen, -rho_above, rho_above);
     });
     return std::move(certificate_);
   }
@@ -142,54 +125,54 @@ class Writer {
  private:
   // t v^2 rounded up, where t is the time of the hit and v belongs to this view.
   Z s_of_hit(const View<D>& view, const ObstacleId& hit) const {
-    const View<D> own = query_.view(scene_, hit.lattice, hit.atom);
-    ZVec<D> c =
-        centre_of<D>(scene_, hit.lattice, hit.atom, to_zvec<D>(hit.cell), query_.x, query_.length_exponent);
-    if (const auto& frame = scene_.lattices[hit.lattice].atoms[hit.atom].frame) c = frame->to_ball * c;
-    const Z s = dot(own.velocity.v, c), d = (own.radius2 - dot(c, c)) * own.velocity.v2 + s * s;
-    if (d <= 0) throw InputError("the obstacle is not hit: there is nothing to prove");
-    return ceil_div((s - floor_sqrt(d)) * view.velocity.v2, own.velocity.v2);
+    const ExactEntry<D> entry = query_.meeting(scene_, hit);
+    if (entry.d <= 0) throw InputError("the obstacle is not hit: there is nothing to prove");
+    return ceil_div((entry.s - floor_sqrt(entry.d)) * view.velocity.v2, entry.v2);
   }
 
-  void add_windows(const View<D>& view, int lattice, int atom, const Z& rho_above, const Z& low,
-                   const Z& high) {
-    if (view.rank < D) return add_window(view, lattice, atom, rho_above, low, high);
-    const long exponent = query_.length_exponent - query_.velocity_exponent;
+  void add(const SeenAtom<D>& seen, const Z& low, const std::optional<Z>& high, const Basis<D>& basis) {
+    const auto end = [&](const Z& s, bool upwards) {
+      return end_of(s, upwards, seen.rho_above, seen.view.velocity.v2,
+                    query_.length_exponent - query_.velocity_exponent);
+    };
+    certificate_.windows.push_back({seen.lattice, seen.atom, end(low, false),
+                                    high ? end(*high, true) : WindowEnd(HUGE_VAL),
+                                    certificate_basis<D>(basis, seen.view.rank)});
+  }
+
+  void add_windows(const SeenAtom<D>& seen, const Z& low, const Z& high) {
+    const View<D>& view = seen.view;
+    if (view.rank < D) return add_one(seen, low, high);
     Stretches<D>(view, view.radius2 * view.velocity.v2).cut(low, high, [&](const RowStretch<D>& stretch) {
-      const Ends ends(stretch.low, stretch.high, rho_above, view.velocity.v2, exponent);
-      certificate_.windows.push_back(
-          {lattice, atom, ends.from, ends.to, certificate_basis<D>(stretch.basis)});
+      add(seen, stretch.low, stretch.high, stretch.basis);
       return false;
     });
   }
 
   // Adds one window, for a lattice of fewer than D vectors. A pair of vectors is made short in it, so that it
   // has few rows.
-  void add_window(const View<D>& view, int lattice, int atom, const Z& rho_above, const Z& low,
-                  const std::optional<Z>& high) {
-    Basis<D> basis = view.basis;
-    if (view.rank == 2) {
+  void add_one(const SeenAtom<D>& seen, const Z& low, const std::optional<Z>& high) {
+    Basis<D> basis = seen.view.basis;
+    if (seen.view.rank == 2) {
       const Z length = high ? Z(*high - low) : Z(0);
-      shorten_pair(basis, 0, WindowForm<D>{{view.velocity}, 4 * rho_above * rho_above, length * length});
+      shorten_pair(basis, 0,
+                   WindowForm<D>{{seen.view.velocity}, 4 * seen.rho_above * seen.rho_above, length * length});
     }
-    const Ends ends(low, high, rho_above, view.velocity.v2,
-                    query_.length_exponent - query_.velocity_exponent);
-    certificate_.windows.push_back(
-        {lattice, atom, ends.from, ends.to, certificate_basis<D>(basis, view.rank)});
+    add(seen, low, high, basis);
   }
 
   // Adds rows along v if there are any, else a window without an end.
-  void add_endless(const View<D>& view, int lattice, int atom, const Z& rho_above) {
+  void add_endless(const SeenAtom<D>& seen) {
+    const View<D>& view = seen.view;
     const ZVec<D> along = cramer(view.basis, view.velocity.v);
-    if (is_copy<D>(along, view.rank))
-      return add_window(view, lattice, atom, rho_above, -rho_above, std::nullopt);
-    const auto n = completed(primitive_vector<D>(along));
+    if (is_copy<D>(along, view.rank)) return add_one(seen, -seen.rho_above, std::nullopt);
+    const auto n = completed(primitive(along));
     Basis<D> basis;
     for (std::size_t i = 0; i < view.rank; ++i)
       for (std::size_t k = 0; k < view.rank; ++k) basis[i].add_multiple(n[i][k], view.basis[k]);
     if (view.rank == 3) shorten_pair(basis, 1, AcrossForm<D>{view.velocity});
     for (std::size_t i = 1; i < view.rank; ++i) shorten_along(basis[0], view.velocity.v, basis[i]);
-    certificate_.rows.push_back({lattice, atom, certificate_basis<D>(basis, view.rank)});
+    certificate_.rows.push_back({seen.lattice, seen.atom, certificate_basis<D>(basis, view.rank)});
   }
 
   const ExactScene<D>& scene_;

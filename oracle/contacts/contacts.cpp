@@ -20,25 +20,14 @@ template <std::size_t D>
 struct ContactBody {
   int lattice, atom;
   ZVec<D> position;
-  bool ball;      // whether given by a radius or by semiaxes
-  Z reach;        // the largest distance of a point from the centre, or more; the radius of a ball
-  Form<D> shape;  // A A^T
+  bool ball;         // whether given by a radius or by semiaxes
+  Z reach;           // the largest distance of a point from the centre, or more; the radius of a ball
+  ZMatrix<D> shape;  // A A^T
 };
-
-template <std::size_t D>
-Form<D> atom_shape(const Atom& atom, long exponent) {
-  std::array<ZVec<D>, D> axes;
-  for (std::size_t i = 0; i < D; ++i)
-    if (atom.is_ball())
-      axes[i][i] = scaled(atom.radius, exponent);
-    else
-      axes[i] = scaled_vector<D>(atom.semiaxes[i], exponent);
-  return shape_of<D>(axes);
-}
 
 // The largest eigenvalue of A A^T is the squared distance of the farthest point; the trace is at least that.
 template <std::size_t D>
-Z reach_of(const Form<D>& shape) {
+Z reach_of(const ZMatrix<D>& shape) {
   Z trace = 0;
   for (std::size_t i = 0; i < D; ++i) trace += shape[i][i];
   return ceil_sqrt(trace);
@@ -65,28 +54,21 @@ void reduce_and_complete(Basis<D>& basis, std::size_t rank, const Z& far) {
 }
 
 template <std::size_t D>
-std::vector<ExactLatticeBodies<D>> exact_bodies(const Scene& scene) {
-  const CommonExponent common = common_exponent(scene);
+std::vector<ExactLatticeBodies<D>> exact_bodies(const IntegerScene<D>& scene) {
   std::vector<ExactLatticeBodies<D>> result(scene.lattices.size());
   Z place = 0, reach = 0;
   for (std::size_t l = 0; l < result.size(); ++l) {
-    const Lattice& lattice = scene.lattices[l];
-    result[l].rank = static_cast<std::size_t>(lattice.rank(D));
-    for (std::size_t i = 0; i < result[l].rank; ++i) {
-      result[l].reduced[i].p = scaled_vector<D>(lattice.vectors[i], common.get());
-      result[l].reduced[i].n[i] = 1;
-    }
-    for (std::size_t a = 0; a < lattice.atoms.size(); ++a) {
-      const Atom& atom = lattice.atoms[a];
-      ContactBody<D> body{
-          static_cast<int>(l), static_cast<int>(a), {}, false, {}, atom_shape<D>(atom, common.get())};
-      for (std::size_t k = 0; k < D; ++k) body.position[k] = scaled(atom.position[k], common.get());
-      const std::optional<Z> radius = ball_radius<D>(body.shape);
-      body.ball = radius.has_value();
-      body.reach = radius ? *radius : reach_of<D>(body.shape);
-      for (const Z& component : body.position) place = std::max(place, Z(abs(component)));
-      reach = std::max(reach, body.reach);
-      result[l].bodies.push_back(std::move(body));
+    const auto& lattice = scene.lattices[l];
+    result[l].rank = lattice.rank;
+    result[l].reduced = basis_of(lattice.vectors);
+    for (const auto& atom : lattice.atoms) {
+      const ZMatrix<D> shape = shape_of<D>(axes_of<D>(atom));
+      const std::optional<Z> radius = ball_radius<D>(shape);
+      const int index = static_cast<int>(result[l].bodies.size());
+      result[l].bodies.push_back({static_cast<int>(l), index, atom.position, radius.has_value(),
+                                  radius ? *radius : reach_of<D>(shape), shape});
+      for (const Z& component : atom.position) place = std::max(place, Z(abs(component)));
+      reach = std::max(reach, result[l].bodies.back().reach);
     }
   }
   const Z far = 4 * place + 2 * reach;  // 2 sqrt(D) < 4
@@ -130,25 +112,20 @@ class PairBudget {
 // a.Q b
 template <std::size_t D>
 struct QuadraticForm {
-  Form<D> q;
-  Z operator()(const LatticePoint<D>& a, const LatticePoint<D>& b) const {
-    Z sum = 0;
-    for (std::size_t i = 0; i < D; ++i) sum += a.p[i] * dot(q[i], b.p);
-    return sum;
-  }
+  ZMatrix<D> q;
+  Z operator()(const LatticePoint<D>& a, const LatticePoint<D>& b) const { return dot(a.p, q * b.p); }
 };
 
 // A lattice with a quadratic form, and the search for its points near a given one.
 template <std::size_t D>
 class FormLattice {
  public:
-  FormLattice(Basis<D> basis, const Form<D>& q) : form_{q}, basis_(std::move(basis)) {
+  FormLattice(Basis<D> basis, const ZMatrix<D>& q) : form_{q}, basis_(std::move(basis)) {
     reduce(basis_, form_);
     for (std::size_t i = 0; i < D; ++i)
       for (std::size_t k = 0; k < D; ++k) gram_[i][k] = form_(basis_[i], basis_[k]);
     minors_[0] = 1;
-    for (std::size_t level = 1; level < D; ++level)
-      minors_[level] = bordered(level - 1, gram_[level - 1], gram_[level - 1], gram_[level - 1][level - 1]);
+    for (std::size_t i = 0; i < D; ++i) minors_[i + 1] = bordered(i, gram_[i], gram_[i], gram_[i][i]);
   }
 
   // Visits the points p of offset + the lattice with p.Q p <= bound, together with that value; stops when the
@@ -179,7 +156,7 @@ class FormLattice {
     ZVec<D> products;
     for (std::size_t k = 0; k < level; ++k) products[k] = form_(basis_[k], point);
     // a k^2 + 2 h k + c <= bound * minor
-    const Z a = bordered(i, gram_[i], gram_[i], gram_[i][i]);
+    const Z& a = minors_[level];
     const Z h = bordered(i, gram_[i], products, products[i]);
     const Z c = bordered(i, products, products, length2);
     const Z disc = h * h - a * (c - bound * minors_[i]);
@@ -197,20 +174,13 @@ class FormLattice {
   QuadraticForm<D> form_;
   Basis<D> basis_;
   std::array<ZVec<D>, D> gram_;
-  std::array<Z, D> minors_;  // Gram determinants of the first 0, 1, .. basis vectors
+  std::array<Z, D + 1> minors_;  // Gram determinants of the first 0, 1, .. basis vectors
 };
-
-template <std::size_t D>
-Form<D> identity() {
-  Form<D> form;
-  for (std::size_t i = 0; i < D; ++i) form[i][i] = 1;
-  return form;
-}
 
 // The test for two bodies: which differences c of their centres are near, and whether near is sufficient.
 template <std::size_t D>
 struct Nearness {
-  Form<D> q;
+  ZMatrix<D> q;
   Z bound;          // the obstacles can meet only if c.Q c <= bound ..
   bool sufficient;  // .. and whether they then do; they touch iff both are equal
 };
@@ -219,101 +189,12 @@ struct Nearness {
 // sufficient for S1 = S2.
 template <std::size_t D>
 Nearness<D> nearness_of(const ContactBody<D>& a, const ContactBody<D>& b) {
-  if (a.ball && b.ball) return {identity<D>(), (a.reach + b.reach) * (a.reach + b.reach), true};
-  Form<D> sum = a.shape;
+  if (a.ball && b.ball) return {multiple_of_identity<D>(1), (a.reach + b.reach) * (a.reach + b.reach), true};
+  ZMatrix<D> sum = a.shape;
   for (std::size_t i = 0; i < D; ++i)
     for (std::size_t k = 0; k < D; ++k) sum[i][k] += b.shape[i][k];
-  return {adjugate<D>(sum), 2 * determinant<D>(sum), a.shape == b.shape};
-}
-
-template <std::size_t D>
-class ContactSearch {
- public:
-  ContactSearch(const Scene& scene, std::size_t limit, long budget)
-      : lattices_(exact_bodies<D>(scene)), limit_(limit), budget_(budget) {}
-
-  Contacts run(Pairs pairs) {
-    const std::size_t count = lattices_.size();
-    for (std::size_t l = 0; l < count && !done(); ++l) within(l);
-    if (pairs == Pairs::all)
-      for (std::size_t l = 0; l < count && !done(); ++l)
-        for (std::size_t m = l + 1; m < count && !done(); ++m) between(l, m);
-    if (budget_.spent())
-      contacts_.end = SearchEnd::budget;
-    else if (contacts_.found.size() >= limit_)
-      contacts_.end = SearchEnd::limit;
-    return std::move(contacts_);
-  }
-
- private:
-  bool done() const { return contacts_.found.size() >= limit_ || budget_.spent(); }
-
-  void within(std::size_t l);
-  void between(std::size_t l, std::size_t m);
-  void check_pair(const ContactBody<D>& a, const ContactBody<D>& b);
-  const FormLattice<D>& lattice_in(const Form<D>& q);
-  Relation relation(const Nearness<D>& near, const ContactBody<D>& a, const ContactBody<D>& b,
-                    const LatticePoint<D>& c, const Z& length2);
-
-  std::vector<ExactLatticeBodies<D>> lattices_;
-  std::size_t limit_;
-  PairBudget budget_;
-  Contacts contacts_;
-  Basis<D> differences_;                     // of the lattices in the current search
-  std::map<Form<D>, FormLattice<D>> forms_;  // the same lattice in the forms that have occurred
-};
-
-template <std::size_t D>
-const FormLattice<D>& ContactSearch<D>::lattice_in(const Form<D>& q) {
-  constexpr std::size_t kMostKept = 1000;
-  const auto known = forms_.find(q);
-  if (known != forms_.end()) return known->second;
-  if (forms_.size() >= kMostKept) forms_.clear();
-  return forms_.emplace(q, FormLattice<D>(differences_, q)).first->second;
-}
-
-template <std::size_t D>
-Relation ContactSearch<D>::relation(const Nearness<D>& near, const ContactBody<D>& a, const ContactBody<D>& b,
-                                    const LatticePoint<D>& c, const Z& length2) {
-  constexpr long kPolynomialCost = 5;  // about this many pairs of balls
-  if (near.sufficient) return length2 < near.bound ? Relation::overlap : Relation::touch;
-  budget_.spend(kPolynomialCost);
-  return relation_of<D>(a.shape, b.shape, c.p);
-}
-
-template <std::size_t D>
-void ContactSearch<D>::check_pair(const ContactBody<D>& a, const ContactBody<D>& b) {
-  if (!budget_.spend()) return;
-  const bool itself = &a == &b, one_lattice = a.lattice == b.lattice;
-  LatticePoint<D> offset;
-  for (std::size_t k = 0; k < D; ++k) offset.p[k] = b.position[k] - a.position[k];
-  const Nearness<D> near = nearness_of<D>(a, b);
-  std::optional<Contact> somewhere;  // for two different lattices
-  lattice_in(near.q).visit_near(offset, near.bound, budget_, [&](const LatticePoint<D>& c, const Z& length2) {
-    // For an atom and itself, each pair is seen from both sides, before and after c = 0.
-    if (itself && c.p == ZVec<D>{}) return true;
-    const Relation relation = this->relation(near, a, b, c, length2);
-    if (relation == Relation::apart) return false;
-    Contact contact{a.lattice, a.atom, b.lattice, b.atom, std::nullopt, relation == Relation::overlap};
-    if (!one_lattice) {
-      somewhere = contact;
-      return contact.overlap;
-    }
-    contact.cell.emplace();
-    const int side = itself && c.n < ZVec<D>{} ? -1 : 1;
-    for (std::size_t k = 0; k < D; ++k) (*contact.cell)[k] = to_integer(side * c.n[k]);
-    contacts_.found.push_back(std::move(contact));
-    return contacts_.found.size() >= limit_;
-  });
-  if (somewhere) contacts_.found.push_back(*somewhere);
-}
-
-ZVec<2> dual(const Basis<2>& b, std::size_t i) {
-  return i == 0 ? ZVec<2>{b[1].p[1], Z(-b[1].p[0])} : ZVec<2>{Z(-b[0].p[1]), b[0].p[0]};
-}
-
-ZVec<3> dual(const Basis<3>& b, std::size_t i) {
-  return cross(b[(i + 1) % 3].p, b[(i + 2) % 3].p);
+  const ZMatrix<D> near = adjugate(sum);
+  return {near, 2 * dot(near[0], sum[0]), a.shape == b.shape};
 }
 
 // Bodies sorted into equal boxes of a lattice's cell. A box is at least as wide as the distance at which two
@@ -326,9 +207,8 @@ class Boxes {
     for (const ContactBody<D>& body : bodies) reach = std::max(reach, body.reach);
     const Z det = determinant<D>(basis), size = abs(det);
     const auto most = static_cast<long>(std::ceil(std::pow(static_cast<double>(bodies.size()), 1.0 / D)));
-    std::array<ZVec<D>, D> across;
+    const ZMatrix<D> across = dual_of(basis);
     for (std::size_t i = 0; i < D; ++i) {
-      across[i] = dual(basis, i);
       // Along b_i the cell is |det| / |dual_i| wide.
       const Z boxes = floor_div(size, 2 * reach * ceil_sqrt(dot(across[i], across[i])));
       count_[i] = boxes > most ? most : std::max(1L, boxes.get_si());
@@ -370,28 +250,99 @@ class Boxes {
 };
 
 template <std::size_t D>
-void ContactSearch<D>::within(std::size_t l) {
-  const auto& bodies = lattices_[l].bodies;
-  differences_ = lattices_[l].reduced;
-  forms_.clear();
-  const Boxes<D> boxes(differences_, bodies);
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (const std::size_t k : boxes.near(i)) {
-      if (done()) return;
-      check_pair(bodies[i], bodies[k]);
-    }
-}
+class ContactSearch {
+ public:
+  ContactSearch(const Scene& scene, std::size_t limit, long budget)
+      : lattices_(exact_bodies(integer_scene<D>(scene))), limit_(limit), budget_(budget) {}
 
-template <std::size_t D>
-void ContactSearch<D>::between(std::size_t l, std::size_t m) {
-  differences_ = sum_of<D>(lattices_[l], lattices_[m]);
-  forms_.clear();
-  for (const ContactBody<D>& a : lattices_[l].bodies)
-    for (const ContactBody<D>& b : lattices_[m].bodies) {
-      if (done()) return;
-      check_pair(a, b);
-    }
-}
+  Contacts run(Pairs pairs) {
+    const std::size_t count = lattices_.size();
+    for (std::size_t l = 0; l < count && !done(); ++l) within(l);
+    if (pairs == Pairs::all)
+      for (std::size_t l = 0; l < count && !done(); ++l)
+        for (std::size_t m = l + 1; m < count && !done(); ++m) between(l, m);
+    if (budget_.spent())
+      contacts_.end = SearchEnd::budget;
+    else if (contacts_.found.size() >= limit_)
+      contacts_.end = SearchEnd::limit;
+    return std::move(contacts_);
+  }
+
+ private:
+  bool done() const { return contacts_.found.size() >= limit_ || budget_.spent(); }
+
+  void within(std::size_t l) {
+    const auto& bodies = lattices_[l].bodies;
+    differences_ = lattices_[l].reduced;
+    forms_.clear();
+    const Boxes<D> boxes(differences_, bodies);
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      for (const std::size_t k : boxes.near(i)) {
+        if (done()) return;
+        check_pair(bodies[i], bodies[k]);
+      }
+  }
+
+  void between(std::size_t l, std::size_t m) {
+    differences_ = sum_of<D>(lattices_[l], lattices_[m]);
+    forms_.clear();
+    for (const ContactBody<D>& a : lattices_[l].bodies)
+      for (const ContactBody<D>& b : lattices_[m].bodies) {
+        if (done()) return;
+        check_pair(a, b);
+      }
+  }
+
+  void check_pair(const ContactBody<D>& a, const ContactBody<D>& b) {
+    if (!budget_.spend()) return;
+    const bool itself = &a == &b, one_lattice = a.lattice == b.lattice;
+    LatticePoint<D> offset;
+    for (std::size_t k = 0; k < D; ++k) offset.p[k] = b.position[k] - a.position[k];
+    const Nearness<D> near = nearness_of<D>(a, b);
+    std::optional<Contact> somewhere;  // for two different lattices
+    lattice_in(near.q).visit_near(
+        offset, near.bound, budget_, [&](const LatticePoint<D>& c, const Z& length2) {
+          // For an atom and itself, each pair is seen from both sides, before and after c = 0.
+          if (itself && c.p == ZVec<D>{}) return true;
+          const Relation relation = this->relation(near, a, b, c, length2);
+          if (relation == Relation::apart) return false;
+          Contact contact{a.lattice, a.atom, b.lattice, b.atom, std::nullopt, relation == Relation::overlap};
+          if (!one_lattice) {
+            somewhere = contact;
+            return contact.overlap;
+          }
+          contact.cell.emplace();
+          const int side = itself && c.n < ZVec<D>{} ? -1 : 1;
+          for (std::size_t k = 0; k < D; ++k) (*contact.cell)[k] = to_integer(side * c.n[k]);
+          contacts_.found.push_back(std::move(contact));
+          return contacts_.found.size() >= limit_;
+        });
+    if (somewhere) contacts_.found.push_back(*somewhere);
+  }
+
+  const FormLattice<D>& lattice_in(const ZMatrix<D>& q) {
+    constexpr std::size_t kMostKept = 1000;
+    const auto known = forms_.find(q);
+    if (known != forms_.end()) return known->second;
+    if (forms_.size() >= kMostKept) forms_.clear();
+    return forms_.emplace(q, FormLattice<D>(differences_, q)).first->second;
+  }
+
+  Relation relation(const Nearness<D>& near, const ContactBody<D>& a, const ContactBody<D>& b,
+                    const LatticePoint<D>& c, const Z& length2) {
+    constexpr long kPolynomialCost = 5;  // about this many pairs of balls
+    if (near.sufficient) return length2 < near.bound ? Relation::overlap : Relation::touch;
+    budget_.spend(kPolynomialCost);
+    return relation_of<D>(a.shape, b.shape, c.p);
+  }
+
+  std::vector<ExactLatticeBodies<D>> lattices_;
+  std::size_t limit_;
+  PairBudget budget_;
+  Contacts contacts_;
+  Basis<D> differences_;                        // of the lattices in the current search
+  std::map<ZMatrix<D>, FormLattice<D>> forms_;  // the same lattice in the forms that have occurred
+};
 
 }  // namespace
 

@@ -20,42 +20,36 @@
 namespace lorentz::oracle {
 namespace {
 
-// Adjugates of symmetric matrices, over any ring.
-template <class T>
-std::array<std::array<T, 2>, 2> adjugate_of(const std::array<std::array<T, 2>, 2>& s) {
-  const T off = T() - s[0][1];
+template <std::size_t D>
+using SymmetricMatrix = std::array<std::array<Polynomial, D>, D>;
+
+SymmetricMatrix<2> adjugate_of(const SymmetricMatrix<2>& s) {
+  const Polynomial off = Polynomial() - s[0][1];
   return {{{s[1][1], off}, {off, s[0][0]}}};
 }
 
-template <class T>
-std::array<std::array<T, 3>, 3> adjugate_of(const std::array<std::array<T, 3>, 3>& s) {
-  std::array<std::array<T, 3>, 3> adj;
+SymmetricMatrix<3> adjugate_of(const SymmetricMatrix<3>& s) {
+  SymmetricMatrix<3> adj;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t k = i; k < 3; ++k) {
       const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-      adj[i][k] = T(s[i1][k1] * s[i2][k2]) - T(s[i1][k2] * s[i2][k1]);
-      adj[k][i] = adj[i][k];
+      adj[i][k] = adj[k][i] = s[i1][k1] * s[i2][k2] - s[i1][k2] * s[i2][k1];
     }
   return adj;
 }
 
-template <class T, std::size_t D>
-T determinant_of(const std::array<std::array<T, D>, D>& s, const std::array<std::array<T, D>, D>& adj) {
-  T result = s[0][0] * adj[0][0];
-  for (std::size_t k = 1; k < D; ++k) result = result + T(s[0][k] * adj[k][0]);
-  return result;
-}
-
 template <std::size_t D>
-Polynomial separation(const Form<D>& s1, const Form<D>& s2, const ZVec<D>& c) {
-  std::array<std::array<Polynomial, D>, D> pencil;
+Polynomial separation(const ZMatrix<D>& s1, const ZMatrix<D>& s2, const ZVec<D>& c) {
+  SymmetricMatrix<D> pencil;
   for (std::size_t i = 0; i < D; ++i)
-    for (std::size_t k = 0; k < D; ++k) pencil[i][k] = Polynomial({s1[i][k], s2[i][k]});
-  const auto adj = adjugate_of(pencil);
-  Polynomial form;
-  for (std::size_t i = 0; i < D; ++i)
-    for (std::size_t k = 0; k < D; ++k) form = form + Polynomial({Z(c[i] * c[k])}) * adj[i][k];
-  return Polynomial({0, 1}) * form - Polynomial({1, 1}) * determinant_of(pencil, adj);
+    for (std::size_t k = 0; k < D; ++k) pencil[i][k] = {s1[i][k], s2[i][k]};
+  const SymmetricMatrix<D> adj = adjugate_of(pencil);
+  Polynomial form, determinant;
+  for (std::size_t i = 0; i < D; ++i) {
+    determinant = determinant + pencil[0][i] * adj[i][0];
+    for (std::size_t k = 0; k < D; ++k) form = form + Polynomial{c[i] * c[k]} * adj[i][k];
+  }
+  return Polynomial{0, 1} * form - Polynomial{1, 1} * determinant;
 }
 
 // The number of different positive roots of p; p(0) must not be zero.
@@ -68,32 +62,12 @@ int positive_roots(const Polynomial& p) {
 }  // namespace
 
 template <std::size_t D>
-Form<D> adjugate(const Form<D>& s) {
-  return adjugate_of(s);
+Relation relation_of(const ZMatrix<D>& s1, const ZMatrix<D>& s2, const ZVec<D>& c) {
+  const int roots = positive_roots(separation<D>(s1, s2, c));
+  return roots == 0 ? Relation::overlap : roots == 1 ? Relation::touch : Relation::apart;
 }
 
-template <std::size_t D>
-Z determinant(const Form<D>& s) {
-  return determinant_of(s, adjugate_of(s));
-}
-
-template <std::size_t D>
-Relation relation_of(const Form<D>& s1, const Form<D>& s2, const ZVec<D>& c) {
-  switch (positive_roots(separation<D>(s1, s2, c))) {
-    case 0:
-      return Relation::overlap;
-    case 1:
-      return Relation::touch;
-    default:
-      return Relation::apart;
-  }
-}
-
-template Form<2> adjugate(const Form<2>&);
-template Form<3> adjugate(const Form<3>&);
-template Z determinant(const Form<2>&);
-template Z determinant(const Form<3>&);
-template Relation relation_of(const Form<2>&, const Form<2>&, const ZVec<2>&);
-template Relation relation_of(const Form<3>&, const Form<3>&, const ZVec<3>&);
+template Relation relation_of(const ZMatrix<2>&, const ZMatrix<2>&, const ZVec<2>&);
+template Relation relation_of(const ZMatrix<3>&, const ZMatrix<3>&, const ZVec<3>&);
 
 }  // namespace lorentz::oracle

@@ -16,17 +16,6 @@ Z determinant<3>(const Basis<3>& basis) {
   return dot(cross(basis[0].p, basis[1].p), basis[2].p);
 }
 
-namespace {
-
-// The rows of det(b) b^-1.
-ZMatrix<2> dual_of(const Basis<2>& b) {
-  return {ZVec<2>{b[1].p[1], -b[1].p[0]}, ZVec<2>{-b[0].p[1], b[0].p[0]}};
-}
-
-ZMatrix<3> dual_of(const Basis<3>& b) {
-  return {cross(b[1].p, b[2].p), cross(b[2].p, b[0].p), cross(b[0].p, b[1].p)};
-}
-
 ZMatrix<2> adjugate(const ZMatrix<2>& columns) {
   const auto& [a, b] = columns;
   return {ZVec<2>{b[1], -b[0]}, ZVec<2>{-a[1], a[0]}};
@@ -37,6 +26,8 @@ ZMatrix<3> adjugate(const ZMatrix<3>& columns) {
   return {cross(b, c), cross(c, a), cross(a, b)};
 }
 
+namespace {
+
 template <std::size_t D>
 Basis<D> mapped(const ZMatrix<D>& map, Basis<D> basis) {
   for (auto& b : basis) b.p = map * b.p;
@@ -44,14 +35,6 @@ Basis<D> mapped(const ZMatrix<D>& map, Basis<D> basis) {
 }
 
 }  // namespace
-
-ZVec<2> cramer(const Basis<2>& basis, const ZVec<2>& p) {
-  return dual_of(basis) * p;
-}
-
-ZVec<3> cramer(const Basis<3>& basis, const ZVec<3>& p) {
-  return dual_of(basis) * p;
-}
 
 template <>
 void complete<2>(Basis<2>& basis, std::size_t rank) {
@@ -115,18 +98,6 @@ ExactAtom<D> exact_atom(const typename IntegerScene<D>::Atom& atom, const Basis<
   return exact;
 }
 
-template <std::size_t D>
-typename IntegerScene<D>::Atom integer_atom(const Atom& atom, long exponent) {
-  typename IntegerScene<D>::Atom exact{scaled_vector<D>(atom.position, exponent), Z(0), std::nullopt};
-  if (atom.is_ball()) {
-    exact.radius = scaled(atom.radius, exponent);
-    return exact;
-  }
-  exact.semiaxes.emplace();
-  for (std::size_t i = 0; i < D; ++i) (*exact.semiaxes)[i] = scaled_vector<D>(atom.semiaxes[i], exponent);
-  return exact;
-}
-
 }  // namespace
 
 CommonExponent common_exponent(const Scene& scene, double other) {
@@ -147,16 +118,10 @@ CommonExponent common_exponent(const Scene& scene, double other) {
 }
 
 template <std::size_t D>
-IntegerScene<D> integer_scene(const Scene& scene) {
-  IntegerScene<D> exact;
-  exact.exponent = common_exponent(scene).get();
-  for (const Lattice& lattice : scene.lattices) {
-    auto& its = exact.lattices.emplace_back();
-    its.rank = static_cast<std::size_t>(lattice.rank(D));
-    for (std::size_t i = 0; i < its.rank; ++i)
-      its.vectors[i] = scaled_vector<D>(lattice.vectors[i], exact.exponent);
-    for (const Atom& atom : lattice.atoms) its.atoms.push_back(integer_atom<D>(atom, exact.exponent));
-  }
+IntegerScene<D> integer_scene(const Scene& scene, double other) {
+  const long exponent = common_exponent(scene, other).get();
+  auto exact = in_integers<D>(scene, [exponent](double value) { return scaled(value, exponent); });
+  exact.exponent = exponent;
   return exact;
 }
 
@@ -165,10 +130,7 @@ ExactScene<D>::ExactScene(const IntegerScene<D>& scene) : exponent(scene.exponen
   for (const auto& lattice : scene.lattices) {
     ExactLattice<D>& exact = lattices.emplace_back();
     exact.rank = lattice.rank;
-    for (std::size_t i = 0; i < exact.rank; ++i) {
-      exact.primitive[i].p = lattice.vectors[i];
-      for (std::size_t k = 0; k < D; ++k) exact.primitive[i].n[k] = i == k ? 1 : 0;
-    }
+    exact.primitive = basis_of(lattice.vectors);
     exact.reduced = exact.primitive;
     shorten<D>(exact.reduced, exact.rank);
     for (const auto& atom : lattice.atoms)
@@ -199,11 +161,11 @@ long lengthen(ZVec<D>& w, const ZVec<D>& offset, const Z& radius) {
 }  // namespace
 
 template <std::size_t D>
-View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x,
-                const ExactVelocity<D>& velocity, long exponent) {
-  const auto& exact = scene.lattices[lattice];
+View<D> ExactScene<D>::view(int lattice, int atom, const ZVec<D>& x, const ExactVelocity<D>& velocity,
+                            long own) const {
+  const auto& exact = lattices[lattice];
   const auto& obstacle = exact.atoms[atom];
-  const long shift = scene.exponent - exponent;
+  const long shift = exponent - own;
   View<D> view;
   view.radius = shifted_left(obstacle.radius, shift);
   view.radius2 = view.radius * view.radius;
@@ -246,10 +208,9 @@ View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>
 }
 
 template <std::size_t D>
-Basis<D> lexicographic_basis(const ExactScene<D>& scene, int lattice, int atom, const View<D>& view,
-                             long exponent) {
-  const auto& exact = scene.lattices[lattice];
-  Basis<D> basis = scaled_basis<D>(exact.primitive, scene.exponent - exponent);
+Basis<D> ExactScene<D>::lexicographic_basis(int lattice, int atom, const View<D>& view, long own) const {
+  const auto& exact = lattices[lattice];
+  Basis<D> basis = scaled_basis<D>(exact.primitive, exponent - own);
   if (const auto& frame = exact.atoms[atom].frame) basis = mapped(frame->to_ball, std::move(basis));
   std::copy(view.basis.begin() + view.rank, view.basis.end(), basis.begin() + view.rank);
   std::reverse(basis.begin(), basis.begin() + view.rank);
@@ -267,14 +228,10 @@ ZVec<D> centre_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<
   return centre;
 }
 
-template IntegerScene<2> integer_scene(const Scene&);
-template IntegerScene<3> integer_scene(const Scene&);
+template IntegerScene<2> integer_scene(const Scene&, double);
+template IntegerScene<3> integer_scene(const Scene&, double);
 template struct ExactScene<2>;
 template struct ExactScene<3>;
-template View<2> view_of(const ExactScene<2>&, int, int, const ZVec<2>&, const ExactVelocity<2>&, long);
-template View<3> view_of(const ExactScene<3>&, int, int, const ZVec<3>&, const ExactVelocity<3>&, long);
-template Basis<2> lexicographic_basis(const ExactScene<2>&, int, int, const View<2>&, long);
-template Basis<3> lexicographic_basis(const ExactScene<3>&, int, int, const View<3>&, long);
 template ZVec<2> centre_of(const ExactScene<2>&, int, int, const ZVec<2>&, const ZVec<2>&, long);
 template ZVec<3> centre_of(const ExactScene<3>&, int, int, const ZVec<3>&, const ZVec<3>&, long);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include <lorentz/scene.hpp>
@@ -37,6 +38,17 @@ struct LatticePoint {
 template <std::size_t D>
 using Basis = std::array<LatticePoint<D>, D>;
 
+/// Vectors as a basis, with coordinates n in themselves.
+template <std::size_t D>
+Basis<D> basis_of(const std::array<ZVec<D>, D>& vectors) {
+  Basis<D> basis;
+  for (std::size_t i = 0; i < D; ++i) {
+    basis[i].p = vectors[i];
+    basis[i].n[i] = 1;
+  }
+  return basis;
+}
+
 /// A lattice of fewer than D vectors is completed by vectors that are perpendicular to its own and to each
 /// other. Their coordinates n come after the lattice's own. A point at which one of these coordinates is not
 /// 0 is not an obstacle but a copy of one. A view makes the completing vectors so long that a flight meets no
@@ -53,6 +65,34 @@ bool is_copy(const ZVec<D>& n, std::size_t rank) {
   return false;
 }
 
+template <std::size_t D>
+ZVec<D> operator+(const ZVec<D>& a, const ZVec<D>& b) {
+  ZVec<D> sum;
+  for (std::size_t i = 0; i < D; ++i) sum[i] = a[i] + b[i];
+  return sum;
+}
+
+template <std::size_t D>
+ZVec<D> operator*(const Z& factor, const ZVec<D>& a) {
+  ZVec<D> product;
+  for (std::size_t i = 0; i < D; ++i) product[i] = factor * a[i];
+  return product;
+}
+
+template <std::size_t D>
+ZVec<D> operator-(const ZVec<D>& a, const ZVec<D>& b) {
+  return a + Z(-1) * b;
+}
+
+/// The shortest integer vector parallel to a, which is not 0.
+template <std::size_t D>
+ZVec<D> primitive(ZVec<D> a) {
+  Z divisor = 0;
+  for (const Z& component : a) divisor = gcd(divisor, component);
+  for (Z& component : a) component /= divisor;
+  return a;
+}
+
 /// A linear map, as its rows.
 template <std::size_t D>
 using ZMatrix = std::array<ZVec<D>, D>;
@@ -63,6 +103,10 @@ ZVec<D> operator*(const ZMatrix<D>& map, const ZVec<D>& a) {
   for (std::size_t i = 0; i < D; ++i) image[i] = dot(map[i], a);
   return image;
 }
+
+/// det(A) A^-1, as rows, of the matrix A with these columns.
+ZMatrix<2> adjugate(const ZMatrix<2>& columns);
+ZMatrix<3> adjugate(const ZMatrix<3>& columns);
 
 template <std::size_t D>
 ZMatrix<D> transposed(const ZMatrix<D>& map) {
@@ -138,18 +182,36 @@ struct IntegerScene {
   std::vector<Lattice> lattices;
 };
 
-template <std::size_t D>
-IntegerScene<D> integer_scene(const Scene& scene);
+/// A scene, or one of rational numbers, with the integer `number(x)` in place of each number x.
+template <std::size_t D, class AnyScene, class Number>
+IntegerScene<D> in_integers(const AnyScene& scene, const Number& number) {
+  const auto vector = [&](const auto& a) {
+    ZVec<D> result;
+    for (std::size_t i = 0; i < D; ++i) result[i] = number(a[i]);
+    return result;
+  };
+  IntegerScene<D> result;
+  for (const auto& lattice : scene.lattices) {
+    auto& its = result.lattices.emplace_back();
+    its.rank = D - static_cast<std::size_t>(lattice.missing);
+    for (std::size_t i = 0; i < D; ++i) its.vectors[i] = vector(lattice.vectors[i]);
+    for (const auto& atom : lattice.atoms) {
+      auto& its_atom = its.atoms.emplace_back();
+      its_atom.position = vector(atom.position);
+      if (atom.is_ball()) {
+        its_atom.radius = number(atom.radius);
+        continue;
+      }
+      its_atom.semiaxes.emplace();
+      for (std::size_t i = 0; i < D; ++i) (*its_atom.semiaxes)[i] = vector(atom.semiaxes[i]);
+    }
+  }
+  return result;
+}
 
-/// The scene with every length multiplied by 2^-exponent, and its lattices reduced.
+/// The unit is so small that `other`, a length, is an integer, too.
 template <std::size_t D>
-struct ExactScene {
-  long exponent = 0;
-  std::vector<ExactLattice<D>> lattices;
-
-  explicit ExactScene(const IntegerScene<D>& scene);
-  explicit ExactScene(const Scene& scene) : ExactScene(integer_scene<D>(checked_exactly(scene))) {}
-};
+IntegerScene<D> integer_scene(const Scene& scene, double other = 0);
 
 /// The velocity v scaled to integers, and v^2.
 template <std::size_t D>
@@ -172,16 +234,30 @@ struct View {
   Z radius2;  ///< radius^2
 };
 
-/// The view of an atom from x, all lengths multiplied by 2^-exponent (exponent at most the scene's and x's).
+/// The scene with every length multiplied by 2^-exponent, and its lattices reduced.
 template <std::size_t D>
-View<D> view_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<D>& x,
-                const ExactVelocity<D>& velocity, long exponent);
+struct ExactScene {
+  long exponent = 0;
+  std::vector<ExactLattice<D>> lattices;
 
-/// The view's lattice in its own primitive vectors in reverse order: the order for lexicographically smallest
-/// answers.
-template <std::size_t D>
-Basis<D> lexicographic_basis(const ExactScene<D>& scene, int lattice, int atom, const View<D>& view,
-                             long exponent);
+  explicit ExactScene(const IntegerScene<D>& scene);
+  explicit ExactScene(const Scene& scene) : ExactScene(integer_scene<D>(checked_exactly(scene))) {}
+
+  /// The view of an atom from x, all lengths multiplied by 2^-own (own at most the scene's exponent and x's).
+  View<D> view(int lattice, int atom, const ZVec<D>& x, const ExactVelocity<D>& velocity, long own) const;
+
+  /// The view's lattice in its own primitive vectors in reverse order: the order for lexicographically
+  /// smallest answers.
+  Basis<D> lexicographic_basis(int lattice, int atom, const View<D>& view, long own) const;
+};
+
+/// A scene in the number of dimensions that it says.
+using AnyExactScene = std::variant<ExactScene<2>, ExactScene<3>>;
+
+inline AnyExactScene any_exact_scene(const Scene& scene) {
+  if (scene.dimension == 2) return ExactScene<2>(scene);
+  return ExactScene<3>(scene);
+}
 
 /// The centre of the obstacle (lattice, atom, n) relative to x, in the scene's own coordinates.
 template <std::size_t D>
@@ -191,8 +267,18 @@ ZVec<D> centre_of(const ExactScene<D>& scene, int lattice, int atom, const ZVec<
 template <std::size_t D>
 Z determinant(const Basis<D>& basis);
 
+/// The dual basis, times the determinant of the basis.
+template <std::size_t D>
+ZMatrix<D> dual_of(const Basis<D>& basis) {
+  ZMatrix<D> columns;
+  for (std::size_t i = 0; i < D; ++i) columns[i] = basis[i].p;
+  return adjugate(columns);
+}
+
 /// The coordinates of p in the basis, times the determinant of the basis.
-ZVec<2> cramer(const Basis<2>& basis, const ZVec<2>& p);
-ZVec<3> cramer(const Basis<3>& basis, const ZVec<3>& p);
+template <std::size_t D>
+ZVec<D> cramer(const Basis<D>& basis, const ZVec<D>& p) {
+  return dual_of(basis) * p;
+}
 
 }  // namespace lorentz::oracle

@@ -64,12 +64,25 @@ struct ExactQuery {
   }
 
   View<D> view(const ExactScene<D>& scene, int lattice, int atom) const {
-    return view_of<D>(scene, lattice, atom, x, velocity, length_exponent);
+    return scene.view(lattice, atom, x, velocity, length_exponent);
   }
+
+  /// Where the line meets this obstacle, before x or after it; it does not meet it if d <= 0.
+  ExactEntry<D> meeting(const ExactScene<D>& scene, const ObstacleId& id) const {
+    const View<D> own = view(scene, id.lattice, id.atom);
+    const ZVec<D> n = to_zvec<D>(id.cell);
+    ZVec<D> c = centre_of<D>(scene, id.lattice, id.atom, n, x, length_exponent);
+    if (const auto& frame = scene.lattices[id.lattice].atoms[id.atom].frame) c = frame->to_ball * c;
+    const Z s = dot(own.velocity.v, c), v2 = own.velocity.v2;
+    return {s, (own.radius2 - dot(c, c)) * v2 + s * s, v2, n, id.lattice, id.atom};
+  }
+
+  /// Times are in units of 2 to this power.
+  long time_exponent() const { return length_exponent - velocity_exponent; }
 
   /// t = (s - sqrt(d)) / v^2 in the query's own units.
   Quadratic time_of(const ExactEntry<D>& entry) const {
-    return {entry.s, -1, entry.d, entry.v2, length_exponent - velocity_exponent};
+    return {entry.s, -1, entry.d, entry.v2, time_exponent()};
   }
 };
 

@@ -141,7 +141,7 @@ std::optional<ZVec<D>> smallest_inside(const ExactScene<D>& scene, int lattice, 
   constexpr Estimate kFewRows = 64;
   const Estimate radius = estimate(view.radius), rows = rows_in_all<D>(view.basis, radius);
   const Basis<D> ordered =
-      rows > kFewRows ? lexicographic_basis<D>(scene, lattice, atom, view, exponent) : view.basis;
+      rows > kFewRows ? scene.lexicographic_basis(lattice, atom, view, exponent) : view.basis;
   const bool many = rows > kFewRows && rows_to_first<D>(ordered, radius) < rows;
   std::optional<ZVec<D>> smallest;
   const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {

@@ -33,7 +33,7 @@ int compare_entries(const Z& s1, const Z& d1, const Z& q1, const Z& s2, const Z&
 int compare(const Quadratic& number, double value) {
   if (std::isinf(value)) return value > 0 ? -1 : 1;
   // number - m 2^e has the sign of (a - m q 2^(e - exponent)) + sign sqrt(d), which is scaled to integers.
-  const Dyadic dyadic = to_dyadic(value);
+  const Dyadic dyadic(value);
   const long shift = dyadic.exponent - number.exponent;
   if (shift >= 0)
     return sign_of(number.a - shifted_left(dyadic.mantissa * number.q, shift), number.sign, number.d);

@@ -9,9 +9,22 @@
 
 namespace lorentz::oracle {
 
+template <std::size_t D>
+ZMatrix<D> multiple_of_identity(const Z& factor) {
+  ZMatrix<D> result;
+  for (std::size_t i = 0; i < D; ++i) result[i][i] = factor;
+  return result;
+}
+
+/// The columns of A.
+template <std::size_t D>
+ZMatrix<D> axes_of(const typename IntegerScene<D>::Atom& atom) {
+  return atom.semiaxes ? *atom.semiaxes : multiple_of_identity<D>(atom.radius);
+}
+
 /// A A^T, with `axes` the columns of A. Two ellipsoids have equal shapes iff one is a translate of the other.
 template <std::size_t D>
-ZMatrix<D> shape_of(const std::array<ZVec<D>, D>& axes) {
+ZMatrix<D> shape_of(const ZMatrix<D>& axes) {
   ZMatrix<D> shape;
   for (const ZVec<D>& axis : axes)
     for (std::size_t i = 0; i < D; ++i)
@@ -24,9 +37,7 @@ ZMatrix<D> shape_of(const std::array<ZVec<D>, D>& axes) {
 template <std::size_t D>
 std::optional<Z> ball_radius(const ZMatrix<D>& shape) {
   const Z& square = shape[0][0];
-  for (std::size_t i = 0; i < D; ++i)
-    for (std::size_t k = 0; k < D; ++k)
-      if (shape[i][k] != (i == k ? square : Z(0))) return std::nullopt;
+  if (shape != multiple_of_identity<D>(square)) return std::nullopt;
   const Z root = floor_sqrt(square);
   return root * root == square ? std::optional<Z>(root) : std::nullopt;
 }

@@ -38,11 +38,8 @@ class Solver {
   void run();
 
  private:
-  // Rows of one plane in the window low <= s <= high.
-  struct Section {
-    bool empty = true;
-    Z low, high;  // the range of the plane's section of the cylinder, within the window
-    LatticePoint<3> start;
+  // The cylinder's section by one plane in the window low <= s <= high, and its rows.
+  struct Section : PlaneSection {
     PlanePoint step, next;
     Range rows;
     bool along_rows = false;  // the rows run along v, and are all rows of the plane in this window and beyond
@@ -74,16 +71,11 @@ class Solver {
 Solver::Section Solver::section_of(const PlaneFamily& family, const Z& k3, const Z& low,
                                    const Z& high) const {
   const Planes& planes = family.planes;
-  const PlaneSection extent = planes.section(search_.view.offset, k3, low, high);
-  Section section;
-  section.low = extent.low;
-  section.high = extent.high;
-  section.empty = extent.empty;
-  if (extent.empty) return section;
-  section.start = extent.origin;
+  Section section{planes.section(search_.view.offset, k3, low, high), {}, {}, {}};
+  if (section.empty) return section;
   std::array<PlanePoint, 2> pair = family.pair;
-  reduce(pair, extent.form());
-  section.rows = planes.rows(extent, pair[0], pair[1]);
+  reduce(pair, section.form());
+  section.rows = planes.rows(section, pair[0], pair[1]);
   section.along_rows = !planes.head_on && pair[0].y == 0 && planes.a == 0;
   section.step = std::move(pair[0]);
   section.next = std::move(pair[1]);
@@ -93,7 +85,7 @@ Solver::Section Solver::section_of(const PlaneFamily& family, const Z& k3, const
 void Solver::solve_rows(const Section& section) {
   if (section.rows.empty()) return;
   const RowsInSpace rows(search_, section.step.point);
-  LatticePoint<3> row = section.start;
+  LatticePoint<3> row = section.origin;
   row.add_multiple(section.rows.first, section.next.point);
   for (Z k = section.rows.first; k <= section.rows.last; ++k) {
     rows.offer_first(row);
@@ -138,14 +130,14 @@ void Solver::solve_many_rows(const Planes& planes, const Section& section) {
   if (!planes.head_on) {
     const long bits = 64 + bit_length(section.rows.count());
     const Z root = floor_sqrt(shifted_left(dot(planes.normal, planes.normal), 2 * bits)) + 1;
-    const Z level = velocity.v2 * dot(planes.normal, section.start.p);
+    const Z level = velocity.v2 * dot(planes.normal, section.origin.p);
     const Z r = search_.view.radius;
     z = floor_div(shifted_left(level, bits) - sgn(planes.a) * r * root * velocity.v2,
                   shifted_left(planes.a, bits)) +
         shifted_left(r * abs(planes.a), bits) / root;
   }
   const PlanePoint &g1 = section.step, &g2 = section.next;
-  const PlanePoint start = planes.in_plane(section.start);
+  const PlanePoint start = planes.in_plane(section.origin);
   const Z across = g1.y * (z - start.z) + g1.z * start.y;
   Z centre = floor_div(across, g1.y * g2.z - g1.z * g2.y);
   centre = std::min(std::max(centre, section.rows.first), section.rows.last);
@@ -154,7 +146,7 @@ void Solver::solve_many_rows(const Planes& planes, const Section& section) {
     std::optional<RealEntry> previous;
     for (Z k = direction > 0 ? centre : Z(centre - 1); k >= section.rows.first && k <= section.rows.last;
          k += direction) {
-      LatticePoint<3> row = section.start;
+      LatticePoint<3> row = section.origin;
       row.add_multiple(k, section.next.point);
       const std::optional<RealEntry> entry = real_entry(search_, row, section.step.point);
       if (entry && search_.earliest.found()) {

@@ -13,13 +13,9 @@ namespace lorentz::oracle {
 /// are mapped by |det A| A^-1.
 struct BallScene {
   ObstacleLattice<3> lattice;
-  std::array<ZVec<3>, 3> rows;     ///< rows of the map; the identity for balls
-  std::array<ZVec<3>, 3> axes;     ///< those of the largest ball, or of the ellipsoids, before the map
-  std::vector<ZVec<3>> positions;  ///< those of the obstacles, before the map
-  bool mapped = false;
+  ZMatrix<3> map;                  ///< the identity for balls
+  std::vector<Obstacle<3>> given;  ///< the obstacles before the map, in the same order
   std::string unsupported;
-
-  ZVec<3> map(const ZVec<3>& a) const { return {dot(rows[0], a), dot(rows[1], a), dot(rows[2], a)}; }
 };
 
 /// The obstacles of all lattices, if these have the same vectors; otherwise sets `unsupported`.

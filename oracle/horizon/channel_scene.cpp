@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "oracle/exact/inside.hpp"
+#include "oracle/exact/quadratic.hpp"
 #include "oracle/exact/shape.hpp"
 #include "oracle/exact/short_basis.hpp"
 #include "oracle/integers/dyadic.hpp"
@@ -12,28 +13,10 @@ namespace lorentz::oracle {
 namespace {
 
 template <std::size_t D>
-Z determinant_of(const std::array<ZVec<D>, D>& a) {
-  if constexpr (D == 2)
-    return cross(a[0], a[1]);
-  else
-    return dot(cross(a[0], a[1]), a[2]);
-}
-
-template <std::size_t D>
-Obstacle<D> obstacle_of(const Atom& atom, long exponent) {
-  Obstacle<D> obstacle;
-  obstacle.position = scaled_vector<D>(atom.position, exponent);
-  std::optional<Z> radius;
-  if (atom.is_ball()) {
-    radius = scaled(atom.radius, exponent);
-  } else {
-    for (std::size_t i = 0; i < D; ++i) obstacle.axes[i] = scaled_vector<D>(atom.semiaxes[i], exponent);
-    radius = ball_radius<D>(shape_of<D>(obstacle.axes));
-  }
-  obstacle.ball = radius.has_value();
-  for (std::size_t i = 0; i < D && radius; ++i)
-    for (std::size_t k = 0; k < D; ++k) obstacle.axes[i][k] = i == k ? *radius : Z(0);
-  return obstacle;
+Obstacle<D> obstacle_of(const typename IntegerScene<D>::Atom& atom) {
+  const ZMatrix<D> axes = axes_of<D>(atom);
+  const std::optional<Z> radius = ball_radius<D>(shape_of<D>(axes));
+  return {atom.position, radius ? multiple_of_identity<D>(*radius) : axes, radius.has_value()};
 }
 
 }  // namespace
@@ -44,14 +27,17 @@ double log2_of(const Z& a) {
 }
 
 template <std::size_t D>
-Z Obstacle<D>::half_width2(const ZVec<D>& normal) const {
-  if (ball) return axes[0][0] * axes[0][0] * dot(normal, normal);
-  Z sum = 0;
-  for (const ZVec<D>& axis : axes) {
-    const Z part = dot(axis, normal);
-    sum += part * part;
-  }
-  return sum;
+Vec rounded(const ZVec<D>& a, const Z& q, long exponent) {
+  Vec result{};
+  for (std::size_t i = 0; i < D; ++i) result[i] = round_to_binary64({a[i], 1, 0, q, exponent});
+  return result;
+}
+
+template <std::size_t D>
+Blocked Obstacle<D>::block(const ZVec<D>& normal) const {
+  const ZVec<D> half = axes * normal;
+  const Z centre = dot(position, normal), half2 = dot(half, half);
+  return {centre, half2, centre, half2};
 }
 
 template <std::size_t D>
@@ -62,59 +48,32 @@ Z ObstacleLattice<D>::period(const ZVec<D>& normal) const {
 }
 
 template <std::size_t D>
-Blocked ObstacleLattice<D>::block(const Obstacle<D>& obstacle, const ZVec<D>& normal) const {
-  const Z centre = dot(obstacle.position, normal), half2 = obstacle.half_width2(normal);
-  return {centre, half2, centre, half2};
+void ObstacleLattice<D>::set_cofactors() {
+  cofactors = adjugate(vectors);
+  volume = abs(dot(cofactors[0], vectors[0]));
 }
 
 template <std::size_t D>
-void set_cofactors(ObstacleLattice<D>& lattice) {
-  const auto& u = lattice.vectors;
-  std::array<ZVec<D>, D> columns;
-  if constexpr (D == 2)
-    columns = {ZVec<2>{u[1][1], Z(-u[1][0])}, ZVec<2>{Z(-u[0][1]), u[0][0]}};
-  else
-    columns = {cross(u[1], u[2]), cross(u[2], u[0]), cross(u[0], u[1])};
-  for (std::size_t i = 0; i < D; ++i)
-    for (std::size_t k = 0; k < D; ++k) {
-      lattice.cofactors[i].p[k] = columns[i][k];
-      lattice.cofactors[i].n[k] = i == k ? 1 : 0;
-    }
-  lattice.volume = abs(determinant_of<D>(u));
+void ObstacleLattice<D>::sort_obstacles() {
+  const auto size = [](const Obstacle<D>& one) { return abs(dot(adjugate(one.axes)[0], one.axes[0])); };
+  std::stable_sort(obstacles.begin(), obstacles.end(),
+                   [&](const auto& a, const auto& b) { return size(a) > size(b); });
 }
 
 template <std::size_t D>
-ChannelScene<D>::ChannelScene(const Scene& scene, double unit_length)
-    : exponent(common_exponent(scene, unit_length).get()), unit(scaled(unit_length, exponent)) {
-  for (const Lattice& lattice : scene.lattices) {
-    ObstacleLattice<D> exact;
-    Basis<D> basis;
-    for (std::size_t i = 0; i < D; ++i) {
-      exact.given[i] = basis[i].p = scaled_vector<D>(lattice.vectors[i], exponent);
-      basis[i].n[i] = 1;
-    }
+ChannelScene<D>::ChannelScene(const Scene& scene, double unit_length) {
+  const IntegerScene<D> integers = integer_scene<D>(scene, unit_length);
+  exponent = integers.exponent;
+  unit = scaled(unit_length, exponent);
+  for (const auto& lattice : integers.lattices) {
+    ObstacleLattice<D>& exact = lattices.emplace_back();
+    exact.given = lattice.vectors;
+    Basis<D> basis = basis_of(lattice.vectors);
     reduce(basis, EuclideanForm<D>{});
     for (std::size_t i = 0; i < D; ++i) exact.vectors[i] = basis[i].p, exact.names[i] = basis[i].n;
-    set_cofactors<D>(exact);
-    for (const Atom& atom : lattice.atoms) exact.obstacles.push_back(obstacle_of<D>(atom, exponent));
-    std::stable_sort(exact.obstacles.begin(), exact.obstacles.end(), [](const auto& a, const auto& b) {
-      return abs(determinant_of<D>(a.axes)) > abs(determinant_of<D>(b.axes));
-    });
-    lattices.push_back(std::move(exact));
-  }
-}
-
-template <std::size_t D>
-std::vector<Gap> gaps_of(const ObstacleLattice<D>& lattice, const ZVec<D>& normal, const Z& period,
-                         std::size_t& work) {
-  // If there are many obstacles, the first few nearly always cover the circle already.
-  std::vector<Blocked> blocks;
-  for (std::size_t count = 8;; count *= 4) {
-    count = std::min(count, lattice.obstacles.size());
-    while (blocks.size() < count) blocks.push_back(lattice.block(lattice.obstacles[blocks.size()], normal));
-    work += count;
-    std::vector<Gap> gaps = gaps_between(blocks, period);
-    if (gaps.empty() || count == lattice.obstacles.size()) return gaps;
+    exact.set_cofactors();
+    for (const auto& atom : lattice.atoms) exact.obstacles.push_back(obstacle_of<D>(atom));
+    exact.sort_obstacles();
   }
 }
 
@@ -139,13 +98,8 @@ std::size_t count_points(const Basis<D>& basis, const Z& bound2, std::size_t mos
   std::size_t count = 0;
   visit_ball<D>(basis, LatticePoint<D>{}, bound2,
                 [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
-                  if (last > most) {
-                    if (is_through_origin(first, step)) return (count += 3) > most;
-                    count = most + 1;
-                    return true;
-                  }
-                  count +=
-                      std::min<std::size_t>(last.get_ui() + 1, is_through_origin(first, step) ? 3 : most);
+                  const Z in_row = is_through_origin(first, step) ? std::min(Z(3), Z(last + 1)) : last + 1;
+                  count = in_row > most - count ? most + 1 : count + in_row.get_ui();
                   return count > most;
                 });
   return count;
@@ -185,14 +139,13 @@ bool visit_primitive(Basis<D> basis, const Z& bound2, std::size_t most, const No
   return true;
 }
 
-#define LORENTZ_CHANNEL_SCENE(D)                                                                        \
-  template struct Obstacle<D>;                                                                          \
-  template struct ObstacleLattice<D>;                                                                   \
-  template struct ChannelScene<D>;                                                                      \
-  template std::vector<Gap> gaps_of(const ObstacleLattice<D>&, const ZVec<D>&, const Z&, std::size_t&); \
-  template void set_cofactors(ObstacleLattice<D>&);                                                     \
-  template std::size_t points_in_ball(Basis<D>, const Z&, std::size_t);                                 \
-  template bool visit_primitive(Basis<D>, const Z&, std::size_t, const NormalVisitor<D>&,               \
+#define LORENTZ_CHANNEL_SCENE(D)                                                          \
+  template struct Obstacle<D>;                                                            \
+  template struct ObstacleLattice<D>;                                                     \
+  template struct ChannelScene<D>;                                                        \
+  template Vec rounded(const ZVec<D>&, const Z&, long);                                   \
+  template std::size_t points_in_ball(Basis<D>, const Z&, std::size_t);                   \
+  template bool visit_primitive(Basis<D>, const Z&, std::size_t, const NormalVisitor<D>&, \
                                 const std::function<void(std::size_t, std::size_t)>&);
 
 LORENTZ_CHANNEL_SCENE(2)

@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include "oracle/exact/exact_problem.hpp"
@@ -16,28 +15,30 @@ namespace lorentz::oracle {
 template <std::size_t D>
 struct Obstacle {
   ZVec<D> position;
-  std::array<ZVec<D>, D> axes;
+  ZMatrix<D> axes;
   bool ball = true;
 
-  /// Squared half-width as seen along the planes with this normal: |A^T normal|^2.
-  Z half_width2(const ZVec<D>& normal) const;
+  /// As seen along the planes with this normal; its half-width is |A^T normal|.
+  Blocked block(const ZVec<D>& normal) const;
 };
 
 template <std::size_t D>
 struct ObstacleLattice {
-  std::array<ZVec<D>, D> vectors;  ///< short vectors, whatever the scene's vectors are, so numbers stay small
-  std::array<ZVec<D>, D> given;    ///< the scene's vectors, by which directions and planes are named
-  std::array<ZVec<D>, D> names;    ///< the components of `vectors` in `given`
-  Z volume;                        ///< |determinant|
+  ZMatrix<D> vectors;  ///< short vectors, whatever the scene's vectors are, so numbers stay small
+  ZMatrix<D> given;    ///< the scene's vectors, by which directions and planes are named
+  ZMatrix<D> names;    ///< the components of `vectors` in `given`
+  Z volume;            ///< |determinant|
   /// cofactors[i].vectors[k] is the determinant or 0. A normal with integer coefficients n in the cofactors
-  /// is normal to the planes with the reciprocal indices n. Each cofactor carries its coefficients
-  /// (LatticePoint::n).
-  Basis<D> cofactors;
+  /// is normal to the planes with the reciprocal indices n.
+  ZMatrix<D> cofactors;
   std::vector<Obstacle<D>> obstacles;  ///< the largest first
 
   /// Distance between the lattice's planes with this normal, times the length of the normal.
   Z period(const ZVec<D>& normal) const;
-  Blocked block(const Obstacle<D>& obstacle, const ZVec<D>& normal) const;
+  /// After a change of the vectors: sets the cofactors and the volume.
+  void set_cofactors();
+  /// After a change of the obstacles.
+  void sort_obstacles();
 };
 
 /// The scene with every length multiplied by 2^-exponent, so that `unit` is an integer, too (0: no unit).
@@ -50,15 +51,15 @@ struct ChannelScene {
   ChannelScene(const Scene& scene, double unit);
 };
 
-/// The gaps that one lattice leaves between its planes with this normal, in one period. Adds to `work` the
-/// number of blocks looked at, which is seldom all of them.
+/// n_1 u_1 + ..
 template <std::size_t D>
-std::vector<Gap> gaps_of(const ObstacleLattice<D>& lattice, const ZVec<D>& normal, const Z& period,
-                         std::size_t& work);
+ZVec<D> combination(const ZVec<D>& n, const ZMatrix<D>& u) {
+  return transposed(u) * n;
+}
 
-/// Sets the cofactors and the volume, for vectors that were transformed.
+/// a / q * 2^exponent
 template <std::size_t D>
-void set_cofactors(ObstacleLattice<D>& lattice);
+Vec rounded(const ZVec<D>& a, const Z& q, long exponent);
 
 template <std::size_t D>
 using NormalVisitor = std::function<void(const LatticePoint<D>& normal)>;

@@ -8,11 +8,6 @@
 namespace lorentz::oracle {
 namespace {
 
-// Sign of (end + sqrt(end2)) - (start - sqrt(start2)).
-int end_against_start(const Z& end, const Z& end2, const Z& start, const Z& start2) {
-  return -sign_of_rest(start - end, start2, end2);
-}
-
 // Sign of (a + sqrt(a2)) - (b + sqrt(b2)).
 int compare_ends(const Z& a, const Z& a2, const Z& b, const Z& b2) {
   return -compare_entries(-a, a2, -b, b2);
@@ -30,23 +25,20 @@ void put_in_order(std::vector<Blocked>& blocks, const Z& period) {
   });
 }
 
-// Calls visit(reach, reach2, block) for each block in order; reach + sqrt(reach2) is the furthest end of the
-// blocks before.
+// Calls visit(order, reach, reach2, block) for each block in order. reach + sqrt(reach2) is the furthest end
+// of the blocks before, and `order` is the sign of this end minus the block's start.
 template <class Visit>
 void sweep(std::vector<Blocked>& blocks, const Z& period, Visit visit) {
+  if (blocks.empty()) return;
   put_in_order(blocks, period);
-  Z reach, reach2;
-  bool any = false;
-  for (const Blocked& block : blocks) {
-    if (!any || compare_ends(block.end, block.end2, reach, reach2) > 0)
-      reach = block.end, reach2 = block.end2;
-    any = true;
-  }
+  const auto last = std::max_element(blocks.begin(), blocks.end(), [](const Blocked& a, const Blocked& b) {
+    return compare_ends(a.end, a.end2, b.end, b.end2) < 0;
+  });
   // The blocks of the period before come first. If one of them reaches further than a period, nothing is free
   // anyway, so one turn is enough.
-  reach -= period;
+  Z reach = last->end - period, reach2 = last->end2;
   for (const Blocked& block : blocks) {
-    visit(reach, reach2, block);
+    visit(-sign_of_rest(block.start - reach, block.start2, reach2), reach, reach2, block);
     if (compare_ends(block.end, block.end2, reach, reach2) > 0) reach = block.end, reach2 = block.end2;
   }
 }
@@ -55,9 +47,8 @@ void sweep(std::vector<Blocked>& blocks, const Z& period, Visit visit) {
 
 std::vector<Gap> gaps_between(std::vector<Blocked> blocks, const Z& period) {
   std::vector<Gap> gaps;
-  sweep(blocks, period, [&](const Z& reach, const Z& reach2, const Blocked& block) {
-    if (end_against_start(reach, reach2, block.start, block.start2) < 0)
-      gaps.push_back({reach, reach2, block.start, block.start2});
+  sweep(blocks, period, [&](int order, const Z& reach, const Z& reach2, const Blocked& block) {
+    if (order < 0) gaps.push_back({reach, reach2, block.start, block.start2});
   });
   return gaps;
 }
@@ -77,8 +68,7 @@ std::vector<Blocked> blocks_between(const std::vector<Gap>& gaps, const Z& perio
 
 Cover cover_of(std::vector<Blocked> blocks, const Z& period) {
   bool touch = false, gap = false;
-  sweep(blocks, period, [&](const Z& reach, const Z& reach2, const Blocked& block) {
-    const int order = end_against_start(reach, reach2, block.start, block.start2);
+  sweep(blocks, period, [&](int order, auto&&...) {
     touch |= order == 0;
     gap |= order < 0;
   });

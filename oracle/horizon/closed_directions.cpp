@@ -19,6 +19,7 @@
 #include <lorentz/errors.hpp>
 #include "oracle/exact/exact_problem.hpp"
 #include "oracle/exact/root_sums.hpp"
+#include "oracle/exact/shape.hpp"
 #include "oracle/horizon/circle_gaps.hpp"
 #include "oracle/horizon/real_roots.hpp"
 
@@ -44,18 +45,13 @@ struct RowPeriod {
   Z period;               // N.u = u^2
   std::vector<RowMember> members;
 
-  void add(const ObstacleId& id, const Z& turn, const IntegerScene<2>::Atom& atom, const ZVec<2>& shift);
+  void add(const ObstacleId& id, const Z& turn, const IntegerScene<2>::Atom& atom, const ZVec<2>& shift) {
+    const auto seen = [&](const ZVec<2>& a) { return Polynomial{dot(a, along), -dot(a, across)}; };
+    Polynomial q;
+    for (const ZVec<2>& axis : axes_of<2>(atom)) q = q + seen(axis) * seen(axis);
+    members.push_back({id, turn, seen(atom.position + shift), q});
+  }
 };
-
-void RowPeriod::add(const ObstacleId& id, const Z& turn, const IntegerScene<2>::Atom& atom,
-                    const ZVec<2>& shift) {
-  const ZVec<2> position{atom.position[0] + shift[0], atom.position[1] + shift[1]};
-  const auto seen = [&](const ZVec<2>& a) { return Polynomial{dot(a, along), -dot(a, across)}; };
-  Polynomial q;
-  const std::array<ZVec<2>, 2> ball{ZVec<2>{atom.radius, 0}, ZVec<2>{0, atom.radius}};
-  for (const ZVec<2>& axis : atom.semiaxes.value_or(ball)) q = q + seen(axis) * seen(axis);
-  members.push_back({id, turn, seen(position), q});
-}
 
 // Single obstacles are left out: they cannot fill the infinitely many gaps of a row.
 RowPeriod row_of(const IntegerScene<2>& scene) {
@@ -80,14 +76,14 @@ RowPeriod row_of(const IntegerScene<2>& scene) {
   });
   if (count * count > kMostPairs) throw too_many();
   RowPeriod row;
-  for (std::size_t k = 0; k < 2; ++k) row.along[k] = (*first)[k] * (common / gcd((*first)[0], (*first)[1]));
+  row.along = common * primitive(*first);
   row.across = {-row.along[1], row.along[0]};
   row.period = dot(row.along, row.along);
   each([&](int l, const ZVec<2>& vector, const Z& steps, const auto& atoms) {
     const Z cells = common / steps, turn = cells * sgn(dot(vector, *first));
     for (std::size_t a = 0; a < atoms.size(); ++a)
       for (long n = 0; n < cells; ++n)
-        row.add({l, static_cast<int>(a), {Integer(n)}}, turn, atoms[a], {vector[0] * n, vector[1] * n});
+        row.add({l, static_cast<int>(a), {Integer(n)}}, turn, atoms[a], n * vector);
   });
   return row;
 }
@@ -98,19 +94,17 @@ using GapKey = std::vector<Z>;
 
 // The gaps at t = a / 2^bits.
 std::set<GapKey> gaps_at(const RowPeriod& row, const Z& a, long bits) {
-  const auto shift = static_cast<unsigned long>(std::labs(bits));
-  const Z one = bits < 0 ? Z(1) : shifted_left(1, shift), t = bits < 0 ? shifted_left(a, shift) : a;
+  const Z period = value_at({row.period}, 1, a, bits);
   std::vector<Blocked> blocks;
   for (const RowMember& member : row.members) {
-    const Z centre = member.centre[0] * one + member.centre[1] * t,
-            half2 = member.q[0] * one * one + member.q[1] * one * t + member.q[2] * t * t;
+    const Z centre = value_at(member.centre, 1, a, bits), half2 = value_at(member.q, 2, a, bits);
     blocks.push_back({centre, half2, centre, half2});
   }
   std::set<GapKey> keys;
-  for (const Gap& gap : gaps_between(blocks, row.period * one)) {
+  for (const Gap& gap : gaps_between(blocks, period)) {
     GapKey key;
     for (const Blocked& block : blocks)
-      key.push_back(last_step(gap.high - block.end, gap.high2, block.end2, 0, row.period * one, false));
+      key.push_back(last_step(gap.high - block.end, gap.high2, block.end2, 0, period, false));
     for (std::size_t i = key.size(); i-- > 0;) key[i] -= key[0];
     keys.insert(key);
   }

@@ -35,23 +35,18 @@ struct LatticeForm {
 // Normals of a lattice's rows, and bounds of the coefficients of those normals for which the largest obstacle
 // leaves a gap: 2 |A^T N| < volume.
 struct CommonRows {
-  std::array<ZVec<2>, 2> normals;
+  ZMatrix<2> normals;
   std::array<Z, 2> most;
 
   explicit CommonRows(const ObstacleLattice<2>& lattice) {
-    Basis<2> images = lattice.cofactors;
-    for (auto& image : images) {
-      const ZVec<2> cofactor = image.p;
-      for (std::size_t i = 0; i < 2; ++i) image.p[i] = dot(lattice.obstacles.front().axes[i], cofactor);
-    }
+    Basis<2> images = basis_of(lattice.cofactors);
+    for (auto& image : images) image.p = lattice.obstacles.front().axes * image.p;
     reduce(images, EuclideanForm<2>{});
     const Z twice_area = 2 * abs(cross(images[0].p, images[1].p)), volume2 = lattice.volume * lattice.volume;
     for (std::size_t i = 0; i < 2; ++i) {
       const Z other2 = dot(images[1 - i].p, images[1 - i].p);
       most[i] = floor_sqrt(floor_div(volume2 * other2, twice_area * twice_area));
-      for (std::size_t k = 0; k < 2; ++k)
-        normals[i][k] =
-            images[i].n[0] * lattice.cofactors[0].p[k] + images[i].n[1] * lattice.cofactors[1].p[k];
+      normals[i] = combination(images[i].n, lattice.cofactors);
     }
   }
 };
@@ -128,10 +123,7 @@ std::optional<std::vector<ZVec<2>>> common_normals(const ObstacleLattice<2>& a, 
   std::vector<ZVec<2>> normals;
   for (const Product& product : *products) {
     const std::size_t column = product.x[0] == 0 && product.x[2] == 0 ? 1 : 0;
-    ZVec<2> normal;
-    for (std::size_t k = 0; k < 2; ++k)
-      normal[k] = product.x[column] * first.normals[0][k] + product.x[2 + column] * first.normals[1][k];
-    normals.push_back(normal);
+    normals.push_back(combination({product.x[column], product.x[2 + column]}, first.normals));
   }
   return normals;
 }

@@ -54,47 +54,35 @@ struct HoleFrame {
   }
 };
 
-// The discs around the start of a climb, times 2^bits. Their centres are relative to the disc to which the
-// start is relative.
+// A disc whose centre is relative to the disc to which the start of a climb is relative; times 2^bits, and in
+// the frame.
+struct SeenDisc {
+  Disc disc;
+  double x, y, radius;
+  double far = 0;  ///< from the point by which the discs are sorted
+};
+
+// The discs around the start of a climb.
 struct HoleSurroundings {
   const Shadow& shadow;
   HoleFrame frame;
-  std::vector<Disc> discs;
-  std::vector<std::array<double, 3>> flat;  ///< x, y, radius of each
+  std::vector<SeenDisc> discs;
 
   /// Sorts by distance from here, nearest first, and removes the discs further than `most`.
-  void sort_by_distance(double x, double y, double most = std::numeric_limits<double>::infinity());
+  void sort_by_distance(double x, double y, double most = std::numeric_limits<double>::infinity()) {
+    for (SeenDisc& one : discs) one.far = std::hypot(one.x - x, one.y - y) - one.radius;
+    std::erase_if(discs, [most](const SeenDisc& one) { return !(one.far <= most); });
+    std::sort(discs.begin(), discs.end(), [](const SeenDisc& a, const SeenDisc& b) { return a.far < b.far; });
+  }
 };
-
-void HoleSurroundings::sort_by_distance(double x, double y, double most) {
-  struct SeenDisc {
-    double far;
-    Disc disc;
-    std::array<double, 3> flat;
-  };
-  std::vector<SeenDisc> seen;
-  for (Disc& disc : discs) {
-    const auto [disc_x, disc_y] = frame.coordinates(disc.centre);
-    const double radius = quotient(disc.radius, shadow.discs[0].radius);
-    const double far = std::hypot(disc_x - x, disc_y - y) - radius;
-    if (far <= most) seen.push_back({far, std::move(disc), {disc_x, disc_y, radius}});
-  }
-  std::sort(seen.begin(), seen.end(), [](const SeenDisc& a, const SeenDisc& b) { return a.far < b.far; });
-  discs.clear();
-  flat.clear();
-  for (SeenDisc& one : seen) {
-    discs.push_back(std::move(one.disc));
-    flat.push_back(one.flat);
-  }
-}
 
 // A place in the plane in binary64: fast, but too coarse near the edges of discs.
 class RoughPlace {
  public:
   RoughPlace(const HoleSurroundings& around, double x, double y) : around_(&around), x_(x), y_(y) {
-    for (const auto& [disc_x, disc_y, radius] : around.flat) {
-      const double dx = x - disc_x, dy = y - disc_y, length = std::sqrt(dx * dx + dy * dy);
-      walls_.push_back({dx / length, dy / length, length - radius});
+    for (const SeenDisc& one : around.discs) {
+      const double dx = x - one.x, dy = y - one.y, length = std::sqrt(dx * dx + dy * dy);
+      walls_.push_back({dx / length, dy / length, length - one.radius});
     }
   }
   const std::vector<Wall>& walls() const { return walls_; }
@@ -114,10 +102,10 @@ class ExactPlace {
   ExactPlace(const HoleSurroundings& around, ZVec<3> place) : around_(&around), place_(std::move(place)) {
     const HoleFrame& frame = around.frame;
     const Z unit = shifted_left(around.shadow.discs[0].radius * around.shadow.along2, frame.bits + kMore);
-    for (const Disc& disc : around.discs) {
-      const auto [x, y] = frame.coordinates(minus(place_, disc.centre));
+    for (const SeenDisc& one : around.discs) {
+      const auto [x, y] = frame.coordinates(place_ - one.disc.centre);
       const double length = std::hypot(x, y);
-      const Quadratic far = distance_from(disc);
+      const Quadratic far = distance_from(one.disc);
       const Z fine = floor_sqrt(shifted_left(far.d, 2 * kMore)) + shifted_left(far.a, kMore);
       walls_.push_back({x / length, y / length, quotient(fine, unit)});
       if (walls_.size() > 1 && fine >= least_) continue;
@@ -126,11 +114,7 @@ class ExactPlace {
     }
   }
   const std::vector<Wall>& walls() const { return walls_; }
-  ExactPlace moved(const WideStep& step) const {
-    ZVec<3> to = around_->frame.vector(step);
-    for (std::size_t k = 0; k < 3; ++k) to[k] += place_[k];
-    return {*around_, to};
-  }
+  ExactPlace moved(const WideStep& step) const { return {*around_, place_ + around_->frame.vector(step)}; }
   double x() const { return around_->frame.coordinates(place_)[0]; }
   double y() const { return around_->frame.coordinates(place_)[1]; }
   const Quadratic& clearance() const { return nearest_; }
@@ -138,14 +122,11 @@ class ExactPlace {
  private:
   static constexpr unsigned long kMore = 64;
 
-  static ZVec<3> minus(const ZVec<3>& a, const ZVec<3>& b) {
-    return {Z(a[0] - b[0]), Z(a[1] - b[1]), Z(a[2] - b[2])};
-  }
   // The distance of the line through the place from a ball: (|X cross g| - r g^2) / g^2, where X is the
   // vector between them, which need not be perpendicular to g.
   Quadratic distance_from(const Disc& disc) const {
     const Shadow& shadow = around_->shadow;
-    const ZVec<3> across = cross(minus(place_, disc.centre), shadow.along);
+    const ZVec<3> across = cross(place_ - disc.centre, shadow.along);
     const unsigned long bits = around_->frame.bits;
     return {-shifted_left(disc.radius * shadow.along2, bits), +1, dot(across, across),
             shifted_left(shadow.along2, bits), 0};
@@ -168,9 +149,9 @@ double clearance_at(const Place& place) {
 // The clearance at a place if it is above `floor`; otherwise some value not above `floor`.
 double rough_clearance(const HoleSurroundings& around, double x, double y, double floor) {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& [disc_x, disc_y, radius] : around.flat) {
-    const double dx = x - disc_x, dy = y - disc_y;
-    least = std::min(least, std::sqrt(dx * dx + dy * dy) - radius);
+  for (const SeenDisc& one : around.discs) {
+    const double dx = x - one.x, dy = y - one.y;
+    least = std::min(least, std::sqrt(dx * dx + dy * dy) - one.radius);
     if (least <= floor) break;
   }
   return least;
@@ -227,15 +208,13 @@ Place climb(Place place, double limit) {
 
 // The discs, nearest first.
 HoleSurroundings surroundings_of(const Shadow& shadow, const HolePoint& hole, const Z& reach) {
-  HoleSurroundings result{shadow, HoleFrame(shadow, hole.bits), {}, {}};
-  ZVec<3> whole, point;
-  for (std::size_t k = 0; k < 3; ++k) {
-    whole[k] = hole.offset[k] >> hole.bits;
-    point[k] = shadow.discs[hole.disc].centre[k] + whole[k];
-  }
-  for (Disc disc : shadow.discs_around(point, reach, false)) {
-    for (std::size_t k = 0; k < 3; ++k) disc.centre[k] = shifted_left(disc.centre[k] + whole[k], hole.bits);
-    result.discs.push_back(std::move(disc));
+  HoleSurroundings result{shadow, HoleFrame(shadow, hole.bits), {}};
+  ZVec<3> whole = hole.offset;
+  for (Z& component : whole) component = component >> hole.bits;
+  for (const Disc& disc : shadow.discs_around(shadow.discs[hole.disc].centre + whole, reach, false)) {
+    const ZVec<3> centre = shifted_left(1, hole.bits) * (disc.centre + whole);
+    const auto [x, y] = result.frame.coordinates(centre);
+    result.discs.push_back({{centre, disc.radius}, x, y, quotient(disc.radius, shadow.discs[0].radius)});
   }
   const auto [x, y] = result.frame.coordinates(hole.offset);
   result.sort_by_distance(x, y);

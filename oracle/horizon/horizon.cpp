@@ -5,8 +5,10 @@
 #include <set>
 
 #include <lorentz/errors.hpp>
+#include <lorentz/geometry.hpp>
 #include <lorentz/scene_check.hpp>
 #include "oracle/exact/dependence.hpp"
+#include "oracle/exact/exact_query.hpp"
 #include "oracle/exact/quadratic.hpp"
 #include "oracle/exact/root_sums.hpp"
 #include "oracle/horizon/closed_directions.hpp"
@@ -17,21 +19,6 @@
 namespace lorentz::oracle {
 namespace {
 
-template <std::size_t D>
-std::array<Integer, 3> integers_of(const ZVec<D>& a) {
-  std::array<Integer, 3> result;
-  for (std::size_t i = 0; i < D; ++i) result[i] = to_integer(a[i]);
-  return result;
-}
-
-// a / q * 2^exponent
-template <std::size_t D>
-Vec rounded(const ZVec<D>& a, const Z& q, long exponent) {
-  Vec result{};
-  for (std::size_t i = 0; i < D; ++i) result[i] = round_to_binary64({a[i], 1, 0, q, exponent});
-  return result;
-}
-
 // The point of the middle plane that is nearest to the origin.
 template <std::size_t D>
 Vec middle_of(const Slab<D>& slab, long exponent) {
@@ -41,9 +28,8 @@ Vec middle_of(const Slab<D>& slab, long exponent) {
   const unsigned long bits = 128 + 2 * static_cast<unsigned long>(bit_length(gap.low2 + gap.high2 + 1));
   const auto fine = [bits](const Z& a2) { return floor_sqrt(shifted_left(a2, 2 * bits)); };
   const Z middle = shifted_left(gap.low + gap.high, bits) + fine(gap.low2) - fine(gap.high2);
-  ZVec<D> point = slab.normal;
-  for (Z& component : point) component *= middle;
-  return rounded<D>(point, dot(slab.normal, slab.normal), exponent - static_cast<long>(bits) - 1);
+  return rounded<D>(middle * slab.normal, dot(slab.normal, slab.normal),
+                    exponent - static_cast<long>(bits) - 1);
 }
 
 template <std::size_t D>
@@ -54,49 +40,39 @@ bool is_inside_slab(const Slab<D>& slab, const Vec& point, long exponent) {
     common.see(component);
   }
   const long fine = std::min(exponent, common.get()), shift = exponent - fine;
-  Z level = 0;
-  for (std::size_t i = 0; i < D; ++i) level += slab.normal[i] * scaled(point[i], fine);
+  const Z level = dot(slab.normal, scaled_vector<D>(point, fine));
   const Gap& gap = slab.gap;
   return sign_of(level - shifted_left(gap.low, shift), -1, shifted_left(gap.low2, 2 * shift)) > 0 &&
          sign_of(shifted_left(gap.high, shift) - level, -1, shifted_left(gap.high2, 2 * shift)) > 0;
 }
 
-// The indices of a lattice's planes, and the sign that makes the first index that is not 0 positive.
+// The indices of a lattice's planes, up to a sign.
 template <std::size_t D>
-ZVec<D> miller_indices(const ObstacleLattice<D>& lattice, const ZVec<D>& normal, int& sign) {
-  const Z period = lattice.period(normal);
-  ZVec<D> indices;
-  sign = 0;
-  for (std::size_t i = 0; i < D; ++i) {
-    indices[i] = dot(lattice.given[i], normal) / period;
-    if (sign == 0) sign = sgn(indices[i]);
-  }
-  for (Z& index : indices) index *= sign;
-  return indices;
+ZVec<D> miller_indices(const ObstacleLattice<D>& lattice, const ZVec<D>& normal) {
+  return primitive(lattice.given * normal);
+}
+
+// Makes the first component that is not 0 positive.
+template <std::size_t D>
+int sign_of_name(const ZVec<D>& name) {
+  return name < ZVec<D>{} ? -1 : 1;
 }
 
 Channel named(const ObstacleLattice<2>& lattice, const Slab<2>& slab, long exponent) {
-  int sign = 0;
-  const ZVec<2> k = miller_indices(lattice, slab.normal, sign);
-  // (-k2, k1) is perpendicular to k.
-  const int way = k[1] > 0 ? 1 : -1;
-  ZVec<2> g{Z(k[1] * way), Z(k[0] * -way)};
-  if (g[0] == 0) g[1] = 1;
-  ZVec<2> vector;
-  for (std::size_t i = 0; i < 2; ++i) vector[i] = g[0] * lattice.given[0][i] + g[1] * lattice.given[1][i];
+  const ZVec<2> k = miller_indices(lattice, slab.normal), across{k[1], -k[0]};
+  const ZVec<2> g = sign_of_name(across) * across;
   Channel channel;
-  channel.indices = integers_of<2>(g);
-  channel.vector = rounded<2>(vector, 1, exponent);
+  channel.indices = to_cell(g);
+  channel.vector = rounded<2>(combination(g, lattice.given), 1, exponent);
   return channel;
 }
 
 Channel named(const ObstacleLattice<3>& lattice, const Slab<3>& slab, long exponent) {
-  int sign = 0;
+  const ZVec<3> k = miller_indices(lattice, slab.normal);
+  const int sign = sign_of_name(k);
   Channel channel;
-  channel.indices = integers_of<3>(miller_indices(lattice, slab.normal, sign));
-  ZVec<3> normal = slab.normal;
-  for (Z& component : normal) component *= sign;
-  channel.vector = rounded<3>(normal, lattice.period(slab.normal), -exponent);
+  channel.indices = to_cell(sign * k);
+  channel.vector = rounded<3>(sign * slab.normal, lattice.period(slab.normal), -exponent);
   return channel;
 }
 
@@ -111,19 +87,12 @@ Channel channel_of(const ChannelScene<D>& scene, const Slab<D>& slab) {
   return channel;
 }
 
-// |det| of d vectors.
-template <class Vectors>
-double volume_of(const Vectors& u, int dimension) {
-  if (dimension == 2) return std::fabs(u[0][0] * u[1][1] - u[0][1] * u[1][0]);
-  return std::fabs(u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1]) -
-                   u[0][1] * (u[1][0] * u[2][2] - u[1][2] * u[2][0]) +
-                   u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]));
-}
-
 double volume_of(const Atom& atom, int dimension) {
   const double unit_ball = dimension == 2 ? M_PI : 4 * M_PI / 3;
-  return unit_ball *
-         (atom.is_ball() ? std::pow(atom.radius, dimension) : volume_of(atom.semiaxes, dimension));
+  if (atom.is_ball()) return unit_ball * std::pow(atom.radius, dimension);
+  const auto& a = atom.semiaxes;
+  return unit_ball * std::fabs(dimension == 2 ? lorentz::cross(a[0], a[1])[2]
+                                              : lorentz::dot(a[0], lorentz::cross(a[1], a[2])));
 }
 
 // The reason why the volume that a scene leaves free is not simply that of the cell minus that of the
@@ -165,6 +134,17 @@ double tail_constant(const Scene& scene, const ChannelScene<D>& exact, const std
   return std::scalbn(sum / ((d == 2 ? M_PI : 2) * free), unit);
 }
 
+// The widest ways first. For equal widths, short vectors come first, and then the order is that of the
+// components.
+template <class Way>
+void sort_by(double Way::*width, std::vector<Way>& ways) {
+  const auto length = [](const Vec& a) { return std::hypot(a[0], a[1], a[2]); };
+  std::stable_sort(ways.begin(), ways.end(), [&](const Way& a, const Way& b) {
+    return std::tuple(-(a.*width), length(a.vector), b.vector) <
+           std::tuple(-(b.*width), length(b.vector), a.vector);
+  });
+}
+
 template <std::size_t D>
 Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders,
                    const SearchProgress& progress) {
@@ -181,12 +161,7 @@ Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders,
   horizon.normals = normals.size();
   for (const ZVec<D>& normal : slabs.undecided)
     horizon.undecided.push_back(named(exact.lattices[0], Slab<D>{normal, {}, 1}, exact.exponent).indices);
-  // For equal widths, short vectors come first, and then the order is that of the components.
-  std::stable_sort(horizon.channels.begin(), horizon.channels.end(), [](const Channel& a, const Channel& b) {
-    const double length_a = std::hypot(a.vector[0], a.vector[1], a.vector[2]),
-                 length_b = std::hypot(b.vector[0], b.vector[1], b.vector[2]);
-    return std::tuple(-a.width, length_a, b.vector) < std::tuple(-b.width, length_b, a.vector);
-  });
+  sort_by(&Channel::width, horizon.channels);
   const bool none = min_width <= 0 && horizon.channels.empty() && horizon.undecided.empty();
   horizon.no_tail_constant = none ? "" : min_width > 0 ? "not with a least width" : no_simple_volume(scene);
   if (none) {
@@ -198,9 +173,13 @@ Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders,
       horizon.no_tail_constant = "the volumes are beyond binary64";
     }
   }
-  if (D == 3 && !with_cylinders) horizon.no_cylinders = "not asked for";
-  if constexpr (D == 3)
-    if (with_cylinders) find_cylinders(exact, horizon, progress);
+  if constexpr (D == 3) {
+    if (with_cylinders)
+      find_cylinders(exact, horizon, progress);
+    else
+      horizon.no_cylinders = "not asked for";
+    sort_by(&Cylinder::radius, horizon.cylinders);
+  }
   return horizon;
 }
 

@@ -45,7 +45,7 @@ OpenDirection look_along(const Scene& scene, const Vec& direction) {
   const BallScene balls = balls_of(exact);
   if (!balls.unsupported.empty()) throw InputError("direction: " + balls.unsupported);
   const auto& given = exact.lattices[0].given;
-  Shadow shadow(balls.lattice, balls.map(given[2]), balls.map(given[0]), balls.map(given[1]));
+  Shadow shadow(balls.lattice, balls.map * given[2], balls.map * given[0], balls.map * given[1]);
   if (!hole_of_largest(shadow)) return {};
   if (balls.lattice.obstacles.size() > 1 && neighbours_of(balls.lattice, shadow) > kMostBeside)
     throw InputError("direction: so nearly along the layer that too many obstacles lie beside each other");

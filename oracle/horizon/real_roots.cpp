@@ -9,12 +9,7 @@ namespace lorentz::oracle {
 namespace {
 
 int sign_of_value(const Polynomial& p, const Z& a, long bits) {
-  const auto shift = static_cast<unsigned long>(std::labs(bits));
-  const Z point = bits < 0 ? shifted_left(a, shift) : a;
-  Z value = 0;
-  for (std::size_t k = p.size(); k-- > 0;)
-    value = value * point + (bits < 0 ? p[k] : shifted_left(p[k], shift * (p.size() - 1 - k)));
-  return sgn(value);
+  return p.is_zero() ? 0 : sgn(value_at(p, p.size() - 1, a, bits));
 }
 
 // Sturm's theorem: the number of roots in (low, high] / 2^bits, for a polynomial without multiple roots.
@@ -43,6 +38,15 @@ long bits_of_roots(const Polynomial& p) {
 }
 
 }  // namespace
+
+Z value_at(const Polynomial& p, std::size_t degree, const Z& a, long bits) {
+  const auto shift = static_cast<unsigned long>(std::labs(bits));
+  const Z point = bits < 0 ? shifted_left(a, shift) : a;
+  Z value = 0;
+  for (std::size_t k = degree + 1; k-- > 0;)
+    value = value * point + (bits < 0 ? p[k] : shifted_left(p[k], shift * (degree - k)));
+  return value;
+}
 
 void RealRoot::refine() {
   low = 2 * low;

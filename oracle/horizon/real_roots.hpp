@@ -8,6 +8,9 @@
 
 namespace lorentz::oracle {
 
+/// 2^(bits * degree) p(a / 2^bits); for bits < 0, p(a / 2^bits). `degree` is at least that of p.
+Z value_at(const Polynomial& p, std::size_t degree, const Z& a, long bits);
+
 /// The only root of `polynomial` in (low, low + 1] / 2^bits.
 struct RealRoot {
   Polynomial polynomial;  ///< without multiple roots

@@ -8,14 +8,6 @@
 namespace lorentz::oracle {
 namespace {
 
-ZVec<3> difference(const ZVec<3>& a, const ZVec<3>& b) {
-  return {Z(a[0] - b[0]), Z(a[1] - b[1]), Z(a[2] - b[2])};
-}
-
-ZVec<3> times(const Z& k, const ZVec<3>& a) {
-  return {Z(k * a[0]), Z(k * a[1]), Z(k * a[2])};
-}
-
 // The points offset + i b1 + j b2 with |.|^2 <= radius2.
 template <class Visit>
 void visit_disc(const std::array<LatticePoint<3>, 2>& basis, const ZVec<3>& along, const ZVec<3>& offset,
@@ -26,16 +18,11 @@ void visit_disc(const std::array<LatticePoint<3>, 2>& basis, const ZVec<3>& alon
   const Z bound = floor_sqrt(radius2 * dot(across, across)), width = abs(gap);
   const Z start = gap > 0 ? level : Z(-level);
   for (Z j = ceil_div(-bound - start, width), last_j = floor_div(bound - start, width); j <= last_j; ++j) {
-    ZVec<3> row = offset;
-    for (std::size_t k = 0; k < 3; ++k) row[k] += j * basis[1].p[k];
+    const ZVec<3> row = offset + j * basis[1].p;
     const Z middle = dot(row, b1), disc = middle * middle - b11 * (dot(row, row) - radius2);
     if (disc < 0) continue;
     const Z first = -floor_surd(middle, 1, disc, b11), last = floor_surd(-middle, 1, disc, b11);
-    for (Z i = first; i <= last; ++i) {
-      ZVec<3> point = row;
-      for (std::size_t k = 0; k < 3; ++k) point[k] += i * b1[k];
-      visit(point);
-    }
+    for (Z i = first; i <= last; ++i) visit(row + i * b1);
   }
 }
 
@@ -51,12 +38,14 @@ int sign_at(const CirclePoint& p, const Z& u, const Z& v) {
   return sign_of(u, p.sign * (sgn(v) < 0 ? -1 : 1), v * v * p.delta);
 }
 
+ZVec<3> rounded_quotient(ZVec<3> a, const Z& q) {
+  for (Z& component : a) component = round_div(component, q);
+  return a;
+}
+
 HolePoint fixed_point(std::size_t disc, const CirclePoint& p, unsigned long bits) {
   const Z root = p.sign * floor_sqrt(shifted_left(p.delta, 2 * bits));
-  HolePoint result{disc, {}, bits};
-  for (std::size_t k = 0; k < 3; ++k)
-    result.offset[k] = round_div(shifted_left(p.a[k], bits) + root * p.b[k], p.q);
-  return result;
+  return {disc, rounded_quotient(shifted_left(1, bits) * p.a + root * p.b, p.q), bits};
 }
 
 // The circle of one disc, and the discs of its neighbours. Centres are relative to the centre of the circle.
@@ -106,7 +95,7 @@ class Circle {
     const ZVec<3>& e = other.centre;
     const Z& g2 = shadow_.along2;
     const Z e2 = dot(e, e), t = e2 + own2_ - other.radius * other.radius * g2;
-    return {times(t * g2, e), cross(shadow_.along, e), sign, (4 * e2 * own2_ - t * t) * g2, 2 * e2 * g2};
+    return {t * g2 * e, cross(shadow_.along, e), sign, (4 * e2 * own2_ - t * t) * g2, 2 * e2 * g2};
   }
 
   // Sign of |P - E|^2 - R_other^2.
@@ -141,7 +130,7 @@ class Circle {
 
   // Sign of g.((P - c) cross (P - d)) = g.(P cross (c - d) + c cross d).
   int turn(const CirclePoint& p, const ZVec<3>& c, const ZVec<3>& d) const {
-    const ZVec<3> apart = difference(c, d);
+    const ZVec<3> apart = c - d;
     const ZVec<3>& g = shadow_.along;
     return sign_at(p, dot(g, cross(p.a, apart)) + p.q * dot(g, cross(c, d)), dot(g, cross(p.b, apart)));
   }
@@ -175,10 +164,9 @@ std::vector<Disc> Shadow::discs_around(const ZVec<3>& point, const Z& reach, boo
   std::vector<Disc> around;
   for (const Disc& disc : discs) {
     const Z distance = add_radius ? Z(reach + disc.radius) : reach;
-    visit_disc(basis, along, difference(disc.centre, point), distance * distance * along2,
-               [&](const ZVec<3>& centre) {
-                 around.push_back({centre, disc.radius});
-               });
+    visit_disc(basis, along, disc.centre - point, distance * distance * along2, [&](const ZVec<3>& centre) {
+      around.push_back({centre, disc.radius});
+    });
   }
   return around;
 }
@@ -188,15 +176,12 @@ std::vector<Disc> Shadow::discs_around(const ZVec<3>& point, const Z& reach, boo
 std::optional<HolePoint> hole_of_largest(const Shadow& shadow, unsigned long bits) {
   const ZVec<3>& b1 = shadow.basis[0].p;
   ZVec<3> b2 = shadow.basis[1].p;
-  if (dot(b1, b2) < 0) b2 = times(-1, b2);
+  if (dot(b1, b2) < 0) b2 = -1 * b2;
   const Z g11 = dot(b1, b1), g12 = dot(b1, b2), g22 = dot(b2, b2), g33 = g11 + g22 - 2 * g12;
   const Z area2 = g11 * g22 - g12 * g12, r = shadow.discs[0].radius;
   if (g11 * g22 * g33 <= 4 * area2 * r * r * shadow.along2) return std::nullopt;
   const Z k1 = g22 * (g11 - g12), k2 = g11 * (g22 - g12);
-  HolePoint result{0, {}, bits};
-  for (std::size_t k = 0; k < 3; ++k)
-    result.offset[k] = round_div(shifted_left(k1 * b1[k] + k2 * b2[k], bits), 2 * area2);
-  return result;
+  return HolePoint{0, rounded_quotient(shifted_left(1, bits) * (k1 * b1 + k2 * b2), 2 * area2), bits};
 }
 
 std::optional<HolePoint> hole_of_all(const Shadow& shadow, std::size_t& work, unsigned long bits) {

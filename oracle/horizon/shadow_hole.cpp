@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
 #include "oracle/exact/quadratic.hpp"
 #include "oracle/horizon/hole_centre.hpp"
 #include "oracle/integers/dyadic.hpp"
@@ -28,17 +29,16 @@ HoleCentre room_in(const Shadow& shadow, const HolePoint& hole, std::size_t& wor
 // Maps a line from the scene of balls back to the scene, rounded. Offsets are in units of the largest ball's
 // radius or, if the balls are ellipsoids in the scene, are mapped by A. A^-1 lengthens nothing by more than
 // its norm.
-void place(Cylinder& cylinder, const BallScene& balls, const ZVec<3>& position, const HoleCentre& centre,
+void place(Cylinder& cylinder, const BallScene& balls, const Obstacle<3>& obstacle, const HoleCentre& centre,
            long exponent) {
-  const auto real = [&](const Z& a) { return round_to_binary64({a, 1, 0, 1, exponent}); };
-  for (std::size_t k = 0; k < 3; ++k) {
-    cylinder.point[k] = real(position[k]);
-    for (std::size_t i = 0; i < 3; ++i) cylinder.point[k] += centre.offset[i] * real(balls.axes[i][k]);
-  }
+  const auto real = [&](const ZVec<3>& a) { return rounded<3>(a, 1, exponent); };
+  cylinder.point = real(obstacle.position);
+  for (std::size_t i = 0; i < 3; ++i)
+    cylinder.point = plus(cylinder.point, centre.offset[i], real(balls.given[0].axes[i]));
   Quadratic radius = centre.clearance;
-  if (balls.mapped) {
+  if (!obstacle.ball) {
     Z norm2 = 0;  // of the map |det A| A^-1, squared
-    for (const ZVec<3>& row : balls.rows) norm2 += dot(row, row);
+    for (const ZVec<3>& row : balls.map) norm2 += dot(row, row);
     radius.q *= ceil_sqrt(norm2);
   }
   radius.exponent = exponent;
@@ -51,15 +51,12 @@ bool is_inside(Shadow shadow, const BallScene& balls, const Vec& point, long exp
     if (!std::isfinite(component)) return false;
     common.see(component);
   }
-  const long fine = std::min(exponent, common.get()), shift = exponent - fine;
-  for (auto& b : shadow.basis)
-    for (Z& component : b.p) component = shifted_left(component, shift);
-  for (Disc& disc : shadow.discs) {
-    disc.radius = shifted_left(disc.radius, shift);
-    for (Z& component : disc.centre) component = shifted_left(component, shift);
-  }
-  const ZVec<3> exact{scaled(point[0], fine), scaled(point[1], fine), scaled(point[2], fine)};
-  return shadow.discs_around(cross(balls.map(exact), shadow.along), 0, true).empty();
+  const long fine = std::min(exponent, common.get());
+  const Z times = shifted_left(1, static_cast<unsigned long>(exponent - fine));
+  for (auto& b : shadow.basis) b.p = times * b.p;
+  for (Disc& disc : shadow.discs) disc = {times * disc.centre, times * disc.radius};
+  const ZVec<3> exact = scaled_vector<3>(point, fine);
+  return shadow.discs_around(cross(balls.map * exact, shadow.along), 0, true).empty();
 }
 
 }  // namespace
@@ -77,7 +74,7 @@ std::optional<HolePoint> hole_of(Shadow& shadow, const ObstacleLattice<3>& latti
 Cylinder cylinder_in(const HolePoint& hole, const Shadow& shadow, const BallScene& balls, long exponent,
                      std::size_t& work) {
   Cylinder cylinder;
-  place(cylinder, balls, balls.positions[hole.disc], room_in(shadow, hole, work), exponent);
+  place(cylinder, balls, balls.given[hole.disc], room_in(shadow, hole, work), exponent);
   cylinder.inside = is_inside(shadow, balls, cylinder.point, exponent);
   return cylinder;
 }

@@ -5,6 +5,7 @@
 
 #include "oracle/exact/quadratic.hpp"
 #include "oracle/exact/root_sums.hpp"
+#include "oracle/exact/shape.hpp"
 #include "oracle/horizon/common_rows.hpp"
 
 namespace lorentz::oracle {
@@ -27,22 +28,12 @@ struct SlabCandidates {
 };
 
 template <std::size_t D>
-SlabCandidates<D> make_candidates(const ObstacleLattice<D>& lattice, const std::array<ZVec<D>, D>& axes,
+SlabCandidates<D> make_candidates(const ObstacleLattice<D>& lattice, const ZMatrix<D>& axes,
                                   const Z& bound2) {
-  SlabCandidates<D> result{&lattice, lattice.cofactors, bound2, 0};
-  for (auto& b : result.basis) {
-    const ZVec<D> cofactor = b.p;
-    for (std::size_t i = 0; i < D; ++i) b.p[i] = dot(axes[i], cofactor);
-  }
+  SlabCandidates<D> result{&lattice, basis_of(lattice.cofactors), bound2, 0};
+  for (auto& b : result.basis) b.p = axes * b.p;
   result.expected = log2_of(bound2) * D / 2 - log2_of(determinant<D>(result.basis));
   return result;
-}
-
-template <std::size_t D>
-std::array<ZVec<D>, D> multiple_of_identity(const Z& factor) {
-  std::array<ZVec<D>, D> axes;
-  for (std::size_t i = 0; i < D; ++i) axes[i][i] = factor;
-  return axes;
 }
 
 // The planes of a lattice are 1/|k| apart for a reciprocal vector k, and an obstacle leaves
@@ -56,8 +47,7 @@ SlabCandidates<D> fewest_candidates(const ChannelScene<D>& scene) {
     const Obstacle<D>& largest = lattice.obstacles.front();
     const Z one2 = lattice.volume * lattice.volume;
     auto doubled = largest.axes;
-    for (auto& axis : doubled)
-      for (Z& component : axis) component *= 2;
+    for (auto& axis : doubled) axis = 2 * axis;
     if (largest.ball) {
       const Z width = doubled[0][0] + scene.unit;
       all.push_back(
@@ -156,12 +146,25 @@ struct SlabSearch {
     return gap;
   }
 
+  // The gaps that one lattice leaves in a period.
+  std::vector<Gap> gaps_of(const ObstacleLattice<D>& lattice, const ZVec<D>& normal, const Z& period) {
+    // If there are many obstacles, the first few nearly always cover the circle already.
+    std::vector<Blocked> blocks;
+    for (std::size_t count = 8;; count *= 4) {
+      count = std::min(count, lattice.obstacles.size());
+      while (blocks.size() < count) blocks.push_back(lattice.obstacles[blocks.size()].block(normal));
+      work += count;
+      std::vector<Gap> gaps = gaps_between(blocks, period);
+      if (gaps.empty() || count == lattice.obstacles.size()) return gaps;
+    }
+  }
+
   // One class for each period; empty if one of them leaves nothing free.
   std::vector<Class> classes_of(const ZVec<D>& normal) {
     std::vector<Class> classes;
     for (const ObstacleLattice<D>& lattice : scene.lattices) {
       const Z period = lattice.period(normal);
-      std::vector<Gap> gaps = gaps_of<D>(lattice, normal, period, work);
+      std::vector<Gap> gaps = gaps_of(lattice, normal, period);
       if (gaps.empty()) return {};
       const auto same = std::find_if(classes.begin(), classes.end(),
                                      [&](const Class& other) { return other.period == period; });
@@ -216,10 +219,8 @@ struct SlabSearch {
 
   bool any_pair_closed(const std::vector<Class>& classes) {
     for (std::size_t i = 0; i < classes.size(); ++i)
-      for (std::size_t k = i + 1; k < classes.size(); ++k) {
-        if (work > kMostSlabWork) return true;  // the whole search is then refused
-        if (!meet_anywhere(classes[i], classes[k])) return true;
-      }
+      for (std::size_t k = i + 1; k < classes.size(); ++k)  // too much work: the whole search is then refused
+        if (work > kMostSlabWork || !meet_anywhere(classes[i], classes[k])) return true;
     return false;
   }
 
@@ -252,9 +253,7 @@ struct SlabSearch {
     const SlabCandidates<D> candidates = fewest_candidates(scene);
     // The points are images of normals; their coefficients lead back to the normals.
     const auto look_at = [&](const LatticePoint<D>& point) {
-      LatticePoint<D> normal;
-      for (std::size_t i = 0; i < D; ++i) normal.add_multiple(point.n[i], candidates.lattice->cofactors[i]);
-      look_along(normal.p);
+      look_along(combination(point.n, candidates.lattice->cofactors));
     };
     const auto step = [&](std::size_t done, std::size_t total) {
       if (progress && done % 64 == 0) progress(D == 2 ? "directions" : "planes", done / 2, total / 2);
@@ -262,14 +261,11 @@ struct SlabSearch {
     return visit_primitive<D>(candidates.basis, candidates.bound2, 2 * kMostCandidates, look_at, step);
   }
 
-  void look_along(ZVec<D> normal) {
+  void look_along(const ZVec<D>& any_normal) {
     if (work > kMostSlabWork) return;
-    Z divisor = 0;
-    for (const Z& component : normal) divisor = gcd(divisor, component);
-    for (Z& component : normal) component /= divisor;
+    const ZVec<D> normal = primitive(any_normal);
     std::vector<Class> classes = classes_of(normal);
-    if (classes.empty()) return;
-    if (classes.size() > 1 && !merge(classes)) return;
+    if (classes.empty() || !merge(classes)) return;
     if (classes.size() == 1) {
       for (const Gap& gap : classes[0].gaps) add(normal, near_origin(gap, classes[0].period), 1);
     } else if (classes.size() == 2) {

@@ -8,17 +8,12 @@
 
 namespace lorentz::oracle {
 
-/// mantissa * 2^exponent. The mantissa is odd, or it is zero and the exponent is 0.
+/// A binary64 as mantissa * 2^exponent. The mantissa is odd, or it is zero and the exponent is 0.
 struct Dyadic {
-  Z mantissa;
-  long exponent = 0;
-};
+  long mantissa = 0, exponent = 0;
 
-/// A binary64 other than 0 as mantissa * 2^exponent with an odd mantissa.
-struct OddMantissa {
-  long mantissa, exponent;
-
-  explicit OddMantissa(double value) {
+  explicit Dyadic(double value) {
+    if (value == 0) return;
     int e = 0;
     mantissa = static_cast<long>(std::ldexp(std::frexp(value, &e), 53));  // exact: 53 bits
     const int zeros = __builtin_ctzl(static_cast<unsigned long>(mantissa));
@@ -27,18 +22,12 @@ struct OddMantissa {
   }
 };
 
-inline Dyadic to_dyadic(double value) {
-  if (value == 0) return {};
-  const OddMantissa odd(value);
-  return {Z(odd.mantissa), odd.exponent};
-}
-
 /// The smallest exponent of the nonzero values seen: multiplied by 2^-exponent, all of them are integers.
 class CommonExponent {
  public:
   void see(double value) {
     if (value == 0) return;
-    exponent_ = std::min(exponent_, OddMantissa(value).exponent);
+    exponent_ = std::min(exponent_, Dyadic(value).exponent);
     any_ = true;
   }
   long get() const { return any_ ? exponent_ : 0; }
@@ -50,7 +39,7 @@ class CommonExponent {
 
 /// value * 2^-exponent, which must be an integer.
 inline Z scaled(double value, long exponent) {
-  Dyadic d = to_dyadic(value);
+  const Dyadic d(value);
   return d.mantissa == 0 ? Z(0) : shifted_left(d.mantissa, d.exponent - exponent);
 }
 

@@ -141,6 +141,12 @@ Z::Z(double value) : Z() {
   *this = whole.z();
 }
 
+Z::Z(mpf_srcptr value) : Z() {
+  Mpz whole;
+  mpz_set_f(whole, value);
+  *this = whole.z();
+}
+
 // The sum may be the same number as a, and b may be its limbs. If they are too few for the sum, new limbs
 // replace them after everything is read.
 void Z::add(Z& sum, const Z& a, const mp_limb_t* b_limbs, int b_size) {
@@ -344,18 +350,6 @@ Z operator>>(const Z& a, unsigned long bits) {
   }
   result.size_ = with_sign(without_zeros(to, size), negative);
   return negative && cut ? result -= 1 : result;
-}
-
-bool Z::fits_slong_p() const {
-  return mpz_fits_slong_p(view()) != 0;
-}
-
-long Z::get_si() const {
-  return mpz_get_si(view());
-}
-
-double Z::get_d() const {
-  return mpz_get_d(view());
 }
 
 std::string Z::get_str(int base) const {

@@ -31,6 +31,8 @@ class Z {
   /// form.
   explicit Z(const std::string& digits, int base = 10);
   explicit Z(mpz_srcptr value);
+  /// Rounded towards 0.
+  explicit Z(mpf_srcptr value);
   /// A finite binary64, rounded towards 0.
   explicit Z(double value);
 
@@ -106,18 +108,23 @@ class Z {
   friend Z shifted_left(const Z& a, unsigned long bits);
   friend Z operator<<(const Z& a, unsigned long bits) { return shifted_left(a, bits); }
 
-  friend bool operator==(const Z& a, const Z& b) { return compare(a, b) == 0; }
-  friend std::strong_ordering operator<=>(const Z& a, const Z& b) { return compare(a, b) <=> 0; }
+  /// Negative, 0 or positive as a < b, a = b or a > b.
+  friend int cmp(const Z& a, const Z& b) {
+    if (a.size_ != b.size_) return a.size_ < b.size_ ? -1 : 1;
+    for (std::size_t i = a.count(); i-- > 0;)
+      if (a.limbs_[i] != b.limbs_[i]) return (a.limbs_[i] < b.limbs_[i]) == (a.size_ > 0) ? -1 : 1;
+    return 0;
+  }
+  friend bool operator==(const Z& a, const Z& b) { return cmp(a, b) == 0; }
+  friend std::strong_ordering operator<=>(const Z& a, const Z& b) { return cmp(a, b) <=> 0; }
   template <std::integral T>
   friend bool operator==(const Z& a, T b) {
-    return b == 0 ? a.size_ == 0 : compare(a, Z(b)) == 0;
+    return b == 0 ? a.size_ == 0 : cmp(a, Z(b)) == 0;
   }
   template <std::integral T>
   friend std::strong_ordering operator<=>(const Z& a, T b) {
-    return (b == 0 ? a.size_ : compare(a, Z(b))) <=> 0;
+    return (b == 0 ? a.size_ : cmp(a, Z(b))) <=> 0;
   }
-  /// Negative, 0 or positive as a < b, a = b or a > b.
-  friend int cmp(const Z& a, const Z& b) { return compare(a, b); }
   /// The same for |a| and |b|.
   friend int compare_sizes(const Z& a, const Z& b) {
     const std::size_t n = a.count(), m = b.count();
@@ -145,10 +152,10 @@ class Z {
   struct Root;
   friend Root square_root(const Z& a);
 
-  bool fits_slong_p() const;
-  long get_si() const;                                                 ///< only if fits_slong_p()
+  bool fits_slong_p() const { return mpz_fits_slong_p(view()) != 0; }
+  long get_si() const { return mpz_get_si(view()); }                   ///< only if fits_slong_p()
   unsigned long get_ui() const { return size_ == 0 ? 0 : limbs_[0]; }  ///< |a| modulo 2^64
-  double get_d() const;                                                ///< rounded towards 0
+  double get_d() const { return mpz_get_d(view()); }                   ///< rounded towards 0
   std::string get_str(int base = 10) const;
 
   /// The number in the form that GMP's own functions read. It must not outlive the number, nor any change of
@@ -203,12 +210,6 @@ class Z {
   static void add(Z& sum, const Z& a, const mp_limb_t* b, int b_size);
   static void multiply(Z& product, const Z& a, const Z& b);
   Z& add_product(const Z& a, const Z& b, int sign);
-  static int compare(const Z& a, const Z& b) {
-    if (a.size_ != b.size_) return a.size_ < b.size_ ? -1 : 1;
-    for (std::size_t i = a.count(); i-- > 0;)
-      if (a.limbs_[i] != b.limbs_[i]) return (a.limbs_[i] < b.limbs_[i]) == (a.size_ > 0) ? -1 : 1;
-    return 0;
-  }
 
   mp_limb_t* limbs_;  // least significant first; inline_, or an array of `capacity_`
   int size_ = 0;      // number of limbs, the last of them not 0; negative for a number below 0

@@ -7,61 +7,44 @@
 namespace lorentz::oracle {
 namespace {
 
-Z z_of(const fmpz_t integer) {
-  mpz_t copy;
-  mpz_init(copy);
-  fmpz_get_mpz(copy, integer);
-  Z result(static_cast<mpz_srcptr>(copy));
-  mpz_clear(copy);
-  return result;
-}
+// FLINT's integers.
+class FlintInteger {
+ public:
+  FlintInteger() { fmpz_init(value_); }
+  FlintInteger(const FlintInteger&) = delete;
+  ~FlintInteger() { fmpz_clear(value_); }
 
-// A binary fraction times 2^bits, rounded to an integer.
-Z rounded_arf(const arf_t value, long bits, arf_rnd_t rounding) {
-  arf_t scaled;
-  fmpz_t integer;
-  arf_init(scaled);
-  fmpz_init(integer);
-  arf_mul_2exp_si(scaled, value, bits);
-  arf_get_fmpz(integer, scaled, rounding);
-  Z result = z_of(integer);
-  fmpz_clear(integer);
-  arf_clear(scaled);
-  return result;
-}
+  fmpz_t& raw() { return value_; }
+  Z z() const {
+    mpz_t copy;
+    mpz_init(copy);
+    fmpz_get_mpz(copy, value_);
+    Z result(static_cast<mpz_srcptr>(copy));
+    mpz_clear(copy);
+    return result;
+  }
+
+ private:
+  fmpz_t value_;
+};
 
 }  // namespace
 
-long Bound::exponent() const {
-  fmpz_t exponent;
-  fmpz_init(exponent);
-  fmpz_set(exponent, MAG_EXPREF(value_));
-  const long result = fmpz_get_si(exponent);
-  fmpz_clear(exponent);
-  return result;
-}
-
 Bound Ball::size() const {
-  mag_t size;
-  mag_init(size);
-  arb_get_mag(size, value_);
-  Bound result(size);
-  mag_clear(size);
+  Bound result;
+  arb_get_mag(result.value_, value_);
   return result;
 }
 
 Bound Ball::least_size() const {
-  mag_t size;
-  mag_init(size);
-  arb_get_mag_lower(size, value_);
-  Bound result(size);
-  mag_clear(size);
+  Bound result;
+  arb_get_mag_lower(result.value_, value_);
   return result;
 }
 
 Ball Ball::widened(const Bound& by) const {
   Ball result = *this;
-  mag_add(arb_radref(result.value_), arb_radref(result.value_), by.raw());
+  arb_add_error_mag(result.value_, by.value_);
   return result;
 }
 
@@ -72,18 +55,15 @@ Ball Ball::middle() const {
 }
 
 Z Ball::rounded(long bits) const {
-  return rounded_arf(arb_midref(value_), bits, ARF_RND_NEAR);
+  FlintInteger integer;
+  arf_get_fmpz(integer.raw(), arb_midref(scaled(*this, bits).value_), ARF_RND_NEAR);
+  return integer.z();
 }
 
 Ball::Exact Ball::exact_middle() const {
-  fmpz_t integer, exponent;
-  fmpz_init(integer);
-  fmpz_init(exponent);
-  arf_get_fmpz_2exp(integer, exponent, arb_midref(value_));
-  Exact result{z_of(integer), fmpz_get_si(exponent)};
-  fmpz_clear(integer);
-  fmpz_clear(exponent);
-  return result;
+  FlintInteger integer, exponent;
+  arf_get_fmpz_2exp(integer.raw(), exponent.raw(), arb_midref(value_));
+  return {integer.z(), fmpz_get_si(exponent.raw())};
 }
 
 Ball Ball::lower() const {
@@ -99,7 +79,6 @@ Ball Ball::upper() const {
 }
 
 std::optional<std::string> certain_decimal(const Ball& a, int digits) {
-  constexpr double kBitsADigit = 3.33;
   const Ball::WorkingPrecision enough(static_cast<long>(kBitsADigit * digits) + 64);
   if (!a.is_finite()) return std::nullopt;
   if (!a.is_positive() && !a.is_negative()) {

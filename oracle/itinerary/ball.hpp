@@ -52,15 +52,16 @@ class Bound {
     return a;
   }
   friend bool operator<(const Bound& a, const Bound& b) { return mag_cmp(a.value_, b.value_) < 0; }
-  friend Bound larger(const Bound& a, const Bound& b) { return a < b ? b : a; }
 
   bool is_zero() const { return mag_is_zero(value_); }
   bool is_finite() const { return mag_is_finite(value_); }
   /// The least k with value <= 2^k, for a finite value other than 0.
-  long exponent() const;
+  long exponent() const { return fmpz_get_si(MAG_EXPREF(value_)); }
   const mag_t& raw() const { return value_; }
 
  private:
+  friend class Ball;
+
   mag_t value_;
 };
 
@@ -85,13 +86,7 @@ class Ball {
     arb_set_si(value_, static_cast<slong>(value));
   }
   explicit Ball(double value) : Ball() { arb_set_d(value_, value); }
-  explicit Ball(const Z& value) : Ball() {
-    fmpz_t integer;
-    fmpz_init(integer);
-    fmpz_set_mpz(integer, value.view());
-    arb_set_fmpz(value_, integer);
-    fmpz_clear(integer);
-  }
+  explicit Ball(const Z& value) : Ball() { arf_set_mpz(arb_midref(value_), value.view()); }
   Ball(const Ball& other) : Ball() { arb_set(value_, other.value_); }
   Ball(Ball&& other) noexcept : Ball() { arb_swap(value_, other.value_); }
   Ball& operator=(const Ball& other) {
@@ -104,39 +99,15 @@ class Ball {
   }
   ~Ball() { arb_clear(value_); }
 
-  friend Ball operator+(const Ball& a, const Ball& b) {
-    Ball c;
-    arb_add(c.value_, a.value_, b.value_, WorkingPrecision::now());
-    return c;
-  }
-  friend Ball operator-(const Ball& a, const Ball& b) {
-    Ball c;
-    arb_sub(c.value_, a.value_, b.value_, WorkingPrecision::now());
-    return c;
-  }
-  friend Ball operator*(const Ball& a, const Ball& b) {
-    Ball c;
-    arb_mul(c.value_, a.value_, b.value_, WorkingPrecision::now());
-    return c;
-  }
-  friend Ball operator/(const Ball& a, const Ball& b) {
-    Ball c;
-    arb_div(c.value_, a.value_, b.value_, WorkingPrecision::now());
-    return c;
-  }
+  friend Ball operator+(const Ball& a, const Ball& b) { return result_of(arb_add, a, b); }
+  friend Ball operator-(const Ball& a, const Ball& b) { return result_of(arb_sub, a, b); }
+  friend Ball operator*(const Ball& a, const Ball& b) { return result_of(arb_mul, a, b); }
+  friend Ball operator/(const Ball& a, const Ball& b) { return result_of(arb_div, a, b); }
+  friend Ball square(const Ball& a) { return result_of(arb_sqr, a); }
+  friend Ball sqrt(const Ball& a) { return result_of(arb_sqrt, a); }
   friend Ball operator-(const Ball& a) {
     Ball c;
     arb_neg(c.value_, a.value_);
-    return c;
-  }
-  friend Ball square(const Ball& a) {
-    Ball c;
-    arb_sqr(c.value_, a.value_, WorkingPrecision::now());
-    return c;
-  }
-  friend Ball sqrt(const Ball& a) {
-    Ball c;
-    arb_sqrt(c.value_, a.value_, WorkingPrecision::now());
     return c;
   }
   /// a 2^exponent
@@ -156,7 +127,6 @@ class Ball {
 
   /// True if all numbers of the ball have the property.
   bool is_positive() const { return arb_is_positive(value_); }
-  bool is_nonnegative() const { return arb_is_nonnegative(value_); }
   bool is_negative() const { return arb_is_negative(value_); }
   bool is_exact() const { return arb_is_exact(value_); }
   bool is_finite() const { return arb_is_finite(value_); }
@@ -187,10 +157,17 @@ class Ball {
   Ball lower() const;
   Ball upper() const;
 
-  const arb_t& raw() const { return value_; }
   arb_t& raw() { return value_; }
 
  private:
+  // What one of Arb's functions makes of these operands, to the working precision.
+  template <class Function, class... Operands>
+  static Ball result_of(const Function& function, const Operands&... operands) {
+    Ball result;
+    function(result.value_, operands.value_..., WorkingPrecision::now());
+    return result;
+  }
+
   arb_t value_;
 };
 
@@ -198,11 +175,21 @@ template <std::size_t N>
 using BallVec = std::array<Ball, N>;
 
 template <std::size_t N>
+BallVec<N> balls(const ZVec<N>& a) {
+  BallVec<N> result;
+  for (std::size_t i = 0; i < N; ++i) result[i] = Ball(a[i]);
+  return result;
+}
+
+template <std::size_t N>
 Ball dot(const BallVec<N>& a, const BallVec<N>& b) {
   Ball sum = a[0] * b[0];
   for (std::size_t i = 1; i < N; ++i) sum.add_product(a[i], b[i]);
   return sum;
 }
+
+/// The bits of a decimal digit, and a little more.
+inline constexpr double kBitsADigit = 3.33;
 
 /// A decimal text of `digits` significant digits, correctly rounded, if all numbers of the ball round to the
 /// same text. It is positional for exponents from -7 to `digits` - 1, else d.ddde+x. An exact 0 gives "0".

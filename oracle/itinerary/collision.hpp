@@ -21,6 +21,13 @@ template <std::size_t D>
 struct State {
   BallVec<D> y, v;
   Ball t;
+
+  /// The same with y relative to another centre than `before`.
+  State seen_from(const ZVec<D>& before, const ZVec<D>& centre) const {
+    State state = *this;
+    for (std::size_t i = 0; i < D; ++i) state.y[i] += Ball(before[i] - centre[i]);
+    return state;
+  }
 };
 
 /// An obstacle's form in balls: K (absent for a ball), R and R^2.
@@ -32,8 +39,7 @@ struct Form {
   explicit Form(const ExactAtom<D>& atom) : radius(atom.radius), radius2(atom.radius * atom.radius) {
     if (!atom.frame) return;
     to_ball.emplace();
-    for (std::size_t i = 0; i < D; ++i)
-      for (std::size_t k = 0; k < D; ++k) (*to_ball)[i][k] = Ball(atom.frame->to_ball[i][k]);
+    for (std::size_t i = 0; i < D; ++i) (*to_ball)[i] = balls<D>(atom.frame->to_ball[i]);
   }
 
   BallVec<D> in_ball(const BallVec<D>& y) const {

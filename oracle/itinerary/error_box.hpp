@@ -64,7 +64,7 @@ class ErrorBox {
         for (int j = 0; j < N; ++j) entry.add_product(Ball(turn_[j][i]), moved[j][k]);
         next[i] += entry.size() * widths_[k] + Ball(turn_[k][i]).size() * rounding[k];
       }
-      largest = larger(largest, next[i]);
+      largest = std::max(largest, next[i]);
     }
     // Q'^-1 = (1 + E)^-1 Q'^T, E = Q'^T Q' - 1. In the norm of the largest component,
     //   |(1 + E)^-1 x - x| <= |E| / (1 - |E|) |x|.
@@ -102,7 +102,7 @@ class ErrorBox {
     Turn columns{};
     for (int k = 0; k < N; ++k) {
       Bound largest;
-      for (int i = 0; i < N; ++i) largest = larger(largest, moved[i][order[k]].size());
+      for (int i = 0; i < N; ++i) largest = std::max(largest, moved[i][order[k]].size());
       for (int i = 0; i < N; ++i)
         columns[i][k] =
             largest.is_zero() ? (i == k ? 1 : 0) : scaled(moved[i][order[k]], -largest.exponent()).nearest();
@@ -147,7 +147,7 @@ class ErrorBox {
         for (int j = 0; j < N; ++j) product.add_product(Ball(turn_[j][i]), Ball(turn_[j][k]));
         row += product.size();
       }
-      norm = larger(norm, row);
+      norm = std::max(norm, row);
     }
     if (Bound(0.5) < norm) return Bound(1) / Bound();  // never seen; infinite, so nothing is certain then
     return norm + norm;

@@ -1,5 +1,7 @@
 #include "oracle/itinerary/integer_problem.hpp"
 
+#include <algorithm>
+
 #include <lorentz/errors.hpp>
 #include "oracle/exact/quadratic.hpp"
 #include "oracle/integers/dyadic.hpp"
@@ -13,7 +15,7 @@ struct Ratio {
 
 Ratio ratio_of(const Rational& number) {
   if (const double* value = std::get_if<double>(&number)) {
-    const Dyadic dyadic = to_dyadic(*value);
+    const Dyadic dyadic(*value);
     if (dyadic.exponent < 0) return {dyadic.mantissa, shifted_left(Z(1), -dyadic.exponent)};
     return {shifted_left(dyadic.mantissa, dyadic.exponent), 1};
   }
@@ -24,52 +26,9 @@ Ratio ratio_of(const Rational& number) {
   return {numerator / common, denominator / common};
 }
 
-template <std::size_t D, class Visit>
-void for_each_number(const RationalScene& scene, const Visit& visit) {
-  const auto vector = [&](const RationalVec& a) {
-    for (std::size_t i = 0; i < D; ++i) visit(a[i]);
-  };
-  for (const auto& lattice : scene.lattices) {
-    for (std::size_t i = 0; i < D; ++i) vector(lattice.vectors[i]);
-    for (const auto& atom : lattice.atoms) {
-      vector(atom.position);
-      if (atom.is_ball()) visit(atom.radius);
-      for (const auto& axis : atom.semiaxes) vector(axis);
-    }
-  }
-}
-
 Z times(const Rational& number, const Z& unit) {
   const Ratio ratio = ratio_of(number);
   return ratio.numerator * (unit / ratio.denominator);
-}
-
-template <std::size_t D>
-ZVec<D> times(const RationalVec& a, const Z& unit) {
-  ZVec<D> result;
-  for (std::size_t i = 0; i < D; ++i) result[i] = times(a[i], unit);
-  return result;
-}
-
-template <std::size_t D>
-IntegerScene<D> times_unit(const RationalScene& scene, const Z& unit) {
-  IntegerScene<D> result;
-  for (const auto& lattice : scene.lattices) {
-    auto& its = result.lattices.emplace_back();
-    its.rank = D - static_cast<std::size_t>(lattice.missing);
-    for (std::size_t i = 0; i < D; ++i) its.vectors[i] = times<D>(lattice.vectors[i], unit);
-    for (const auto& atom : lattice.atoms) {
-      auto& its_atom = its.atoms.emplace_back();
-      its_atom.position = times<D>(atom.position, unit);
-      if (atom.is_ball()) {
-        its_atom.radius = times(atom.radius, unit);
-        continue;
-      }
-      its_atom.semiaxes.emplace();
-      for (std::size_t i = 0; i < D; ++i) (*its_atom.semiaxes)[i] = times<D>(atom.semiaxes[i], unit);
-    }
-  }
-  return result;
 }
 
 // Exact if there is no root.
@@ -91,37 +50,31 @@ BallVec<2> turned(const Rational& degrees) {
   return direction;
 }
 
+// Rounded twice if there is a root, which hardly ever changes the result.
+double nearest_surd(const Surd& number) {
+  if (!number.root) return nearest(number.shift);
+  const Ball::WorkingPrecision precision(256);
+  return times(number, 1).nearest();
+}
+
 }  // namespace
 
 double nearest(const Rational& number) {
   if (const double* value = std::get_if<double>(&number)) return *value;
   const Ratio ratio = ratio_of(number);
-  const double size = round_to_binary64(Quadratic{abs(ratio.numerator), +1, 0, ratio.denominator, 0});
-  return ratio.numerator < 0 ? -size : size;
+  return round_to_binary64({ratio.numerator, +1, 0, ratio.denominator, 0});
 }
-
-namespace {
-
-// Rounded twice if there is a root, which hardly ever changes the result.
-double nearest_surd(const Surd& number) {
-  if (!number.root) return oracle::nearest(number.shift);
-  const Ball::WorkingPrecision precision(256);
-  return (to_ball(number.shift) + to_ball(number.scale) * sqrt(to_ball(*number.root))).nearest();
-}
-
-Vec nearest_vec(const RationalVec& a) {
-  return {oracle::nearest(a[0]), oracle::nearest(a[1]), oracle::nearest(a[2])};
-}
-
-}  // namespace
 
 Scene nearest(const RationalScene& scene) {
   return mapped<Scene>(scene, [](const Rational& number) { return nearest(number); });
 }
 
 Query nearest(const Start& start) {
-  Query query{nearest_vec(start.x), {}, start.from};
-  for (std::size_t i = 0; i < 3; ++i) query.v[i] = nearest_surd(start.v[i]);
+  Query query{{}, {}, start.from};
+  for (std::size_t i = 0; i < 3; ++i) {
+    query.x[i] = nearest(start.x[i]);
+    query.v[i] = nearest_surd(start.v[i]);
+  }
   if (start.degrees) {
     const Ball::WorkingPrecision precision(256);
     const BallVec<2> direction = turned(*start.degrees);
@@ -138,14 +91,18 @@ Ball to_ball(const Rational& number) {
 
 template <std::size_t D>
 IntegerProblem<D>::IntegerProblem(const RationalScene& rational_scene, const Start& start) : unit(1) {
-  const auto see = [&](const Rational& number) { unit = lcm(unit, ratio_of(number).denominator); };
-  for_each_number<D>(rational_scene, see);
+  const auto see = [&](const Rational& number) {
+    unit = lcm(unit, ratio_of(number).denominator);
+    return Z();
+  };
+  in_integers<D>(rational_scene, see);
   for (std::size_t i = 0; i < D; ++i) {
     see(start.x[i]);
     if (!start.v[i].root) see(start.v[i].shift);
   }
-  scene = times_unit<D>(rational_scene, unit);
-  x = times<D>(start.x, unit);
+  const auto in_units = [&](const Rational& number) { return times(number, unit); };
+  scene = in_integers<D>(rational_scene, in_units);
+  std::transform(start.x.begin(), start.x.begin() + D, x.begin(), in_units);
 }
 
 template <std::size_t D>

@@ -6,30 +6,18 @@
 namespace lorentz::oracle {
 
 std::string_view name_of(JourneyEnd end) {
-  switch (end) {
-    case JourneyEnd::collisions:
-      return "collisions";
-    case JourneyEnd::time:
-      return "time";
-    case JourneyEnd::never:
-      return "never";
-    case JourneyEnd::inside:
-      return "inside";
-    default:
-      return "undecided";
-  }
+  constexpr std::string_view kNames[] = {"collisions", "time", "never", "inside", "undecided"};
+  return kNames[static_cast<std::size_t>(end)];
 }
 
 namespace {
 
-constexpr double kBitsADecimal = 3.33;
-
 // The bits for the next passage: the bits that this passage lost, extrapolated to the journey's end. (A
 // passage that stops tells what part it has done.) At least 1.5 and at most 4 times the bits of this passage.
 template <std::size_t D>
-long next_bits(const Passage<D>& passage, const Journey& journey, double part) {
-  const double lost = static_cast<double>(passage.bits_lost()) / std::max(part, 1e-6);
-  const double wanted = 1.05 * lost + kBitsADecimal * journey.digits + 64;
+long next_bits(const Passage<D>& passage, const Journey& journey) {
+  const double lost = static_cast<double>(passage.bits_lost()) / std::max(passage.part_done(), 1e-6);
+  const double wanted = 1.05 * lost + kBitsADigit * journey.digits + 64;
   const auto bits = static_cast<double>(passage.bits());
   return static_cast<long>(std::clamp(wanted, 1.5 * bits, 4 * bits));
 }
@@ -39,7 +27,7 @@ Arrival follow_in(const RationalScene& scene, const Start& start, const Journey&
                   const Itinerary::OnCollision& on_collision) {
   Route<D> route(scene, start, journey, on_collision);
   constexpr long kMostBits = 1L << 18;
-  const long enough = static_cast<long>(kBitsADecimal * journey.digits) + 64;
+  const long enough = static_cast<long>(kBitsADigit * journey.digits) + 64;
   const long most = journey.most_bits > 0 ? journey.most_bits : std::max(kMostBits, 2 * enough);
   for (long bits = journey.first_bits > 0 ? journey.first_bits : enough;;) {
     bits = std::min(bits, most);
@@ -47,7 +35,7 @@ Arrival follow_in(const RationalScene& scene, const Start& start, const Journey&
     const bool arrived = passage.go();
     const bool is_stopped = journey.stop && *journey.stop;
     if (arrived || bits == most || is_stopped) return passage.arrival();
-    bits = next_bits(passage, journey, passage.part_done());
+    bits = next_bits(passage, journey);
   }
 }
 

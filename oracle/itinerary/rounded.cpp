@@ -19,7 +19,7 @@ class Rounded final : public RoundedItinerary::Impl {
     const Ball::WorkingPrecision precision(bits);
     const BallVec<D> v = velocity_of<D>(start, problem_.unit);
     for (std::size_t i = 0; i < D; ++i) {
-      state_.y[i] = rounded(Ball(problem_.x[i]));
+      state_.y[i] = (Ball(problem_.x[i]) + Ball()).middle();  // a sum is rounded
       state_.v[i] = v[i].middle();
     }
     speed2_ = dot(state_.v, state_.v).middle();
@@ -31,8 +31,8 @@ class Rounded final : public RoundedItinerary::Impl {
     const auto* obstacle = std::get_if<ObstacleId>(&next);
     if (!obstacle) return std::nullopt;
     const ZVec<D> centre = sight_.centre_of(*obstacle);
-    State<D> state = state_;
-    for (std::size_t i = 0; i < D; ++i) state.y[i] = rounded(state.y[i] + Ball(centre_[i] - centre[i]));
+    State<D> state = state_.seen_from(centre_, centre);
+    for (Ball& component : state.y) component = component.middle();
     const auto collision = collide(state, sight_.form_of(*obstacle));
     if (!collision) return std::nullopt;  // to this precision it only touches the obstacle
     settle(*collision, sight_.form_of(*obstacle));
@@ -42,8 +42,6 @@ class Rounded final : public RoundedItinerary::Impl {
   }
 
  private:
-  static Ball rounded(const Ball& a) { return (a + Ball()).middle(); }
-
   // Puts the particle on the surface, at the speed of the start, as good programs do.
   void settle(const EnclosedCollision<D>& collision, const Form<D>& form) {
     const Ball onto = form.radius / sqrt(dot(collision.w, collision.w));

@@ -69,13 +69,6 @@ struct DualVector {
   }
 };
 
-std::array<ZVec<2>, 2> dual_vectors(const Basis<2>& b) {
-  return {ZVec<2>{b[1].p[1], -b[1].p[0]}, ZVec<2>{-b[0].p[1], b[0].p[0]}};
-}
-std::array<ZVec<3>, 3> dual_vectors(const Basis<3>& b) {
-  return {cross(b[1].p, b[2].p), cross(b[2].p, b[0].p), cross(b[0].p, b[1].p)};
-}
-
 // Calls visit for all combinations of the vectors with small coefficients, one of each pair of opposite
 // signs.
 template <class Vector, std::size_t D, class Visit>
@@ -93,14 +86,11 @@ bool any_combination(const std::array<Vector, D>& basis, const Visit& visit) {
   return false;
 }
 
-// The normal, after a linear map, of the line or plane to which G was normal.
-ZVec<2> mapped_normal(const ZMatrix<2>& map, const ZVec<2>& G) {
-  const ZVec<2> along = map * ZVec<2>{Z(-G[1]), G[0]};
-  return {Z(-along[1]), along[0]};
-}
-ZVec<3> mapped_normal(const ZMatrix<3>& map, const ZVec<3>& G) {
-  const ZVec<3> one = cross(G, G[0] == 0 && G[1] == 0 ? ZVec<3>{1, 0, 0} : ZVec<3>{0, 0, 1});
-  return cross(map * one, map * cross(G, one));
+// The normal, after a linear map M, of the line or plane to which G was normal: det(M) M^-T G. Its matrix is
+// the adjugate of M^T, whose columns are the rows of M.
+template <std::size_t D>
+ZVec<D> mapped_normal(const ZMatrix<D>& map, const ZVec<D>& G) {
+  return adjugate(map) * G;
 }
 
 template <std::size_t D>
@@ -126,7 +116,7 @@ class CorridorSearch {
     const ExactVelocity<D> velocity{direction, dot(direction, direction)};
     for (const Uncertain<D>& atom : query_.atoms()) {
       const ExactScene<D>& scene = query_.scene();
-      View<D> view = view_of<D>(scene, atom.lattice(), atom.atom(), query.x, velocity, query.length_exponent);
+      View<D> view = scene.view(atom.lattice(), atom.atom(), query.x, velocity, query.length_exponent);
       if (G != ZVec<D>{}) {
         const auto& frame = scene.lattices[atom.lattice()].atoms[atom.atom()].frame;
         const ZVec<D> normal = frame ? mapped_normal(frame->to_ball, G) : G;
@@ -155,7 +145,7 @@ class CorridorSearch {
   // planes (3D).
   bool along_planes(const Basis<D>& basis) const {
     std::array<DualVector<D>, D> dual;
-    const auto vectors = dual_vectors(basis);
+    const auto vectors = dual_of(basis);
     for (std::size_t i = 0; i < D; ++i) dual[i] = {vectors[i], dot(vectors[i], box_.v)};
     const Z v2 = dot(box_.v, box_.v);
     reduce(dual, [&](const DualVector<D>& a, const DualVector<D>& b) -> Z {

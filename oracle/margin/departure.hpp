@@ -128,8 +128,7 @@ class DepartureBound {
       const std::optional<Z> end = last_s(view);
       const auto look = [&](const Centre<D>& centre) {
         ++passed_over_;
-        const bool entered = centre.s > 0 && centre.h2 < atom.rho2() && centre.c2 >= view.radius2;
-        if (entered && !query_.is_from(atom, centre.point.n))
+        if (atom.is_entered(centre) && !query_.is_from(atom, centre.point.n))
           needs(atom.margin_of_meeting(centre), atom, centre);
       };
       // A flight along the lattice has no end. It is followed up to the first obstacle with more to spare.
@@ -191,11 +190,10 @@ class DepartureBound {
     return compare_entries(centre.s, atom.rho2() - centre.h2, atom.view().velocity.v2, hit.s, grazing,
                            target.view().velocity.v2) > 0;
   }
-  Real spare_before(const Uncertain<D>& target, const Centre<D>& hit, const Uncertain<D>& atom,
-                    const Centre<D>& centre) const {
-    if (hit.h2 < target.rho2()) return margin_of_order(query_.ulps(), atom, centre, target, hit);
-    return (target.time_of(hit) - atom.time_of(centre)) /
-           largest_change(query_.ulps(), atom, atom.arrival(centre));
+  static Real spare_before(const Uncertain<D>& target, const Centre<D>& hit, const Uncertain<D>& atom,
+                           const Centre<D>& centre) {
+    if (hit.h2 < target.rho2()) return atom.margin_of_order(centre, target, hit);
+    return (target.time_of(hit) - atom.time_of(centre)) / atom.change_of_time(centre);
   }
 
   // The obstacles of one atom that are entered before X. If X is missed by a little, the point of the line
@@ -214,7 +212,7 @@ class DepartureBound {
     ++passed_over_;
     const bool is_target = &atom == &target && centre.point.n == hit.point.n;
     if (is_target || query_.is_from(atom, centre.point.n)) return;
-    if (centre.s <= 0 || centre.h2 >= atom.rho2() || centre.c2 < atom.view().radius2) return;
+    if (!atom.is_entered(centre)) return;
     if (is_after(target, hit, atom, centre)) return;
     if (is_excused_by_time(target.time_of(hit), atom, centre)) {
       used_tolerance_ = true;

@@ -173,11 +173,10 @@ class ExcusedSearch {
   // Notes an obstacle that is entered with more to spare. An obstacle that is entered later than this one, by
   // more than the uncertainty of their order, is not excused.
   void note_certain(const Uncertain<D>& atom, const Centre<D>& centre) {
-    const bool is_entered = centre.s > 0 && centre.h2 < atom.rho2() && centre.c2 >= atom.view().radius2;
-    if (!is_entered || is_excused(atom.margin_of_meeting(centre))) return;
+    if (!atom.is_entered(centre) || is_excused(atom.margin_of_meeting(centre))) return;
     is_never_out_ |= is_met_for_certain(atom, centre);
-    const Real change = largest_change(query_.ulps(), atom, atom.arrival(centre));
-    const Real until = atom.time_of(centre) + 2 * Real(ulps_) * change + 4 * longest_radius();
+    const Real until =
+        atom.time_of(centre) + 2 * Real(ulps_) * atom.change_of_time(centre) + 4 * longest_radius();
     if (!until_ || until < *until_) until_ = until;
   }
 

@@ -135,7 +135,7 @@ class MarginSearch {
       consider(DecisionKind::meeting, atom, centre, meets, atom.margin_of_meeting(centre));
     else if (meets && centre.s > 0)
       consider(DecisionKind::order, atom, centre, false,
-               margin_of_order(query_.ulps(), target_, target_centre_, atom, centre));
+               target_.margin_of_order(target_centre_, atom, centre));
   }
 
   // True if a missed obstacle, were it just met, would be entered before the one that was hit.
@@ -170,7 +170,7 @@ std::vector<PassedObstacle> passed_obstacles(const PerturbedQuery<D>& perturbed,
   const Uncertain<D>& target = perturbed.atom_of(exact.obstacle);
   const Centre<D> hit = perturbed.centre_of(exact.obstacle);
   const Real target_time = target.time_of(hit);
-  const long own_units = perturbed.query().length_exponent - perturbed.query().velocity_exponent;
+  const long own_units = perturbed.query().time_exponent();
   std::vector<PassedObstacle> all;
   for (double wide = 1 + 0x1p-20; wide < 4 && all.size() < most; wide = 1 + (wide - 1) * 8) {
     all.clear();
@@ -276,9 +276,8 @@ Crossing Margins::crossing(const Query& query, const ObstacleId& obstacle) const
     const ExactQuery<D>& exact = perturbed.query();
     Crossing its{sgn(discriminant), "", {}};
     if (its.discriminant > 0)
-      its.time_decimal = round_to_decimal({centre.s, -1, discriminant, atom.view().velocity.v2,
-                                           exact.length_exponent - exact.velocity_exponent},
-                                          17);
+      its.time_decimal =
+          round_to_decimal({centre.s, -1, discriminant, atom.view().velocity.v2, exact.time_exponent()}, 17);
     const ZVec<D> place = centre_of<D>(perturbed.scene(), obstacle.lattice, obstacle.atom,
                                        to_zvec<D>(obstacle.cell), ZVec<D>{}, exact.length_exponent);
     for (std::size_t i = 0; i < D; ++i) {

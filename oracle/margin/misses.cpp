@@ -1,17 +1,6 @@
 #include "oracle/margin/misses.hpp"
 
-#include <algorithm>
-
-#include "oracle/exact/stretches.hpp"
-
 namespace lorentz::oracle {
-
-template <std::size_t D>
-bool is_open_everywhere(const ExactScene<D>& scene) {
-  return std::all_of(scene.lattices.begin(), scene.lattices.end(),
-                     [](const ExactLattice<D>& lattice) { return lattice.rank < D; });
-}
-
 namespace {
 
 template <std::size_t D>
@@ -87,8 +76,6 @@ HardestDecision hardest_miss(const PerturbedQuery<D>& perturbed, long budget) {
   return MissSearch<D>(perturbed, budget).run();
 }
 
-template bool is_open_everywhere(const ExactScene<2>&);
-template bool is_open_everywhere(const ExactScene<3>&);
 template HardestDecision hardest_miss(const PerturbedQuery<2>&, long);
 template HardestDecision hardest_miss(const PerturbedQuery<3>&, long);
 

@@ -157,18 +157,26 @@ Real Uncertain<D>::largest_change_across(const Real& latest) const {
 }
 
 template <std::size_t D>
-Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const Centre<D>& centre1,
-                     const Uncertain<D>& atom2, const Centre<D>& centre2) {
-  const int order = compare_entries(centre1.s, atom1.rho2() - centre1.h2, atom1.view().velocity.v2, centre2.s,
-                                    atom2.rho2() - centre2.h2, atom2.view().velocity.v2);
+Real Uncertain<D>::change_of_time(const Centre<D>& centre) const {
+  const PerturbedArrival<D> its = arrival(centre);
+  Real change = its.by_radius * radius_ulp_;
+  for (std::size_t i = 0; i < D; ++i) change += abs(its.by_x[i]) * (ulps_.x[i] + abs(its.t) * ulps_.v[i]);
+  return change;
+}
+
+template <std::size_t D>
+Real Uncertain<D>::margin_of_order(const Centre<D>& centre, const Uncertain& other,
+                                   const Centre<D>& its) const {
+  const int order = compare_entries(centre.s, rho2_ - centre.h2, view_.velocity.v2, its.s,
+                                    other.rho2_ - its.h2, other.view_.velocity.v2);
   if (order == 0) return Real(0);
-  const PerturbedArrival<D> one = atom1.arrival(centre1), two = atom2.arrival(centre2);
-  const bool same_radius = atom1.lattice() == atom2.lattice() && atom1.atom() == atom2.atom();
-  Real change = same_radius ? abs(two.by_radius - one.by_radius) * atom1.radius_ulp()
-                            : two.by_radius * atom2.radius_ulp() + one.by_radius * atom1.radius_ulp();
+  const PerturbedArrival<D> one = arrival(centre), two = other.arrival(its);
+  const bool same_radius = lattice_ == other.lattice_ && atom_ == other.atom_;
+  Real change = same_radius ? abs(two.by_radius - one.by_radius) * radius_ulp_
+                            : two.by_radius * other.radius_ulp_ + one.by_radius * radius_ulp_;
   for (std::size_t i = 0; i < D; ++i) {
-    change += abs(two.by_x[i] - one.by_x[i]) * ulps.x[i];
-    change += abs(two.t * two.by_x[i] - one.t * one.by_x[i]) * ulps.v[i];
+    change += abs(two.by_x[i] - one.by_x[i]) * ulps_.x[i];
+    change += abs(two.t * two.by_x[i] - one.t * one.by_x[i]) * ulps_.v[i];
   }
   // The obstacles are so far away that all digits carried are the same: they are translates along the flight,
   // which any error moves alike.
@@ -176,23 +184,9 @@ Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const 
   return abs(two.t - one.t) / change;
 }
 
-template <std::size_t D>
-Real largest_change(const InputUlps<D>& ulps, const Uncertain<D>& atom, const PerturbedArrival<D>& arrival) {
-  Real change = arrival.by_radius * atom.radius_ulp();
-  for (std::size_t i = 0; i < D; ++i)
-    change += abs(arrival.by_x[i]) * (ulps.x[i] + abs(arrival.t) * ulps.v[i]);
-  return change;
-}
-
 template struct InputUlps<2>;
 template struct InputUlps<3>;
 template class Uncertain<2>;
 template class Uncertain<3>;
-template Real margin_of_order(const InputUlps<2>&, const Uncertain<2>&, const Centre<2>&, const Uncertain<2>&,
-                              const Centre<2>&);
-template Real margin_of_order(const InputUlps<3>&, const Uncertain<3>&, const Centre<3>&, const Uncertain<3>&,
-                              const Centre<3>&);
-template Real largest_change(const InputUlps<2>&, const Uncertain<2>&, const PerturbedArrival<2>&);
-template Real largest_change(const InputUlps<3>&, const Uncertain<3>&, const PerturbedArrival<3>&);
 
 }  // namespace lorentz::oracle

@@ -84,7 +84,6 @@ class Uncertain {
   const Z& rho2() const { return rho2_; }
   int lattice() const { return lattice_; }
   int atom() const { return atom_; }
-  const Real& radius_ulp() const { return radius_ulp_; }
 
   /// ||x - c| - r| in ulps.
   Real margin_of_containing(const Centre<D>& centre) const;
@@ -96,6 +95,15 @@ class Uncertain {
   /// nearest to them. (Their derivatives would be infinite, so `arrival` throws for them.)
   PerturbedArrival<D> arrival(const Centre<D>& centre) const;
   Real time_of(const Centre<D>& centre) const;
+  /// The largest change of the time of entry.
+  Real change_of_time(const Centre<D>& centre) const;
+  /// The difference of the times of entry of this atom's obstacle and another one, in ulps; zero for a tie.
+  Real margin_of_order(const Centre<D>& centre, const Uncertain& other, const Centre<D>& its) const;
+
+  /// True if the line enters the obstacle at t >= 0.
+  bool is_entered(const Centre<D>& centre) const {
+    return centre.s > 0 && centre.h2 < rho2_ && centre.c2 >= view_.radius2;
+  }
 
   /// The largest change of the position of x along a direction, plus that of r.
   Real change_along(const ZVec<D>& direction) const;
@@ -120,14 +128,5 @@ class Uncertain {
   Z rho2_;
   Real radius_ulp_;
 };
-
-/// |t2 - t1| of two entries, in ulps; zero for a tie.
-template <std::size_t D>
-Real margin_of_order(const InputUlps<D>& ulps, const Uncertain<D>& atom1, const Centre<D>& centre1,
-                     const Uncertain<D>& atom2, const Centre<D>& centre2);
-
-/// The largest change of a time of entry.
-template <std::size_t D>
-Real largest_change(const InputUlps<D>& ulps, const Uncertain<D>& atom, const PerturbedArrival<D>& arrival);
 
 }  // namespace lorentz::oracle

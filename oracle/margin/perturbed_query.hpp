@@ -3,7 +3,6 @@
 
 #include <deque>
 #include <string>
-#include <variant>
 
 #include <lorentz/errors.hpp>
 
@@ -70,27 +69,22 @@ class PerturbedQuery {
 /// The largest change of the time at which an obstacle is entered, in the query's own units.
 template <std::size_t D>
 Real change_of_time(const PerturbedQuery<D>& perturbed, const ObstacleId& id) {
-  const Uncertain<D>& atom = perturbed.atom_of(id);
-  const Real change = largest_change(perturbed.ulps(), atom, atom.arrival(perturbed.centre_of(id)));
-  const ExactQuery<D>& query = perturbed.query();
-  return times_power_of_two(change, query.length_exponent - query.velocity_exponent);
+  return times_power_of_two(perturbed.atom_of(id).change_of_time(perturbed.centre_of(id)),
+                            perturbed.query().time_exponent());
 }
 
 /// The time at which an obstacle is entered, in the query's own units; it may be beyond binary64.
 template <std::size_t D>
 Real time_in_own_units(const PerturbedQuery<D>& perturbed, const ObstacleId& id) {
-  const ExactQuery<D>& query = perturbed.query();
   return times_power_of_two(perturbed.atom_of(id).time_of(perturbed.centre_of(id)),
-                            query.length_exponent - query.velocity_exponent);
+                            perturbed.query().time_exponent());
 }
 
 /// A scene for queries with uncertainty.
 class PerturbedScene {
  public:
   PerturbedScene(const Scene& scene, NumberFormat precision)
-      : scene_(scene),
-        precision_(precision),
-        exact_scene_(scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))) {}
+      : scene_(scene), precision_(precision), exact_scene_(any_exact_scene(scene)) {}
 
   const Scene& scene() const { return scene_; }
   NumberFormat precision() const { return precision_; }
@@ -108,10 +102,9 @@ class PerturbedScene {
   }
 
  private:
-  using Exact = std::variant<ExactScene<2>, ExactScene<3>>;
   Scene scene_;
   NumberFormat precision_;
-  Exact exact_scene_;
+  AnyExactScene exact_scene_;
 };
 
 }  // namespace lorentz::oracle

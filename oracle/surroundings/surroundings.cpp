@@ -60,14 +60,9 @@ class SightLine {
   Real mark_of(const PlaceOnLine& place) const {
     if (!place.obstacle)
       return times_power_of_two(Real(place.time), query_.velocity_exponent - query_.length_exponent);
-    const ObstacleId& id = *place.obstacle;
-    const View<D> view = query_.view(scene_, id.lattice, id.atom);
-    ZVec<D> c =
-        centre_of<D>(scene_, id.lattice, id.atom, to_zvec<D>(id.cell), query_.x, query_.length_exponent);
-    if (const auto& frame = scene_.lattices[id.lattice].atoms[id.atom].frame) c = frame->to_ball * c;
-    const Z s = dot(view.velocity.v, c), v2 = view.velocity.v2;
-    const Z d = view.radius2 * v2 - (v2 * dot(c, c) - s * s);  // rho^2 - |h|^2
-    return (d > 0 ? real(s) - sqrt(real(d)) : real(s)) / real(v2);
+    const ExactEntry<D> entry = query_.meeting(scene_, *place.obstacle);
+    const Real s = real(entry.s);
+    return (entry.d > 0 ? s - sqrt(real(entry.d)) : s) / real(entry.v2);
   }
 
   ZVec<D> point(const PlaceOnLine& place) const {
@@ -88,15 +83,14 @@ class SightLine {
   void visit(int l, int a, const ZVec<D>& middle, const Z& radius2, std::size_t most,
              Neighbourhood& found) const {
     Basis<D> basis = scene_.lattices[l].reduced;
-    for (auto& b : basis)
-      for (Z& component : b.p) component = shifted_left(component, scene_.exponent - exponent());
+    const Z unit = shifted_left(1, static_cast<unsigned long>(scene_.exponent - exponent()));
+    for (auto& b : basis) b.p = unit * b.p;
     LatticePoint<D> offset;
     offset.p = centre_of<D>(scene_, l, a, offset.n, middle, exponent());
     // The completing vectors are made so long that no copy is in the ball.
     const std::size_t rank = scene_.lattices[l].rank;
     const Z far = ceil_sqrt(radius2) + ceil_sqrt(dot(offset.p, offset.p)) + 1;
-    for (std::size_t i = rank; i < D; ++i)
-      for (Z& component : basis[i].p) component *= far;
+    for (std::size_t i = rank; i < D; ++i) basis[i].p = far * basis[i].p;
     const ZVec<D> coordinates = cramer(basis, offset.p);
     const Z det = determinant<D>(basis);
     for (std::size_t i = 0; i < D; ++i) offset.add_multiple(-floor_div(coordinates[i], det), basis[i]);

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include <lorentz/errors.hpp>
+#include <lorentz/geometry.hpp>
 #include <lorentz/pimpl.hpp>
 
 namespace lorentz::oracle {
@@ -48,6 +49,10 @@ Real inner(const RealVec& a, const RealVec& b) {
 
 RealVec outer(const RealVec& a, const RealVec& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Cell to_cell(const Index& n) {
+  return {Integer(n[0]), Integer(n[1]), Integer(n[2])};
 }
 
 struct Hit {
@@ -193,9 +198,7 @@ class AtomWalk {
         for (m[2] = low[2]; m[2] <= high[2]; ++m[2]) visit(m);
   }
 
-  bool is_from(const Index& n) const {
-    return from_ && *from_ == Cell{Integer(n[0]), Integer(n[1]), Integer(n[2])};
-  }
+  bool is_from(const Index& n) const { return from_ && *from_ == to_cell(n); }
 
   void test(const Index& n, std::optional<Hit>& best) const {
     const RealVec c = centre(n);
@@ -299,16 +302,6 @@ double rounded(const Root& time) {
   return value(up ? high : low);
 }
 
-Cell to_cell(const Index& n) {
-  return {Integer(n[0]), Integer(n[1]), Integer(n[2])};
-}
-
-std::array<Vec, 3> columns_of(const Atom& atom) {
-  std::array<Vec, 3> columns{};
-  std::copy(atom.semiaxes.begin(), atom.semiaxes.end(), columns.begin());
-  return columns;
-}
-
 // Decides exactly whether the first `count` vectors are linearly dependent. (In the plane the third
 // components are zero.)
 bool are_dependent(const std::array<Vec, 3>& vectors, int count) {
@@ -326,7 +319,7 @@ Walk::Walk(Scene scene, std::int64_t max_cells) : scene_(std::move(scene)), max_
   for (const Lattice& lattice : scene_.lattices) {
     bool dependent = are_dependent(lattice.vectors, lattice.rank(scene_.dimension));
     for (const Atom& atom : lattice.atoms)
-      dependent |= !atom.is_ball() && are_dependent(columns_of(atom), scene_.dimension);
+      dependent |= !atom.is_ball() && are_dependent(semiaxes_of(atom, scene_.dimension), scene_.dimension);
     if (dependent) throw InputError("scene: vectors of a lattice, or semiaxes, are linearly dependent");
   }
 }

@@ -11,7 +11,7 @@ inline FormulaClaim volume_of_cell() {
   const std::array<Symbol, 3> a = vector_of(in, "a"), b = vector_of(in, "b"), c = vector_of(in, "c");
   return in
       .claim({"kCoordinate", kCoordinate, "11"}, "volume_of_cell", volume_of(a, cross_product(b, c)),
-             exact_volume("a", "b", "c"), size_of_volume("a", "b", "c"))
+             volume_terms("a", "b", "c"))
       .taken(1.41422, "length of b x c");
 }
 inline FormulaClaim coordinate_in_cell() {
@@ -20,15 +20,12 @@ inline FormulaClaim coordinate_in_cell() {
                               cross = cross_product(b, c);
   const Symbol volume = in.rounded("volume", 11.4);
   in.given("0 < exact_volume");
-  std::array<Symbol, 3> dual;
-  std::string exact, size;
-  for (int i = 0; i < 3; ++i) {
-    dual[i] = cross[i] / volume;
-    exact += " + " + exact_cross("b", "c", i) + " / exact_volume * exact_" + numbered("a", i);
-    size += " + " + size_of_cross("b", "c", i) + " / Rabs exact_volume * Rabs exact_" + numbered("a", i);
-  }
+  const std::array<Symbol, 3> dual{cross[0] / volume, cross[1] / volume, cross[2] / volume};
+  const auto one = [](int i) {
+    return cross_terms("b", "c", i) / "exact_volume" * ("exact_" + numbered("a", i));
+  };
   return in.claim({"kCoordinate", kCoordinate, "20"}, "coordinate_in_cell", volume_of(dual, a),
-                  exact.substr(3), size.substr(3));
+                  one(0) + one(1) + one(2));
 }
 
 /// The norm of a matrix.

@@ -25,30 +25,18 @@ inline std::array<Symbol, 3> vector_of(Inputs& in, const std::string& name) {
   return a;
 }
 
-/// Component i of b x c, and the sizes of its terms.
-inline std::string exact_cross(const std::string& b, const std::string& c, int i) {
-  const int j = (i + 1) % 3, k = (i + 2) % 3;
-  return "(exact_" + numbered(b, j) + " * exact_" + numbered(c, k) + " - exact_" + numbered(b, k) +
-         " * exact_" + numbered(c, j) + ")";
-}
-inline std::string size_of_cross(const std::string& b, const std::string& c, int i) {
-  const int j = (i + 1) % 3, k = (i + 2) % 3;
-  return "(Rabs (exact_" + numbered(b, j) + " * exact_" + numbered(c, k) + ") + Rabs (exact_" +
-         numbered(b, k) + " * exact_" + numbered(c, j) + "))";
+/// Component i of b x c.
+inline SizedTerms cross_terms(const std::string& b, const std::string& c, int i) {
+  const auto product = [&](int j, int k) {
+    return term("exact_" + numbered(b, j % 3) + " * exact_" + numbered(c, k % 3));
+  };
+  return whole(product(i + 1, i + 2) - product(i + 2, i + 1));
 }
 
 /// a . (b x c).
-inline std::string exact_volume(const std::string& a, const std::string& b, const std::string& c) {
-  std::string sum;
-  for (int i = 0; i < 3; ++i)
-    sum += (i ? " + exact_" : "exact_") + numbered(a, i) + " * " + exact_cross(b, c, i);
-  return sum;
-}
-inline std::string size_of_volume(const std::string& a, const std::string& b, const std::string& c) {
-  std::string sum;
-  for (int i = 0; i < 3; ++i)
-    sum += (i ? " + Rabs exact_" : "Rabs exact_") + numbered(a, i) + " * " + size_of_cross(b, c, i);
-  return sum;
+inline SizedTerms volume_terms(const std::string& a, const std::string& b, const std::string& c) {
+  const auto one = [&](int i) { return ("exact_" + numbered(a, i)) * cross_terms(b, c, i); };
+  return one(0) + one(1) + one(2);
 }
 
 }  // namespace lorentz::bounds

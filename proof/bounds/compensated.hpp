@@ -76,18 +76,13 @@ struct ThreeForms {
 inline const std::string kOfForms = "n0 * (F0 + f0) + n1 * (F1 + f1) + n2 * (F2 + f2)",
                          kLowOfForms = "Rabs (n0 * f0) + Rabs (n1 * f1) + Rabs (n2 * f2)";
 
-inline FormulaClaim low_part_of_sum() {
+inline FormulaClaim low_part_of_sum(bool from_start) {
   ThreeForms forms;
   Inputs& in = forms.in;
   const Symbol n[3] = {in.number("n0"), in.number("n1"), in.number("n2")};
-  return low_part(in, "low_part_of_sum", compensated_sum<TwoParts>(forms.f, n), kOfForms, kLowOfForms, 4,
-                  "products, two sums, forms");
-}
-
-inline FormulaClaim low_part_of_sum_from_start() {
-  ThreeForms forms;
-  Inputs& in = forms.in;
-  const Symbol n[3] = {in.number("n0"), in.number("n1"), in.number("n2")};
+  if (!from_start)
+    return low_part(in, "low_part_of_sum", compensated_sum<TwoParts>(forms.f, n), kOfForms, kLowOfForms, 4,
+                    "products, two sums, forms");
   return low_part(in, "low_part_of_sum_from_start", compensated_sum_from<TwoParts>(forms.start(), forms.f, n),
                   "S + low + " + kOfForms, kLowOfForms, 5, "products, three sums, forms");
 }
@@ -108,7 +103,7 @@ inline FormulaClaim low_part_of_wide_sum() {
 }
 
 inline std::vector<FormulaClaim> of_compensated_sums() {
-  return {low_part_of_height(), low_part_of_sum(), low_part_of_sum_from_start(), low_part_of_wide_sum()};
+  return {low_part_of_height(), low_part_of_sum(false), low_part_of_sum(true), low_part_of_wide_sum()};
 }
 
 }  // namespace lorentz::bounds

@@ -54,6 +54,35 @@ struct FormulaClaim {
   bool has_script() const { return !wide && (computed.size > 0 || !ranges.empty()); }
 };
 
+/// A real number as it is written by hand, and the sizes of its terms.
+struct SizedTerms {
+  std::string exact, size;
+
+  friend SizedTerms operator+(const SizedTerms& a, const SizedTerms& b) {
+    return {a.exact + " + " + b.exact, a.size + " + " + b.size};
+  }
+  friend SizedTerms operator-(const SizedTerms& a, const SizedTerms& b) {
+    return {a.exact + " - " + b.exact, a.size + " + " + b.size};
+  }
+  friend SizedTerms operator*(const std::string& factor, const SizedTerms& a) {
+    return {factor + " * " + a.exact, "Rabs " + factor + " * " + a.size};
+  }
+  friend SizedTerms operator*(const SizedTerms& a, const std::string& factor) {
+    return {a.exact + " * " + factor, a.size + " * Rabs " + factor};
+  }
+  friend SizedTerms operator/(const SizedTerms& a, const std::string& divisor) {
+    return {a.exact + " / " + divisor, a.size + " / Rabs " + divisor};
+  }
+};
+/// A number, or a product of some.
+inline SizedTerms term(const std::string& text) {
+  return {text, text.find(' ') == text.npos ? "Rabs " + text : "Rabs (" + text + ")"};
+}
+/// In parentheses.
+inline SizedTerms whole(const SizedTerms& a) {
+  return {"(" + a.exact + ")", "(" + a.size + ")"};
+}
+
 /// Makes the inputs of one statement, and the statement.
 class Inputs {
  public:
@@ -65,16 +94,11 @@ class Inputs {
     if (!wide_) given_.push_back("number " + name);
     return {name};
   }
-  /// A binary64 that stands for exact_NAME, from which it is `roundoffs` away at most.
-  Symbol rounded(const std::string& name, double roundoffs) {
+  /// A binary64 that stands for exact_NAME, from which it is `roundoffs` away at most, relative to `size`.
+  Symbol rounded(const std::string& name, double roundoffs, const std::string& size = "") {
     variables_.insert(variables_.end(), {name, "exact_" + name});
-    given_.push_back("rounded " + name + " exact_" + name + " " + decimal(roundoffs));
-    return {name, roundoffs};
-  }
-  /// The same, where that is relative to `size`.
-  Symbol rounded_of(const std::string& name, double roundoffs, const std::string& size) {
-    variables_.insert(variables_.end(), {name, "exact_" + name});
-    given_.push_back("rounded_of " + name + " exact_" + name + " " + size + " " + decimal(roundoffs));
+    given_.push_back((size.empty() ? "rounded " : "rounded_of ") + name + " exact_" + name + " " +
+                     (size.empty() ? "" : size + " ") + decimal(roundoffs));
     return {name, roundoffs};
   }
   /// Any real number.
@@ -86,6 +110,10 @@ class Inputs {
                      std::string size) const {
     return {std::move(constant), std::move(name), variables_, given_, must_not_underflow(), computed,
             std::move(exact),    std::move(size), wide_};
+  }
+  FormulaClaim claim(Constant constant, std::string name, const Symbol& computed,
+                     const SizedTerms& terms) const {
+    return claim(std::move(constant), std::move(name), computed, terms.exact, terms.size);
   }
 
   static std::string decimal(double value) {

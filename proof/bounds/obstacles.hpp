@@ -27,10 +27,10 @@ inline FormulaClaim inside_of_ellipsoid() {
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) {
       const std::string entry = numbered(numbered("G", i), k);
-      const std::string term =
+      const std::string product =
           "exact_" + entry + " * exact_" + numbered("d", i) + " * exact_" + numbered("d", k);
       G[i][k].hi = in.rounded(entry, kHigh);
-      form += " + " + term, sizes += " + Rabs (" + term + ")";
+      form += " + " + product, sizes += " + Rabs (" + product + ")";
     }
   const Symbol r = in.number("r");
   return in.claim({"kInsideEllipsoid", kInsideEllipsoid, "13"}, "inside_of_ellipsoid",
@@ -42,8 +42,7 @@ inline FormulaClaim along_to_ball() {
   const Symbol v[3] = {in.number("v0"), in.number("v1"), in.number("v2")},
                d[3] = {in.rounded("d0", kHigh), in.rounded("d1", kHigh), in.rounded("d2", kHigh)};
   return in.claim({"kLoneAlong", kLoneAlong, "4"}, "along_to_ball", product_of(v, d),
-                  "v0 * exact_d0 + v1 * exact_d1 + v2 * exact_d2",
-                  "Rabs (v0 * exact_d0) + Rabs (v1 * exact_d1) + Rabs (v2 * exact_d2)");
+                  term("v0 * exact_d0") + term("v1 * exact_d1") + term("v2 * exact_d2"));
 }
 
 inline FormulaClaim across_to_ball() {
@@ -53,8 +52,8 @@ inline FormulaClaim across_to_ball() {
   Symbol h[1];
   cross_of(v, d, h);
   return in
-      .claim({"kLoneAcross", kLoneAcross, "4.2"}, "across_to_ball", h[0], "v0 * exact_d1 - v1 * exact_d0",
-             "Rabs (v0 * exact_d1) + Rabs (v1 * exact_d0)")
+      .claim({"kLoneAcross", kLoneAcross, "4.2"}, "across_to_ball", h[0],
+             term("v0 * exact_d1") - term("v1 * exact_d0"))
       .taken(1.41422, "three components");
 }
 
@@ -75,12 +74,8 @@ inline Symbol start_of_row(Inputs& in, const Symbol& k, const Symbol& t0, const 
                d = in.rounded("d" + i, kHigh);
   return stepped(d, k, sum_of_products(t0, B0, t1, B1));
 }
-inline std::string exact_start_of_row(const std::string& i) {
-  return "(exact_d" + i + " + k * (t0 * exact_B0_" + i + " + t1 * exact_B1_" + i + "))";
-}
-inline std::string size_of_start_of_row(const std::string& i) {
-  return "(Rabs exact_d" + i + " + Rabs k * (Rabs (t0 * exact_B0_" + i + ") + Rabs (t1 * exact_B1_" + i +
-         ")))";
+inline SizedTerms start_terms(const std::string& i) {
+  return whole(term("exact_d" + i) + "k" * whole(term("t0 * exact_B0_" + i) + term("t1 * exact_B1_" + i)));
 }
 
 inline FormulaClaim across_to_row() {
@@ -90,8 +85,7 @@ inline FormulaClaim across_to_row() {
                a1 = start_of_row(in, k, t0, t1, "1");
   return in
       .claim({"kSparse", kSparse, "9.9"}, "across_to_row", difference_of_products(v0, a1, v1, a0),
-             "v0 * " + exact_start_of_row("1") + " - v1 * " + exact_start_of_row("0"),
-             "Rabs v0 * " + size_of_start_of_row("1") + " + Rabs v1 * " + size_of_start_of_row("0"))
+             "v0" * start_terms("1") - "v1" * start_terms("0"))
       .taken(1.41422, "three components");
 }
 
@@ -102,10 +96,7 @@ inline FormulaClaim along_to_row() {
                a[3] = {start_of_row(in, k, t0, t1, "0"), start_of_row(in, k, t0, t1, "1"),
                        start_of_row(in, k, t0, t1, "2")};
   return in.claim({"kSparse", kSparse, "8"}, "along_to_row", product_of(v, a),
-                  "v0 * " + exact_start_of_row("0") + " + v1 * " + exact_start_of_row("1") + " + v2 * " +
-                      exact_start_of_row("2"),
-                  "Rabs v0 * " + size_of_start_of_row("0") + " + Rabs v1 * " + size_of_start_of_row("1") +
-                      " + Rabs v2 * " + size_of_start_of_row("2"));
+                  "v0" * start_terms("0") + "v1" * start_terms("1") + "v2" * start_terms("2"));
 }
 
 /// N a of a vector, relative to the size of its terms: the condition times the image's, at most.
@@ -115,8 +106,7 @@ inline FormulaClaim image_in_shape() {
                a[3] = {in.rounded("a0", kHigh), in.rounded("a1", kHigh), in.rounded("a2", kHigh)};
   return in
       .claim({"kSparseOfShape", kSparseOfShape, "10"}, "image_in_shape", product_of(N, a),
-             "exact_N0 * exact_a0 + exact_N1 * exact_a1 + exact_N2 * exact_a2",
-             "Rabs (exact_N0 * exact_a0) + Rabs (exact_N1 * exact_a1) + Rabs (exact_N2 * exact_a2)")
+             term("exact_N0 * exact_a0") + term("exact_N1 * exact_a1") + term("exact_N2 * exact_a2"))
       .taken(2, "two vectors");
 }
 
@@ -125,7 +115,7 @@ inline FormulaClaim height_over_layer() {
   Inputs in;
   const std::array<Symbol, 3> b = vector_of(in, "b"), c = vector_of(in, "c"), d = vector_of(in, "d");
   return in.claim({"kLayer", kLayer, "8"}, "height_over_layer", volume_of(d, cross_product(b, c)).unrounded(),
-                  exact_volume("d", "b", "c"), size_of_volume("d", "b", "c"));
+                  volume_terms("d", "b", "c"));
 }
 
 inline std::vector<FormulaClaim> of_obstacles() {

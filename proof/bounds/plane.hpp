@@ -23,27 +23,31 @@ inline FormulaClaim along_on_unit_lattice() {
   return in.claim(
       {"kAlongOnUnit", kAlongOnUnit, "8"}, "along_on_unit_lattice",
       sum_along(s, n, sum_of_products(R[0], v[0], R[1], v[1]), m, sum_of_products(L[0], v[0], L[1], v[1])),
-      "s + n * (R0 * v0 + R1 * v1) + m * (L0 * v0 + L1 * v1)",
-      "Rabs s + Rabs n * (Rabs (R0 * v0) + Rabs (R1 * v1)) + Rabs m * (Rabs (L0 * v0) + Rabs (L1 * v1))");
+      term("s") + "n" * whole(term("R0 * v0") + term("R1 * v1")) +
+          "m" * whole(term("L0 * v0") + term("L1 * v1")));
 }
 
 /// Elsewhere it is n_0 S_0 + n_1 S_1, and S_i is v . B_i, whose components are rounded.
+inline Symbol along_basis(Inputs& in, const Symbol (&v)[2], const std::string& i) {
+  const Symbol y = in.rounded("y" + i, 1), x = in.rounded("x" + i, 1);
+  return sum_of_products(v[0], x, v[1], y);
+}
+inline SizedTerms along_terms(const std::string& arm) {
+  const auto one = [&](const std::string& i) {
+    return (arm + i) * whole(term("v0 * exact_x" + i) + term("v1 * exact_y" + i));
+  };
+  return whole(one("0") + one("1"));
+}
 inline FormulaClaim along_in_plane() {
   Inputs in;
-  const Symbol v[2] = {in.number("v0"), in.number("v1")},
-               S0 = sum_of_products(v[0], in.rounded("x0", 1), v[1], in.rounded("y0", 1)),
-               S1 = sum_of_products(v[0], in.rounded("x1", 1), v[1], in.rounded("y1", 1)), s = in.number("s"),
-               n = in.number("n"), R[2] = {in.number("R0"), in.number("R1")}, m = in.number("m"),
+  const Symbol v[2] = {in.number("v0"), in.number("v1")}, S0 = along_basis(in, v, "0"),
+               S1 = along_basis(in, v, "1"), s = in.number("s"), n = in.number("n"),
+               R[2] = {in.number("R0"), in.number("R1")}, m = in.number("m"),
                L[2] = {in.number("L0"), in.number("L1")};
-  const std::string exact0 = "(v0 * exact_x0 + v1 * exact_y0)", exact1 = "(v0 * exact_x1 + v1 * exact_y1)",
-                    size0 = "(Rabs (v0 * exact_x0) + Rabs (v1 * exact_y0))",
-                    size1 = "(Rabs (v0 * exact_x1) + Rabs (v1 * exact_y1))";
   return in.claim(
       {"kAlong", kAlong, "8"}, "along_in_plane",
       sum_along(s, n, sum_of_products(R[0], S0, R[1], S1), m, sum_of_products(L[0], S0, L[1], S1)),
-      "s + n * (R0 * " + exact0 + " + R1 * " + exact1 + ") + m * (L0 * " + exact0 + " + L1 * " + exact1 + ")",
-      "Rabs s + Rabs n * (Rabs R0 * " + size0 + " + Rabs R1 * " + size1 + ") + Rabs m * (Rabs L0 * " + size0 +
-          " + Rabs L1 * " + size1 + ")");
+      term("s") + "n" * along_terms("R") + "m" * along_terms("L"));
 }
 
 /// r |v|. A comparison with it is without a rounding of its own (Errors.v, above).
@@ -63,23 +67,17 @@ inline Symbol inverse_of_area(Inputs& in, const Symbol (&v)[2]) {
   in.given("0 < v0 * v0 + v1 * v1"), in.given("0 < exact_area");
   return Symbol("1") / (square_of(v) * in.rounded("area", kVolumeErrs));
 }
-inline const std::string kInverseArea = "/ ((v0 * v0 + v1 * v1) * exact_area)";
+inline const std::string kArea = "((v0 * v0 + v1 * v1) * exact_area)";
 
 inline FormulaClaim number_of_row(const Constant& constant, const std::string& name) {
   Inputs in;
-  const Symbol v[2] = {in.number("v0"), in.number("v1")},
-               S0 = sum_of_products(v[0], in.rounded("x0", 1), v[1], in.rounded("y0", 1)),
-               S1 = sum_of_products(v[0], in.rounded("x1", 1), v[1], in.rounded("y1", 1)),
-               L[2] = {in.number("L0"), in.number("L1")}, S_L = sum_of_products(L[0], S0, L[1], S1),
-               y = in.number("y"), D_L = in.rounded("D_L", 1), s = in.number("s");
-  const std::string exact0 = "(v0 * exact_x0 + v1 * exact_y0)", exact1 = "(v0 * exact_x1 + v1 * exact_y1)",
-                    size0 = "(Rabs (v0 * exact_x0) + Rabs (v1 * exact_y0))",
-                    size1 = "(Rabs (v0 * exact_x1) + Rabs (v1 * exact_y1))";
-  return in.claim(constant, name, row_number(S_L, y, D_L, s, inverse_of_area(in, v)),
-                  "- ((L0 * " + exact0 + " + L1 * " + exact1 + ") * y + exact_D_L * s) " + kInverseArea,
-                  "((Rabs L0 * " + size0 + " + Rabs L1 * " + size1 +
-                      ") * Rabs y + Rabs (exact_D_L * s)) / Rabs ((v0 * v0 "
-                      "+ v1 * v1) * exact_area)");
+  const Symbol v[2] = {in.number("v0"), in.number("v1")}, S0 = along_basis(in, v, "0"),
+               S1 = along_basis(in, v, "1"), L[2] = {in.number("L0"), in.number("L1")},
+               S_L = sum_of_products(L[0], S0, L[1], S1), y = in.number("y"), D_L = in.rounded("D_L", 1),
+               s = in.number("s");
+  const SizedTerms terms = whole(along_terms("L") * "y" + term("exact_D_L * s")) / kArea;
+  return in.claim(constant, name, row_number(S_L, y, D_L, s, inverse_of_area(in, v)), "- " + terms.exact,
+                  terms.size);
 }
 inline FormulaClaim row_beside_start() {
   return number_of_row({"kRowNumber", kRowNumber, "16"}, "row_beside_start");
@@ -96,10 +94,10 @@ inline FormulaClaim row_beside_start_on_square() {
                S_L = sum_of_products(L[0], v[0], L[1], v[1]), y = in.number("y"), D_L = in.number("D_L"),
                s = in.number("s");
   in.given("0 < v0 * v0 + v1 * v1");
+  const SizedTerms terms =
+      whole(whole(term("L0 * v0") + term("L1 * v1")) * "y" + term("D_L * s")) / "(v0 * v0 + v1 * v1)";
   return in.claim({"kRowNumber", kRowNumber, "16"}, "row_beside_start_on_square",
-                  row_number(S_L, y, D_L, s, Symbol("1") / square_of(v)),
-                  "- ((L0 * v0 + L1 * v1) * y + D_L * s) / (v0 * v0 + v1 * v1)",
-                  "((Rabs (L0 * v0) + Rabs (L1 * v1)) * Rabs y + Rabs (D_L * s)) / Rabs (v0 * v0 + v1 * v1)");
+                  row_number(S_L, y, D_L, s, Symbol("1") / square_of(v)), "- " + terms.exact, terms.size);
 }
 
 inline FormulaClaim entry_into_strip() {
@@ -119,9 +117,8 @@ inline FormulaClaim slope_of_rows() {
   const Symbol v[2] = {in.number("v0"), in.number("v1")}, raised = in.rounded("D_L", 3);
   return in
       .claim({"kRowSlope", kRowSlope / kRoundoff, "12"}, "slope_of_rows",
-             row_slope(raised, inverse_of_area(in, v)),
-             "exact_D_L * (1 / ((v0 * v0 + v1 * v1) * exact_area))",
-             "Rabs exact_D_L / Rabs ((v0 * v0 + v1 * v1) * exact_area)")
+             row_slope(raised, inverse_of_area(in, v)), "exact_D_L * (1 / " + kArea + ")",
+             "Rabs exact_D_L / Rabs " + kArea)
       .within({{"D_L", -400, 1}, {"v0", -200, 1}, {"v1", -200, 1}, {"area", -100, 100}});
 }
 
@@ -142,7 +139,7 @@ inline FormulaClaim velocity_in_shape() {
   Inputs in;
   const Symbol N0 = in.rounded("N0", 1), N1 = in.rounded("N1", 1), v0 = in.number("v0"), v1 = in.number("v1");
   return in.claim({"kRhoOfShape", kRhoOfShape, "3"}, "velocity_in_shape", sum_of_products(N0, v0, N1, v1),
-                  "exact_N0 * v0 + exact_N1 * v1", "Rabs (exact_N0 * v0) + Rabs (exact_N1 * v1)");
+                  term("exact_N0 * v0") + term("exact_N1 * v1"));
 }
 
 /// The width of the most slender ellipse that is done: |w|^2 errs by twice what w does, and by 2 of its own; the
@@ -166,14 +163,10 @@ inline FormulaClaim along_of_ellipse() {
                d[2] = {in.rounded("d0", 1), in.rounded("d1", 1)};
   const Symbol along[2] = {sum_of_products(N[0][0], w[0], N[1][0], w[1]),
                            sum_of_products(N[0][1], w[0], N[1][1], w[1])};
-  return in.claim(
-      {"kAlongOfShape", kAlongOfShape, "16"}, "along_of_ellipse",
-      sum_of_products(along[0], d[0], along[1], d[1]),
-      "(exact_N00 * exact_w0 + exact_N10 * exact_w1) * exact_d0 + (exact_N01 * exact_w0 + exact_N11 * "
-      "exact_w1) "
-      "* exact_d1",
-      "(Rabs (exact_N00 * exact_w0) + Rabs (exact_N10 * exact_w1)) * Rabs exact_d0 + (Rabs (exact_N01 * "
-      "exact_w0) + Rabs (exact_N11 * exact_w1)) * Rabs exact_d1");
+  return in.claim({"kAlongOfShape", kAlongOfShape, "16"}, "along_of_ellipse",
+                  sum_of_products(along[0], d[0], along[1], d[1]),
+                  whole(term("exact_N00 * exact_w0") + term("exact_N10 * exact_w1")) * "exact_d0" +
+                      whole(term("exact_N01 * exact_w0") + term("exact_N11 * exact_w1")) * "exact_d1");
 }
 
 inline std::vector<FormulaClaim> of_plane() {

@@ -15,39 +15,38 @@ inline FormulaClaim width_in_space() {
 }
 
 /// A coordinate across: of the anchor, a plane's step, a line's and a ball's, each known within 3 (Lemma 3).
-inline Symbol after_steps(Inputs& in, double of_steps, std::string& exact, std::string& size,
-                          const std::string& name) {
+inline Symbol after_steps(Inputs& in, double of_steps, SizedTerms& terms, const std::string& name) {
   Symbol at = in.number(name);
-  exact = name, size = "Rabs " + name;
+  terms = term(name);
   for (const std::string step : {"1", "2", "3"}) {
-    const std::string k = "k" + step, arm = name + step;
-    at = stepped(at, in.number(k + name), in.rounded(arm, of_steps));
-    exact += " + " + k + name + " * exact_" + arm, size += " + Rabs (" + k + name + " * exact_" + arm + ")";
+    const std::string k = "k" + step + name, arm = name + step;
+    at = stepped(at, in.number(k), in.rounded(arm, of_steps));
+    terms = terms + term(k + " * exact_" + arm);
   }
   return at;
 }
 
 inline FormulaClaim across_in_space() {
   Inputs in;
-  std::string exact, size;
-  const Symbol p = after_steps(in, 3, exact, size, "p");
-  return in.claim({"kAcross", kAcross, "8"}, "across_in_space", p, exact, size);
+  SizedTerms terms;
+  const Symbol p = after_steps(in, 3, terms, "p");
+  return in.claim({"kAcross", kAcross, "8"}, "across_in_space", p, terms);
 }
 
 /// z, from a compensated sum and a quotient; and s = begin + z times the window's length.
 inline FormulaClaim along_window() {
   Inputs in;
-  std::string exact, size;
-  const Symbol z = after_steps(in, 2.01, exact, size, "z");
-  return in.claim({"kWindowStart", kWindowStart / kRoundoff, "16"}, "along_window", z, exact, size)
+  SizedTerms terms;
+  const Symbol z = after_steps(in, 2.01, terms, "z");
+  return in.claim({"kWindowStart", kWindowStart / kRoundoff, "16"}, "along_window", z, terms)
       .taken(2, "z of size 2");
 }
 inline FormulaClaim along_in_space() {
   Inputs in;
-  std::string exact, size;
-  const Symbol z = after_steps(in, 2.01, exact, size, "z"), begin = in.number("b"), length = in.number("l");
-  return in.claim({"kAlong", kAlong, "6"}, "along_in_space", begin + z * length, "b + (" + exact + ") * l",
-                  "Rabs b + (" + size + ") * Rabs l");
+  SizedTerms terms;
+  const Symbol z = after_steps(in, 2.01, terms, "z"), begin = in.number("b"), length = in.number("l");
+  return in.claim({"kAlong", kAlong, "6"}, "along_in_space", begin + z * length,
+                  term("b") + whole(terms) * "l");
 }
 
 /// |across|^2, by its two scales.
@@ -70,19 +69,18 @@ inline FormulaClaim scale_of_across() {
 /// The moment about the flight of a line through q with the steps a, after the steps to it.
 inline FormulaClaim moment_of_line_in_space() {
   Inputs in;
-  std::string exact0, exact1, size0, size1;
-  const Symbol q[2] = {after_steps(in, 3, exact0, size0, "p"), after_steps(in, 3, exact1, size1, "q")},
+  SizedTerms p0, p1;
+  const Symbol q[2] = {after_steps(in, 3, p0, "p"), after_steps(in, 3, p1, "q")},
                a[2] = {in.rounded("a0", 3), in.rounded("a1", 3)};
   return in.claim({"kLine", kLine, "13"}, "moment_of_line_in_space", moment_of_line(q, a),
-                  "(" + exact0 + ") * exact_a1 - (" + exact1 + ") * exact_a0",
-                  "(" + size0 + ") * Rabs exact_a1 + (" + size1 + ") * Rabs exact_a0");
+                  whole(p0) * "exact_a1" - whole(p1) * "exact_a0");
 }
 
 /// a - moment^2, where the moment errs by kLine of l, l^2 = a, and is no larger.
 inline FormulaClaim discriminant_of_line() {
   Inputs in;
   in.real("l");
-  const Symbol p[2] = {in.rounded("a0", 3), in.rounded("a1", 3)}, moment = in.rounded_of("m", kLine, "l");
+  const Symbol p[2] = {in.rounded("a0", 3), in.rounded("a1", 3)}, moment = in.rounded("m", kLine, "l");
   return in
       .claim({"kDiscriminant", kDiscriminant * kLine, "77"}, "discriminant_of_line",
              square_of(p) - moment * moment, "exact_a0 * exact_a0 + exact_a1 * exact_a1 - exact_m * exact_m",
@@ -96,8 +94,7 @@ inline FormulaClaim tilt_of_planes() {
   const Symbol p0 = in.rounded("p0", 3), p1 = in.rounded("p1", 3), q0 = in.rounded("q0", 3),
                q1 = in.rounded("q1", 3), inverse = in.number("inverse");
   return in.claim({"kTilt", kTilt, "9"}, "tilt_of_planes", difference_of_products(p0, q1, q0, p1) * inverse,
-                  "(exact_p0 * exact_q1 - exact_q0 * exact_p1) * inverse",
-                  "(Rabs (exact_p0 * exact_q1) + Rabs (exact_q0 * exact_p1)) * Rabs inverse");
+                  whole(term("exact_p0 * exact_q1") - term("exact_q0 * exact_p1")) * "inverse");
 }
 
 /// The volume of a basis that errs by 3, where kappa is the largest: relative to it.
@@ -108,8 +105,8 @@ inline FormulaClaim cross_of_basis() {
   const Symbol p0 = in.rounded("p0", 3), p1 = in.rounded("p1", 3), q0 = in.rounded("q0", 3),
                q1 = in.rounded("q1", 3);
   return in.claim({"kPlane", kPlane / kMaxKappa, "8"}, "cross_of_basis",
-                  difference_of_products(p0, q1, q0, p1), "exact_p0 * exact_q1 - exact_q0 * exact_p1",
-                  "Rabs (exact_p0 * exact_q1) + Rabs (exact_q0 * exact_p1)");
+                  difference_of_products(p0, q1, q0, p1),
+                  term("exact_p0 * exact_q1") - term("exact_q0 * exact_p1"));
 }
 inline FormulaClaim volume_of_basis() {
   Inputs in;
@@ -118,7 +115,7 @@ inline FormulaClaim volume_of_basis() {
   for (int i = 0; i < 3; ++i) {
     const std::string n = std::to_string(i);
     in.real("size" + n);
-    b[i] = in.rounded("b" + n, 3), cross[i] = in.rounded_of("c" + n, 8.001 * 1.73206, "size" + n);
+    b[i] = in.rounded("b" + n, 3), cross[i] = in.rounded("c" + n, 8.001 * 1.73206, "size" + n);
     exact += " + exact_b" + n + " * exact_c" + n, size += " + Rabs exact_b" + n + " * size" + n;
   }
   return in.claim({"kPlane", kPlane / kMaxKappa, "19.8"}, "volume_of_basis", volume_of(b, cross),
@@ -132,14 +129,12 @@ inline FormulaClaim distance_from_plane() {
                p1 = in.rounded("p1", kAcross), p2 = in.rounded("p2", kAcross), z = in.number("z"),
                slope = sqrt(sum_of_products(g0, g0, g1, g1)), kappa = sum_of_products(g0, p0, g1, p1, g2, p2);
   in.given("0 < exact_g0 * exact_g0 + exact_g1 * exact_g1");
+  const SizedTerms terms = whole(term("exact_g0 * exact_p0") + term("exact_g1 * exact_p1") +
+                                 term("exact_g2 * exact_p2") - term("exact_g2 * z"));
   const std::string g = "sqrt (exact_g0 * exact_g0 + exact_g1 * exact_g1)";
-  return in.claim(
-      {"kPlane", kPlane, "460"}, "distance_from_plane", distance_of_plane(kappa, g2, z, Symbol("1") / slope),
-      "(exact_g0 * exact_p0 + exact_g1 * exact_p1 + exact_g2 * exact_p2 - exact_g2 * z) / " + g,
-      "(Rabs (exact_g0 * exact_p0) + Rabs (exact_g1 * exact_p1) + Rabs (exact_g2 * exact_p2) + Rabs "
-      "(exact_g2 * "
-      "z)) / Rabs (" +
-          g + ")");
+  return in.claim({"kPlane", kPlane, "460"}, "distance_from_plane",
+                  distance_of_plane(kappa, g2, z, Symbol("1") / slope), terms.exact + " / " + g,
+                  terms.size + " / Rabs (" + g + ")");
 }
 
 inline std::vector<FormulaClaim> of_space() {

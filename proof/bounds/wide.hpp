@@ -44,10 +44,9 @@ class WideInputs : public Inputs {
  public:
   WideInputs() : Inputs(true) {}
   WideSymbol wide(const std::string& name) { return {number(name).text, 0}; }
-  FormulaClaim claim(Constant constant, std::string name, const WideSymbol& computed, std::string exact,
-                     std::string size) const {
-    return Inputs::claim(std::move(constant), std::move(name), {computed.text, computed.error},
-                         std::move(exact), std::move(size));
+  FormulaClaim claim(Constant constant, std::string name, const WideSymbol& computed,
+                     const SizedTerms& terms) const {
+    return Inputs::claim(std::move(constant), std::move(name), Symbol(computed.text, computed.error), terms);
   }
 };
 
@@ -56,14 +55,10 @@ inline constexpr double kSquare = kWideRoundoff;
 inline FormulaClaim place_of_obstacle() {
   WideInputs in;
   WideSymbol step[3];
-  std::string exact, size;
-  for (int i = 0; i < 3; ++i) {
-    const std::string n = std::to_string(i);
-    step[i] = in.wide("B" + n) * in.wide("N" + n);
-    exact += "B" + n + " * N" + n + " + ", size += "Rabs (B" + n + " * N" + n + ") + ";
-  }
+  for (int i = 0; i < 3; ++i) step[i] = in.wide(numbered("B", i)) * in.wide(numbered("N", i));
   return in.claim({"kPlace", kPlace / kSquare, "14"}, "place_of_obstacle",
-                  place_after(step, in.wide("offset")), exact + "offset", size + "Rabs offset");
+                  place_after(step, in.wide("offset")),
+                  term("B0 * N0") + term("B1 * N1") + term("B2 * N2") + term("offset"));
 }
 
 inline FormulaClaim across_in_double_double() {
@@ -71,22 +66,21 @@ inline FormulaClaim across_in_double_double() {
   const WideSymbol d[2] = {in.wide("d0"), in.wide("d1")};
   const Symbol v[2] = {in.number("v0"), in.number("v1")};
   return in.claim({"kStable", kStable / kSquare, "16"}, "across_in_double_double",
-                  difference_of_products(d[1], v[0], d[0], v[1]), "d1 * v0 - d0 * v1",
-                  "Rabs (d1 * v0) + Rabs (d0 * v1)");
+                  difference_of_products(d[1], v[0], d[0], v[1]), term("d1 * v0") - term("d0 * v1"));
 }
 inline FormulaClaim along_in_double_double() {
   WideInputs in;
   const WideSymbol d[3] = {in.wide("d0"), in.wide("d1"), in.wide("d2")};
   const Symbol v[3] = {in.number("v0"), in.number("v1"), in.number("v2")};
   return in.claim({"kStable", kStable / kSquare, "16"}, "along_in_double_double",
-                  sum_of_products(d[0], v[0], d[1], v[1], d[2], v[2]), "d0 * v0 + d1 * v1 + d2 * v2",
-                  "Rabs (d0 * v0) + Rabs (d1 * v1) + Rabs (d2 * v2)");
+                  sum_of_products(d[0], v[0], d[1], v[1], d[2], v[2]),
+                  term("d0 * v0") + term("d1 * v1") + term("d2 * v2"));
 }
 inline FormulaClaim square_in_double_double() {
   WideInputs in;
   const WideSymbol d[3] = {in.wide("d0"), in.wide("d1"), in.wide("d2")};
   return in.claim({"kStable", kStable / kSquare, "16"}, "square_in_double_double", square_of(d),
-                  "d0 * d0 + d1 * d1 + d2 * d2", "d0 * d0 + d1 * d1 + d2 * d2");
+                  {"d0 * d0 + d1 * d1 + d2 * d2", "d0 * d0 + d1 * d1 + d2 * d2"});
 }
 /// One of the three terms d_i (G d)_i.
 inline FormulaClaim form_in_double_double() {
@@ -96,8 +90,8 @@ inline FormulaClaim form_in_double_double() {
   const WideSymbol image = sum_of_products(G[0], d[0], G[1], d[1], G[2], d[2]);
   return in
       .claim({"kStableForm", kStableForm / kSquare, "48"}, "form_in_double_double",
-             (image * d[0] + WideSymbol(0)) + WideSymbol(0), "(G0 * d0 + G1 * d1 + G2 * d2) * d0",
-             "(Rabs (G0 * d0) + Rabs (G1 * d1) + Rabs (G2 * d2)) * Rabs d0")
+             (image * d[0] + WideSymbol(0)) + WideSymbol(0),
+             whole(term("G0 * d0") + term("G1 * d1") + term("G2 * d2")) * "d0")
       .taken(1.7321, "norm of a row of G");
 }
 
@@ -115,7 +109,7 @@ inline FormulaClaim adjugate_of_semiaxes() {
   forms.set_adjugate(semiaxes(in));
   return in
       .claim({"kAdjugate", kAdjugate, "8.5"}, "adjugate_of_semiaxes", forms.adjugate[0][0],
-             "a11 * a22 - a12 * a21", "Rabs (a11 * a22) + Rabs (a12 * a21)")
+             term("a11 * a22") - term("a12 * a21"))
       .taken(2.4495, "three products of lengths");
 }
 inline FormulaClaim determinant_of_semiaxes() {
@@ -124,10 +118,9 @@ inline FormulaClaim determinant_of_semiaxes() {
   forms.set_adjugate(semiaxes(in));
   return in
       .claim({"kDeterminant", kDeterminant, "22"}, "determinant_of_semiaxes", forms.det,
-             "(a11 * a22 - a12 * a21) * a00 + (a12 * a20 - a10 * a22) * a01 + (a10 * a21 - a11 * a20) * a02",
-             "(Rabs (a11 * a22) + Rabs (a12 * a21)) * Rabs a00 + (Rabs (a12 * a20) + Rabs (a10 * a22)) * "
-             "Rabs a01 + "
-             "(Rabs (a10 * a21) + Rabs (a11 * a20)) * Rabs a02")
+             whole(term("a11 * a22") - term("a12 * a21")) * "a00" +
+                 whole(term("a12 * a20") - term("a10 * a22")) * "a01" +
+                 whole(term("a10 * a21") - term("a11 * a20")) * "a02")
       .taken(1.41422, "length of b x c");
 }
 /// From an adjugate and a determinant without error.
@@ -141,14 +134,14 @@ inline ShapeForms<WideSymbol> forms_of_shape(WideInputs& in) {
 inline FormulaClaim to_ball_of_shape() {
   WideInputs in;
   const auto forms = forms_of_shape(in);
-  return in.claim({"kToBall", kToBall, "20"}, "to_ball_of_shape", forms.to_ball[0][0], "adjugate * (r / det)",
-                  "Rabs adjugate * (Rabs r / Rabs det)");
+  return in.claim({"kToBall", kToBall, "20"}, "to_ball_of_shape", forms.to_ball[0][0],
+                  "adjugate" * whole(term("r") / "det"));
 }
 inline FormulaClaim cofactor_of_shape() {
   WideInputs in;
   const auto forms = forms_of_shape(in);
   return in.claim({"kCofactor", kCofactor, "21"}, "cofactor_of_shape", forms.cofactor[0][0],
-                  "r / det * r * a00", "Rabs r / Rabs det * Rabs r * Rabs a00");
+                  term("r") / "det" * "r" * "a00");
 }
 inline FormulaClaim metric_of_shape() {
   WideInputs in;
@@ -157,8 +150,7 @@ inline FormulaClaim metric_of_shape() {
     for (int k = 0; k < 2; ++k) forms.to_ball[j][k] = in.wide("N" + std::to_string(j) + std::to_string(k));
   forms.set_metric();
   return in.claim({"kMetric", kMetric, "10"}, "metric_of_shape", forms.metric[0][1],
-                  "N00 * N01 + N10 * N11 + N20 * N21",
-                  "Rabs (N00 * N01) + Rabs (N10 * N11) + Rabs (N20 * N21)");
+                  term("N00 * N01") + term("N10 * N11") + term("N20 * N21"));
 }
 
 inline std::vector<FormulaClaim> of_double_double() {

@@ -89,6 +89,12 @@ class FreePaths:
         return f"{text}\n  {remark}" if remark else text
 
 
+def report_of(text: str) -> dict[str, Any]:
+    """The report in a text of JSON, without its scene."""
+    report: dict[str, Any] = json.loads(text)
+    return {key: value for key, value in report.items() if key != "scene"}
+
+
 def single_numbers(report: dict[str, Any]) -> dict[str, Any]:
     """The members of a report for a table: numbers and texts, without lists."""
     return {key: value for key, value in report.items() if key != "scene" and not isinstance(value, (list, dict))}
@@ -119,12 +125,12 @@ def flights(scene: SceneLike, radius: float | None = None, *, count: int = 1_000
 def laws(scene: SceneLike, times: npt.ArrayLike, *, start: str = "uniform") -> dict[str, Floats]:
     """P(path > t) by each known law for the scene, by name, in the shape of `times`; empty without a law."""
     t = floats_of(times, "times")
-    return {name: np.asarray(survival) for name, _, survival in _lorentz.laws(native(scene), word(start, "start"), t)}
+    return {name: np.asarray(survival) for name, survival in _lorentz.laws(native(scene), word(start, "start"), t)}
 
 
 def mean_free_path(scene: SceneLike, radius: float | None = None) -> float | None:
     """The mean free path between collisions, exact up to rounding; None if no formula is known."""
-    return _lorentz.mean_free_path(native(Scene(scene, radius)))[0]
+    return _lorentz.mean_free_path(native(Scene(scene, radius)))
 
 
 def horizon(scene: SceneLike, radius: float | None = None, *, min_width: float = 0.0,
@@ -154,8 +160,6 @@ def horizon(scene: SceneLike, radius: float | None = None, *, min_width: float =
         numbers = [finite(number, "direction") for number in vector(direction, "direction")]
         if len(numbers) != 3:
             raise Error(f"direction: has {len(numbers)} components, not 3")
-        along: dict[str, Any] = json.loads(_lorentz.open_direction(native(place), numbers))
-        return {key: value for key, value in along.items() if key != "scene"}
+        return report_of(_lorentz.open_direction(native(place), numbers))
     text, verdict = _lorentz.horizon(native(place), min_width, cylinders)
-    found: dict[str, Any] = json.loads(text)
-    return {key: value for key, value in found.items() if key != "scene"} | {"verdict": verdict}
+    return report_of(text) | {"verdict": verdict}

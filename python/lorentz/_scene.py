@@ -90,9 +90,14 @@ def catalogue() -> list[str]:
     return _lorentz.catalogue()
 
 
+def scene_of(scene: SceneLike) -> Scene:
+    """The Scene for a scene in any form."""
+    return scene if isinstance(scene, Scene) else Scene(scene)
+
+
 def native(scene: SceneLike) -> _lorentz.Scene:
     """The extension module's object for a scene in any form."""
-    return scene._scene if isinstance(scene, Scene) else Scene(scene)._scene
+    return scene_of(scene)._scene
 
 
 def wrapped(native_scene: _lorentz.Scene) -> Scene:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import warnings
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ import numpy as np
 
 from . import _lorentz
 from ._answers import Floats
-from ._flights import single_numbers
+from ._flights import report_of, single_numbers
 from ._lorentz import Error
 from ._numbers import Number, finite, items, time_limit, whole, word
 from ._scene import Scene, SceneLike, common_radius, native
@@ -43,12 +42,16 @@ class Estimate(NamedTuple):
 
 
 @dataclass(frozen=True, repr=False)
-class Lyapunov:
-    """Lyapunov exponents in nats, the largest first. ``report`` is that of `lorentz lyapunov --json`, without
-    the scene."""
+class Reported:
+    """A scene, and a report on it."""
 
     scene: Scene
     report: dict[str, Any]
+
+
+class Lyapunov(Reported):
+    """Lyapunov exponents in nats, the largest first. ``report`` is that of `lorentz lyapunov --json`, without
+    the scene."""
 
     @property
     def exponents(self) -> list[Estimate]:
@@ -73,12 +76,8 @@ class Lyapunov:
         return f"Lyapunov({told} a collision)"
 
 
-@dataclass(frozen=True, repr=False)
-class Diffusion:
+class Diffusion(Reported):
     """Mean squared displacements. ``report`` is that of `lorentz diffusion --json` without the scene."""
-
-    scene: Scene
-    report: dict[str, Any]
 
     @property
     def coefficient(self) -> Estimate | None:
@@ -114,13 +113,9 @@ class Diffusion:
         return Estimate(self.report["D"], self.report["D_error"])
 
 
-@dataclass(frozen=True, repr=False)
-class Survival:
+class Survival(Reported):
     """How many collisions of trajectories are right. ``report`` is the report of `lorentz survival --json`
     without the scene."""
-
-    scene: Scene
-    report: dict[str, Any]
 
     @property
     def right(self) -> dict[int, list[int]]:
@@ -162,7 +157,7 @@ def lyapunov(scene: SceneLike, radius: Number | None = None, *, collisions: int 
             the engine ``batch`` does not support the scene.
     """
     place = Scene(scene, radius)
-    return Lyapunov(place, _report(_lorentz.lyapunov(
+    return Lyapunov(place, report_of(_lorentz.lyapunov(
         native(place), whole(collisions, "collisions", 1, 2**52), bool(spectrum), _seed(seed), _jobs(jobs))))
 
 
@@ -181,7 +176,7 @@ def diffusion(scene: SceneLike, radius: Number | None = None, *, count: int = 10
     """
     place = Scene(scene, radius)
     until = time_limit(max_time, "max_time")
-    return Diffusion(place, _report(_lorentz.diffusion(
+    return Diffusion(place, report_of(_lorentz.diffusion(
         native(place), whole(count, "count", 1, 2**52), finite(until, "max_time"), word(start, "start"), _seed(seed), _jobs(jobs))))
 
 
@@ -205,7 +200,7 @@ def survival(scene: SceneLike, radius: Number | None = None, *, count: int = 100
     widths = [whole(width, "bits", 24, 100_000) for width in items(bits, "bits")]
     if not widths:
         raise Error("bits: needs at least one number")
-    return Survival(place, _report(_lorentz.survival(
+    return Survival(place, report_of(_lorentz.survival(
         native(place), whole(count, "count", 1, 10**7), whole(collisions, "collisions", 1, 10**6), widths, word(engine, "engine"),
         _seed(seed))))
 
@@ -249,11 +244,6 @@ def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLi
             row["error"] = str(error)
         rows.append(row)
     return rows
-
-
-def _report(text: str) -> dict[str, Any]:
-    report: dict[str, Any] = json.loads(text)
-    return {key: value for key, value in report.items() if key != "scene"}
 
 
 def _row_of(found: Any) -> dict[str, Any]:

@@ -19,7 +19,7 @@ from ._answer import Answer, ExactTime
 from ._lorentz import Certificate, Error
 from ._numbers import (Number, Obstacle, Vector, claim, exact, finite, integer, is_binary64, obstacle_dict, parts, plain,
                        renamed, text, time_limit, vector, whole)
-from ._scene import Scene, SceneLike
+from ._scene import Scene, SceneLike, scene_of
 
 __all__ = ["Approach", "Convergent", "Margin", "Verdict", "certificate", "check", "convergents", "entry_time",
            "first_hit", "is_free", "judge_answer", "margin", "passed"]
@@ -53,7 +53,7 @@ def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
     digits = whole(digits, "digits", 0, 100_000)
     if time_limit(max_time, "max_time") == math.inf:
         max_time = None
-    place = _scene(scene)
+    place = scene_of(scene)
     query = _query(x, v, start_from)
     limit = None if max_time is None else exact(max_time, "max_time")
     if not (place.is_binary64 and _floats_only(query) and (limit is None or is_binary64(limit))):
@@ -67,7 +67,7 @@ def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
 
 def is_free(scene: SceneLike, x: Vector) -> bool:
     """True if x lies in no open obstacle. Numbers must be floats, or equal a float."""
-    place = _scene(scene)
+    place = scene_of(scene)
     return _oracle(place).is_free(_text(x, [1] + [0] * (place.dimension - 1), None))
 
 
@@ -79,7 +79,7 @@ def entry_time(scene: SceneLike, x: Vector, v: Vector, obstacle: Obstacle | None
     """
     if obstacle is None:
         raise Error("obstacle: there is none")
-    place = _scene(scene)
+    place = scene_of(scene)
     position, velocity = _fractions(x, "x"), _fractions(v, "v")
     centre, axes = _centre_and_axes(place, obstacle)
     if not any(velocity):
@@ -211,12 +211,8 @@ def convergents(rise: float, run: float = 1.0, limit: int = 1000) -> list[Conver
     return [Convergent(*one) for one in terms]
 
 
-def _scene(scene: SceneLike) -> Scene:
-    return scene if isinstance(scene, Scene) else Scene(scene)
-
-
 def _oracle(scene: SceneLike) -> _lorentz.Oracle:
-    place = _scene(scene)
+    place = scene_of(scene)
     if place._oracle is None:
         place._oracle = _lorentz.Oracle(place._scene)
     return place._oracle

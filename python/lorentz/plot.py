@@ -25,7 +25,7 @@ from ._flights import FreePaths
 from ._lorentz import Error
 from ._numbers import finite
 from ._paths import Paths
-from ._scene import Scene, SceneLike, common_radius
+from ._scene import Scene, SceneLike, common_radius, scene_of
 from ._statistics import Diffusion, Survival
 
 __all__ = ["displacements", "flights", "free_paths", "scene", "survival", "survival_function", "trajectory"]
@@ -87,7 +87,7 @@ def trajectory(of: SceneLike, start: npt.ArrayLike, paths: Paths, particle: int 
     axes it is drawn with the scene in 2D, and with the obstacles that it hits in 3D."""
     if not 0 <= particle < len(paths):
         raise Error(f"particle: there is no {particle}; there are {len(paths)}, from 0 on")
-    place, kept = of if isinstance(of, Scene) else Scene(of), int(paths.kept()[particle])
+    place, kept = scene_of(of), int(paths.kept()[particle])
     starts, dimension = np.atleast_2d(floats_of(start, "start")), paths.dimension
     if place.dimension != dimension:
         raise Error(f"paths: are in {dimension}D, the scene is in {place.dimension}D")
@@ -110,10 +110,7 @@ def free_paths(runs: Runs, *, ax: Any = None) -> Any:
         seen = density > 0
         middle = np.sqrt(run.edges[1:] * run.edges[:-1])
         ax.loglog(middle[seen], density[seen], ".", color=_colour(number), markersize=4, label=label)
-    ax.set_xlabel("free path t")
-    ax.set_ylabel("density")
-    ax.legend(frameon=False)
-    return ax
+    return _explained(ax, "free path t", "density")
 
 
 def survival_function(runs: Runs, *, ax: Any = None) -> Any:
@@ -128,10 +125,7 @@ def survival_function(runs: Runs, *, ax: Any = None) -> Any:
             ax.loglog(t, law[seen], "-", color=_colour(number), alpha=0.6 / (count + 1), linewidth=1.5,
                       label=name if number == 0 else None)
         ax.loglog(t, measured[seen], ".", color=_colour(number), markersize=4, label=label)
-    ax.set_xlabel("t")
-    ax.set_ylabel("P(free path > t)")
-    ax.legend(frameon=False)
-    return ax
+    return _explained(ax, "t", "P(free path > t)")
 
 
 def survival(found: Survival, *, ax: Any = None) -> Any:
@@ -142,10 +136,7 @@ def survival(found: Survival, *, ax: Any = None) -> Any:
         collisions = np.arange(1, max(right) + 2)
         shares = [(np.asarray(right) >= k).mean() for k in collisions]
         ax.plot(collisions, shares, "-", color=_colour(number), label=f"{bits} bits")
-    ax.set_xlabel("collisions")
-    ax.set_ylabel("share of starts still right")
-    ax.legend(frameon=False)
-    return ax
+    return _explained(ax, "collisions", "share of starts still right")
 
 
 def displacements(found: Diffusion, *, ax: Any = None) -> Any:
@@ -211,8 +202,15 @@ def _axes(ax: Any) -> Any:
     return plt.subplots(layout="constrained")[1] if ax is None else ax
 
 
+def _explained(ax: Any, x: str, y: str) -> Any:
+    ax.set_xlabel(x)
+    ax.set_ylabel(y)
+    ax.legend(frameon=False)
+    return ax
+
+
 def _flat(of: SceneLike) -> Scene:
-    place = of if isinstance(of, Scene) else Scene(of)
+    place = scene_of(of)
     if place.dimension != 2:
         raise Error("pictures are of two dimensions; `lorentz scene draw` has those of three")
     return place

@@ -25,7 +25,7 @@ runs::Plan words_of(const BenchPlan& plan, const std::vector<BenchGroup>& groups
   std::vector<std::string> names;
   std::string scenes;
   for (const BenchGroup& group : groups) {
-    names.push_back(fmt::format("{}/{}/{}", group.scene, group.radius ? text_of(*group.radius) : "own",
+    names.push_back(fmt::format("{}/{}/{}", group.scene, group.radius ? json::text_of(*group.radius) : "own",
                                 group.difficulty));
     append_scene_line(scenes, load_scene(group.scene, group.radius));
   }

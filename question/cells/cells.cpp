@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include <lorentz/exchange.hpp>
@@ -14,15 +13,10 @@
 #include "question/radii.hpp"
 #include "report/claim_words.hpp"
 #include "report/query_text.hpp"
+#include "src/exchange/json_writer.hpp"
 #include "starts/free_starts.hpp"
 
 namespace lorentz::question {
-
-std::string text_of(double number) {
-  std::string text;
-  append_number(text, number);
-  return text;
-}
 
 namespace {
 
@@ -47,8 +41,7 @@ std::size_t affordable(const BenchPlan& plan, const std::vector<Question>& all, 
                        bool& failed) {
   RaceOptions options;
   options.rounds = engine.runs_apart() ? 3 : 1;  // the first round of an external engine includes its start
-  options.timeout = plan.timeout;
-  options.listener = plan.listener;
+  options.answerer = plan.answerer;
   double count = 0;
   for (const std::size_t pilot : {std::size_t{2}, kPilot}) {
     options.counts = {pilot};
@@ -56,7 +49,8 @@ std::size_t affordable(const BenchPlan& plan, const std::vector<Question>& all, 
     failed |= t.failed;
     // A program that dies is not slow, however busy the machine is; one that is silent would be silent each
     // time.
-    if (t.failed && t.ns_per_query * 1e-9 < plan.timeout / 4) return std::min(all.size(), kFewestQueries);
+    if (t.failed && t.ns_per_query * 1e-9 < plan.answerer.timeout / 4)
+      return std::min(all.size(), kFewestQueries);
     count = kSecondsPerRound * 1e9 / std::max(t.ns_per_query, 1.0);
     if (count < kFewestQueries / 8.0) break;
   }
@@ -132,7 +126,7 @@ class Errors {
     if (place.claim() == Claim())
       return fmt::format("echo '{}' | lorentz compare --scene {}{} --queries - --engine ", query,
                          shell_quoted(group.scene),
-                         group.radius ? " --radius " + text_of(*group.radius) : "");
+                         group.radius ? " --radius " + json::text_of(*group.radius) : "");
     std::string scene;
     append_scene_line(scene, place.scene());
     return fmt::format("echo '{}{}' | lorentz compare --queries -{} --engine ", scene, query,
@@ -186,35 +180,22 @@ void examine_into(report::Cell& cell, Answerer& answerer, const BenchGroup& grou
   cell.worst = errors.worst(group, cell.engine);
 }
 
-// The engines whose cells get times.
-class Racers {
- public:
-  void add(const EngineInfo& engine, std::size_t cell, std::size_t count) {
-    engines_.push_back(engine), cells_.push_back(cell), options_.counts.push_back(count);
+// Measures the times of the engines with these numbers, and of their cells. True if one of them failed.
+bool race(const BenchPlan& plan, const std::vector<Question>& questions,
+          const std::vector<std::size_t>& numbers, const std::vector<std::size_t>& counts,
+          std::vector<report::Cell>& cells) {
+  RaceOptions options{kRounds, plan.answerer};
+  std::vector<EngineInfo> engines;
+  for (const std::size_t i : numbers) engines.push_back(plan.engines[i]), options.counts.push_back(counts[i]);
+  const std::vector<Speed> speeds = question::race(questions, engines, options);
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    const Speed& speed = speeds[i];
+    report::Cell& cell = cells[numbers[i]];
+    cell.ns = report::CellTimes{speed.ns_median, speed.ns_low, speed.ns_high, speed.ns_per_query};
+    cell.instructions = speed.instructions;
   }
-
-  /// True if an engine failed.
-  bool race(const std::vector<Question>& questions, const BenchPlan& plan, std::vector<report::Cell>& cells) {
-    options_.rounds = kRounds;
-    options_.timeout = plan.timeout;
-    options_.listener = plan.listener;
-    const std::vector<Speed> speeds = question::race(questions, engines_, options_);
-    bool failed = false;
-    for (std::size_t i = 0; i < speeds.size(); ++i) {
-      const Speed& speed = speeds[i];
-      cells[cells_[i]].ns =
-          report::CellTimes{speed.ns_median, speed.ns_low, speed.ns_high, speed.ns_per_query};
-      cells[cells_[i]].instructions = speed.instructions;
-      failed |= speed.failed;
-    }
-    return failed;
-  }
-
- private:
-  std::vector<EngineInfo> engines_;
-  std::vector<std::size_t> cells_;
-  RaceOptions options_;
-};
+  return std::ranges::any_of(speeds, &Speed::failed);
+}
 
 }  // namespace
 
@@ -227,19 +208,19 @@ BenchCells measure_cells(const BenchPlan& plan, const BenchGroup& group) {
     counts.push_back(affordable(plan, questions, engine, result.failed));
   const std::size_t most = *std::max_element(counts.begin(), counts.end());
   questions.resize(most < kFewestQueries ? 0 : most);
-  answer_exactly(questions, Truth::oracle, plan.listener);
+  answer_exactly(questions, Truth::oracle, plan.answerer.listener);
   for (Question& question : questions) question.condition = condition_of(question);
-  Racers racers;
+  std::vector<std::size_t> racing;
   for (std::size_t i = 0; i < plan.engines.size(); ++i) {
     report::Cell& cell = result.cells.emplace_back(named_cell(group, scene, plan.engines[i].name));
     if ((cell.skipped = counts[i] < kFewestQueries)) continue;
-    const auto answerer = plan.engines[i].answerer({{}, plan.timeout, plan.listener});
+    const auto answerer = plan.engines[i].answerer(plan.answerer);
     examine_into(cell, *answerer, group, std::span(questions).first(counts[i]));
-    if (!cell.skipped && !answerer->failed()) racers.add(plan.engines[i], i, counts[i]);
+    if (!cell.skipped && !answerer->failed()) racing.push_back(i);
     answerer->finish();
     result.failed |= answerer->failed();
   }
-  result.failed |= racers.race(questions, plan, result.cells);
+  result.failed |= race(plan, questions, racing, counts, result.cells);
   return result;
 }
 

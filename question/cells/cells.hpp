@@ -22,13 +22,9 @@ struct BenchGroup {
 struct BenchPlan {
   std::vector<EngineInfo> engines;
   std::uint64_t count = 0, seed = 0;
-  double timeout = 0;  ///< of other programs
-  Claim claim = {};    ///< all are judged by it; scenes and queries are rounded to its precision
-  Listener listener = {};
+  Claim claim = {};  ///< all are judged by it; scenes and queries are rounded to its precision
+  AnswererOptions answerer = {};
 };
-
-/// A number as reports print it.
-std::string text_of(double number);
 
 /// Fewer queries than this say nothing.
 inline constexpr std::size_t kFewestQueries = 32;

@@ -18,12 +18,10 @@ std::unique_ptr<Engine> make(const Scene& scene) {
   return std::make_unique<PublishedIn<T>>(scene);
 }
 
-struct PrecisionEntry {
+constexpr struct {
   const char* name;
   std::unique_ptr<Engine> (*make)(const Scene&);
-};
-
-constexpr PrecisionEntry kPrecisions[] = {
+} kPrecisions[] = {
     {"published-float", make<float>},
     {"published-dd", make<Wide>},
     {"published-128", make<BigNumber<128>>},
@@ -34,12 +32,12 @@ constexpr PrecisionEntry kPrecisions[] = {
 
 std::vector<std::string> precision_names() {
   std::vector<std::string> names;
-  for (const PrecisionEntry& entry : kPrecisions) names.emplace_back(entry.name);
+  for (const auto& entry : kPrecisions) names.emplace_back(entry.name);
   return names;
 }
 
 std::unique_ptr<Engine> make_precision(std::string_view name, const Scene& scene) {
-  for (const PrecisionEntry& entry : kPrecisions) {
+  for (const auto& entry : kPrecisions) {
     if (entry.name != name) continue;
     if (is_unit_scene(scene) && scene.lattices[0].atoms[0].radius <= 0.5) return entry.make(scene);
     return std::make_unique<Unsupported>(scene, kBeyond);

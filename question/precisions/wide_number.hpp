@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <compare>
 #include <limits>
 
 #include "src/engines/base/double_double.hpp"
@@ -14,17 +15,8 @@ namespace lorentz {
 inline bool operator==(Wide a, Wide b) {
   return a.hi == b.hi && a.lo == b.lo;
 }
-inline bool operator<(Wide a, Wide b) {
-  return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
-}
-inline bool operator>(Wide a, Wide b) {
-  return b < a;
-}
-inline bool operator<=(Wide a, Wide b) {
-  return a < b || a == b;
-}
-inline bool operator>=(Wide a, Wide b) {
-  return b <= a;
+inline std::partial_ordering operator<=>(Wide a, Wide b) {
+  return a.hi == b.hi ? a.lo <=> b.lo : a.hi <=> b.hi;
 }
 
 inline Wide& operator+=(Wide& a, Wide b) {

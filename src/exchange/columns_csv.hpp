@@ -2,6 +2,8 @@
 // formats and the program.
 #pragma once
 
+#include <limits>
+
 #include "src/exchange/csv_table.hpp"
 
 namespace lorentz {
@@ -24,7 +26,7 @@ class CsvQueryReader final : public ColumnReader {
   /// The content of a line, before it is checked.
   struct Row {
     std::array<double, 3> x{}, v{};
-    double max_time;
+    double max_time = std::numeric_limits<double>::infinity();
     std::int32_t from_lattice = -1, from_atom = 0;
     std::array<std::int64_t, 3> from_cell{};
   };
@@ -63,8 +65,9 @@ class CsvAnswerReader final : public AnswerReader {
   CsvTable table_;
 };
 
-/// All columns that queries can have.
+/// All columns that queries and answers can have, in the order in which they are written.
 std::vector<std::string> csv_query_columns(int dimension);
+std::vector<std::string> csv_answer_columns(int dimension);
 
 /// Append the line of names for queries without ids and limits; and queries, one line each.
 void append_csv_query_names(std::string& out, int dimension, bool with_from);

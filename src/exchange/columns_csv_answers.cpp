@@ -1,23 +1,21 @@
 #include <lorentz/exchange.hpp>
 #include "src/exchange/columns_csv.hpp"
-#include "src/exchange/exchange_line.hpp"
+#include "src/exchange/exchange_write.hpp"
 
 namespace lorentz {
-namespace {
 
-std::vector<std::string> columns(int dimension) {
-  std::vector<std::string> names{"id", "outcome", "lattice", "atom", "time"};
+std::vector<std::string> csv_answer_columns(int dimension) {
+  std::vector<std::string> names{"id", "outcome", "lattice", "atom"};
   for (int k = 1; k <= dimension; ++k) names.push_back("cell" + std::to_string(k));
+  names.push_back("time");
   return names;
 }
-
-}  // namespace
 
 CsvAnswerReader::CsvAnswerReader(const std::string& path, const Components& components)
     : components_(components),
       dimension_(components.of_vectors()),
       table_(
-          path, columns(dimension_), [this](const CsvTable& table) { understand(table); },
+          path, csv_answer_columns(dimension_), [this](const CsvTable& table) { understand(table); },
           [](const std::string&, const std::string&) {}) {}
 
 void CsvAnswerReader::understand(const CsvTable& table) {

@@ -67,7 +67,6 @@ void CsvQueryReader::read_row(QueryRows& rows) {
   } catch (const InputError& error) {
     rows.flaws.push_back({rows.count, error.what()});
     row = {};
-    row.max_time = std::numeric_limits<double>::infinity();
   }
   rows.lines.push_back(table_.line());
   push_back(row, rows);
@@ -76,7 +75,6 @@ void CsvQueryReader::read_row(QueryRows& rows) {
 CsvQueryReader::Row CsvQueryReader::row_of() const {
   Row row;
   for (int k = 0; k < dimension_; ++k) row.x[k] = table_.number(x_[k]), row.v[k] = table_.number(v_[k]);
-  row.max_time = std::numeric_limits<double>::infinity();
   if (max_time_ != kNone && !table_.field(max_time_).empty() && table_.field(max_time_) != "inf") {
     row.max_time = table_.number(max_time_);
     if (!(row.max_time > 0)) table_.refuse(max_time_, "must be above zero");

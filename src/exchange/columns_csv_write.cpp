@@ -16,16 +16,7 @@ void append_int(std::string& out, std::int64_t n) {
 void append_text(std::string& out, const std::string& text) {
   const bool plain = text.find_first_of(",\"\r\n") == text.npos && !text.starts_with(' ') &&
                      !text.ends_with(' ') && !text.starts_with('\t') && !text.ends_with('\t');
-  if (plain) {
-    out += text;
-    return;
-  }
-  out += '"';
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  out += '"';
+  out += plain ? text : csv_quoted(text);
 }
 
 void append_obstacle_cells(std::string& out, const AnswerRows& answers, std::size_t i, const Cell* large,
@@ -55,14 +46,8 @@ void append_time(std::string& out, double time) {
 }  // namespace
 
 void append_csv_query_names(std::string& out, int dimension, bool with_from) {
-  const auto append = [&](const std::string& name) {
-    for (int k = 1; k <= dimension; ++k) out += name + std::to_string(k) + ',';
-  };
-  append("x"), append("v");
-  if (with_from) {
-    out += "from_lattice,from_atom,";
-    append("from_cell");
-  }
+  for (const std::string& name : csv_query_columns(dimension))
+    if (name.starts_with("from_") ? with_from : name != "max_time" && name != "id") out += name + ',';
   out.back() = '\n';
 }
 
@@ -89,10 +74,9 @@ void append_csv_queries(std::string& out, const QueryRows& queries, const Compon
 }
 
 void append_csv_names(std::string& out, int dimension, bool with_ids) {
-  if (with_ids) out += "id,";
-  out += "outcome,lattice,atom,";
-  for (int k = 1; k <= dimension; ++k) out += "cell" + std::to_string(k) + ',';
-  out += "time\n";
+  for (const std::string& name : csv_answer_columns(dimension))
+    if (with_ids || name != "id") out += name + ',';
+  out.back() = '\n';
 }
 
 void append_csv_answers(std::string& out, const QueryRows& queries, const AnswerRows& answers,

@@ -44,7 +44,6 @@ class NpyQueryReader final : public ColumnReader {
   Numbers numbers(const NpyField& field, int component) const;
   void append_rows(QueryRows& rows, std::size_t count) const;
   void append_from(QueryRows& rows, std::size_t count) const;
-  void fail_truncated() const;
 
   InputFile file_;
   NpyHeader header_;

@@ -25,8 +25,7 @@ void NpyAnswerReader::refuse(const std::string& what) const {
 
 const NpyField& NpyAnswerReader::field(const char* name, std::size_t numbers) const {
   for (const NpyField& field : header_.fields) {
-    const bool is_number = (field.kind == 'i' || field.kind == 'u' || field.kind == 'f') &&
-                           (field.bytes == 1 || field.bytes == 2 || field.bytes == 4 || field.bytes == 8);
+    const bool is_number = field.is_integer() || (field.kind == 'f' && field.has_usual_size());
     if (header_.structured && field.name == name && is_number && field.count() == numbers) return field;
   }
   refuse(std::string("has no field ") + name + " of that kind");
@@ -45,8 +44,7 @@ std::int64_t NpyAnswerReader::integer(const NpyField& field, std::size_t compone
 bool NpyAnswerReader::next(Answer& answer, Id& id) {
   if (done_ == header_.shape[0]) return false;
   if (file_.read_all(row_.data(), row_.size()) < row_.size())
-    throw InputError(file_.name() + ": ends too early: " + std::to_string(header_.shape[0] - done_) + " of " +
-                     std::to_string(header_.shape[0]) + " rows are missing");
+    refuse_truncated(file_, done_, header_.shape[0]);
   const std::int64_t outcome = integer(outcome_), lattice = integer(lattice_), atom = integer(atom_);
   constexpr std::int64_t kMost = 1'000'000'000;
   if (outcome < 0 || outcome > static_cast<int>(Outcome::error) || lattice < 0 || atom < 0 ||

@@ -73,12 +73,10 @@ const NpyField* NpyQueryReader::field(const std::string& name, bool needed) cons
 
 // Refuses a field that does not have the type and shape that it must have.
 void NpyQueryReader::check_number(const NpyField& field, bool is_vector, bool is_real) const {
-  const bool integer = (field.kind == 'i' || field.kind == 'u') &&
-                       (field.bytes == 1 || field.bytes == 2 || field.bytes == 4 || field.bytes == 8);
   const bool real = field.kind == 'f' && field.bytes == 8;
   std::vector<std::size_t> shape;
   if (is_vector) shape.push_back(static_cast<std::size_t>(dimension_));
-  if (!(is_real ? real : integer) || field.shape != shape) refuse();
+  if (!(is_real ? real : field.is_integer()) || field.shape != shape) refuse();
 }
 
 void NpyQueryReader::understand_fields(const OnUnknownColumn& on_unknown_column) {
@@ -192,16 +190,11 @@ bool NpyQueryReader::next(QueryRows& rows, std::size_t most) {
   const auto wanted =
       static_cast<std::size_t>(std::min<std::uint64_t>(promised_ - done_, std::min(most, held)));
   const std::size_t count = by_columns_ ? fill_columns(wanted) : fill_rows(wanted);
-  if (count == 0) fail_truncated();
+  if (count == 0) refuse_truncated(file_, done_, promised_);
   rows.first = done_;
   append_rows(rows, count);
   done_ += count;
   return true;
-}
-
-void NpyQueryReader::fail_truncated() const {
-  throw InputError(file_.name() + ": ends too early: " + std::to_string(promised_ - done_) + " of " +
-                   std::to_string(promised_) + " rows are missing");
 }
 
 bool NpyQueryReader::has_more() {

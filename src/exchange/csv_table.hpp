@@ -8,6 +8,9 @@
 
 namespace lorentz {
 
+/// The text in quotes.
+std::string csv_quoted(std::string_view text);
+
 /// The text as a field: in quotes if it has commas, quotes or line ends.
 std::string csv_field(const std::string& text);
 
@@ -23,7 +26,6 @@ class CsvTable {
 
   LineReader& lines() { return lines_; }
   const LineReader& lines() const { return lines_; }
-  const std::vector<std::string>& names() const { return names_; }
 
   /// The number of a column. If there is no such column, `take` returns kNone, and `need` throws InputError,
   /// which says why it is needed.

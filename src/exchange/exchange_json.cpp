@@ -16,6 +16,16 @@ namespace lorentz {
 
 namespace ondemand = simdjson::ondemand;
 
+namespace {
+
+// The token of a value that is neither an array nor an object, without the white space that may follow it.
+std::string_view token_of(ondemand::value& value) {
+  const std::string_view token = value.raw_json_token();
+  return token.substr(0, token.find_last_not_of(" \t\n\r") + 1);
+}
+
+}  // namespace
+
 namespace json {
 
 // Access to the simdjson object that a handle holds.
@@ -121,8 +131,7 @@ std::string Value::raw() {
     each_element(array(), [&](Value element) { text += (text.empty() ? "[" : ",") + element.raw(); });
     return text.empty() ? "[]" : text + ']';
   }
-  const std::string_view token = inside(*this).raw_json_token();
-  return std::string(token.substr(0, token.find_last_not_of(" \t\r\n") + 1));
+  return std::string(token_of(inside(*this)));
 }
 std::uint64_t Value::natural() {
   return known(inside(*this).get_uint64());
@@ -141,8 +150,6 @@ struct Document::Impl {
 };
 
 Document::Document() : impl_(std::make_unique<Impl>()) {}
-Document::Document(Document&&) noexcept = default;
-Document& Document::operator=(Document&&) noexcept = default;
 Document::~Document() = default;
 
 void Document::open(std::string_view text) {
@@ -199,12 +206,6 @@ void visit_elements(Array array, const void* read, OnElement call) {
 }  // namespace json
 
 namespace {
-
-// The token of a number, without the white space that may follow it.
-std::string_view token_of(ondemand::value& value) {
-  std::string_view token = value.raw_json_token();
-  return token.substr(0, token.find_last_not_of(" \t\n\r") + 1);
-}
 
 // The text of a number. It is checked here, because On-Demand has not looked at it.
 std::string_view number_text(ondemand::value& value) {

@@ -72,8 +72,6 @@ class Value : public Handle {
 class Document {
  public:
   Document();
-  Document(Document&&) noexcept;
-  Document& operator=(Document&&) noexcept;
   ~Document();
 
   /// Opens a text that is copied, or one that is followed by bytes that may be read: `allocated` bytes in

@@ -17,31 +17,6 @@ void JsonLine::close() {
   if (!document_.ended()) throw NotJson("more than one value in the line");
 }
 
-CellRead read_cell(json::Value value) {
-  if (value.type() != json::Type::array) throw InputError("cell: needs an array of integers");
-  CellRead result;
-  json::each_element(value.array(), [&](json::Value element) {
-    Integer n = read_integer(element, "cell");
-    if (result.count < 3) result.cell[result.count] = std::move(n);
-    ++result.count;
-  });
-  return result;
-}
-
-int read_index(json::Value value, const char* key) {
-  const Integer n = read_integer(value, key);
-  if (!n.fits_int64() || n.int64() < 0 || n.int64() > 1'000'000'000)
-    throw InputError(std::string(key) + ": is not an index");
-  return static_cast<int>(n.int64());
-}
-
-std::optional<Outcome> outcome_named(std::string_view name) {
-  for (const Outcome outcome :
-       {Outcome::hit, Outcome::never, Outcome::inside, Outcome::later, Outcome::undecided, Outcome::error})
-    if (name_of(outcome) == name) return outcome;
-  return std::nullopt;
-}
-
 Id read_id(json::Value value) {
   if (value.type() == json::Type::string) return json_quoted(value.text());
   if (value.type() == json::Type::null) {
@@ -53,28 +28,81 @@ Id read_id(json::Value value) {
   return id;
 }
 
-FromRead read_from(json::Value value, const OnUnknownKey& on_unknown_key) {
+namespace {
+
+// The number of a lattice or an atom.
+int read_index(json::Value value, const std::string& place) {
+  const Integer n = read_integer(value, place.c_str());
+  if (!n.fits_int64() || n.int64() < 0 || n.int64() > 1'000'000'000)
+    throw InputError(place + ": is not an index");
+  return static_cast<int>(n.int64());
+}
+
+// Returns the number of coordinates.
+std::size_t read_cell(json::Value value, Cell& cell) {
+  if (value.type() != json::Type::array) throw InputError("cell: needs an array of integers");
+  std::size_t count = 0;
+  json::each_element(value.array(), [&](json::Value element) {
+    Integer n = read_integer(element, "cell");
+    if (count < cell.size()) cell[count] = std::move(n);
+    ++count;
+  });
+  return count;
+}
+
+// The obstacle that is left.
+ObstacleRead read_from(json::Value value, const OnUnknownKey& on_unknown_key) {
   if (value.type() != json::Type::object)
     throw InputError("from: needs an object with lattice, atom and cell");
-  FromRead from;
+  ObstacleRead from;
   json::each_member(value.object(), [&](std::string_view key, json::Value member) {
-    if (key == "lattice") {
-      from.obstacle.lattice = read_index(member, "from.lattice");
-      from.lattice = true;
-    } else if (key == "atom") {
-      from.obstacle.atom = read_index(member, "from.atom");
-      from.atom = true;
-    } else if (key == "cell") {
-      CellRead cell = read_cell(member);
-      from.obstacle.cell = std::move(cell.cell);
-      from.components = cell.count, from.cell = true;
-    } else {
-      if (on_unknown_key) on_unknown_key("from." + std::string(key));
-      skip(member, 2);
-    }
+    if (from.read(key, member, "from.")) return;
+    if (on_unknown_key) on_unknown_key("from." + std::string(key));
+    skip(member, 2);
   });
-  if (!from.lattice || !from.atom || !from.cell) throw InputError("from: needs lattice, atom and cell");
+  if (!from.is_whole()) throw InputError("from: needs lattice, atom and cell");
   return from;
+}
+
+// The keys that golden records, golden itineraries and files of disagreements have beside the query.
+bool is_beside_query(std::string_view key) {
+  constexpr std::string_view kKeys[] = {"golden",      "tags",        "expect",    "time_decimal", "margin",
+                                        "condition",   "certificate", "itinerary", "times",        "end",
+                                        "time_change", "acceptable",  "comment",   "source_id",    "engine",
+                                        "verdict",     "departs",     "expected",  "given"};
+  return std::find(std::begin(kKeys), std::end(kKeys), key) != std::end(kKeys);
+}
+
+}  // namespace
+
+bool ObstacleRead::read(std::string_view key, json::Value value, const std::string& place) {
+  if (key == "lattice") {
+    obstacle.lattice = read_index(value, place + "lattice");
+    lattice = true;
+  } else if (key == "atom") {
+    obstacle.atom = read_index(value, place + "atom");
+    atom = true;
+  } else if (key == "cell") {
+    components = read_cell(value, obstacle.cell);
+    cell = true;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void LineFields::read(std::string_view key, json::Value value, Id& id, const OnUnknownKey& on_unknown_key) {
+  if (key == "id") {
+    id = read_id(value);
+  } else if (key == "from") {
+    from = read_from(value, on_unknown_key);
+  } else if (key == "scene") {
+    scene = read_node(value);
+  } else {
+    golden |= key == "golden";
+    skip(value);
+    if (on_unknown_key && !is_beside_query(key)) on_unknown_key(std::string(key));
+  }
 }
 
 namespace {
@@ -104,9 +132,7 @@ std::string not_json(const LineReader::Line& line, const std::string& why) {
   if (const std::string_view word = no_number_in(line.text); !word.empty())
     return "not JSON: " + std::string(word) +
            " is not a number there (Python's json writes it; a time beyond binary64 is \"inf\", in quotes, "
-           "and "
-           "what "
-           "is not known is \"outcome\":\"undecided\")";
+           "and what is not known is \"outcome\":\"undecided\")";
   return "not JSON: " + why;
 }
 
@@ -127,15 +153,6 @@ void check_dimension(const char* what, std::size_t count, int dimension) {
   if (count != static_cast<std::size_t>(dimension))
     throw InputError(std::string(what) + ": has " + std::to_string(count) +
                      " components, the scene has dimension " + std::to_string(dimension));
-}
-
-// The keys that golden records, golden itineraries and files of disagreements have beside the query.
-bool is_beside_query(std::string_view key) {
-  constexpr std::string_view kKeys[] = {"golden",      "tags",        "expect",    "time_decimal", "margin",
-                                        "condition",   "certificate", "itinerary", "times",        "end",
-                                        "time_change", "acceptable",  "comment",   "source_id",    "engine",
-                                        "verdict",     "departs",     "expected",  "given"};
-  return std::find(std::begin(kKeys), std::end(kKeys), key) != std::end(kKeys);
 }
 
 }  // namespace lorentz

@@ -20,30 +20,29 @@ class JsonLine {
   json::Document document_;
 };
 
-struct CellRead {
-  Cell cell{};
-  std::size_t count = 0;
-};
-
-/// A cell's coordinates; throws InputError.
-CellRead read_cell(json::Value value);
-
-/// The number of a lattice or an atom; throws InputError, naming `key`.
-int read_index(json::Value value, const char* key);
-
 Id read_id(json::Value value);
 
-/// The outcome with this name (name_of), or nothing.
-std::optional<Outcome> outcome_named(std::string_view name);
-
-struct FromRead {
+/// An obstacle, and which of its parts were read.
+struct ObstacleRead {
   ObstacleId obstacle;
-  std::size_t components = 0;
+  std::size_t components = 0;  ///< of the cell
   bool lattice = false, atom = false, cell = false;
+
+  bool is_whole() const { return lattice && atom && cell; }
+  /// Reads the value if the key is one of the parts; else returns false. Throws InputError, which names the
+  /// key with `place` before it.
+  bool read(std::string_view key, json::Value value, const std::string& place = "");
 };
 
-/// The obstacle that is left; throws InputError.
-FromRead read_from(json::Value value, const OnUnknownKey& on_unknown_key);
+/// What lines of queries and lines of starts have in common, before it is compared with the scene.
+struct LineFields {
+  std::optional<SceneNode> scene;
+  std::optional<ObstacleRead> from;
+  bool golden = false;
+
+  /// Reads the value of a key that the line may have, or passes over it.
+  void read(std::string_view key, json::Value value, Id& id, const OnUnknownKey& on_unknown_key);
+};
 
 /// Why a line is not JSON, with what its writer may have meant.
 std::string not_json(const LineReader::Line& line, const std::string& why);
@@ -56,7 +55,7 @@ bool begins_as_scene(std::string_view text);
 
 /// Throws InputError unless the cell has as many coordinates as its lattice has vectors.
 template <class AScene>
-void check_cell(const FromRead& from, const AScene& scene) {
+void check_cell(const ObstacleRead& from, const AScene& scene) {
   const auto l = static_cast<std::size_t>(from.obstacle.lattice);
   if (l >= scene.lattices.size()) return;  // which is reported elsewhere
   const int rank = scene.dimension - scene.lattices[l].missing;
@@ -68,15 +67,9 @@ void check_cell(const FromRead& from, const AScene& scene) {
 /// Throws InputError unless `count` is the scene's dimension.
 void check_dimension(const char* what, std::size_t count, int dimension);
 
-/// True for keys that golden records and files of disagreements have beside the query.
-bool is_beside_query(std::string_view key);
-
 struct ExchangeReader::Impl {
   JsonLine json_line;
   OnUnknownKey on_unknown_key;
-
-  void read_query(const LineReader::Line& line, const Scene* scene, StreamItem& item);
-  void read_start(const LineReader::Line& line, const RationalScene* scene, StartItem& item);
 
   /// Reads all members of the line's object by read(key, value). An error in one member does not end the
   /// reading, because the id may follow; `flaw` becomes the first error. An id that comes twice becomes
@@ -101,9 +94,32 @@ struct ExchangeReader::Impl {
     json_line.close();
   }
 
-  /// Reads an item by read(), which throws if the line is bad.
-  template <class Item, class Read>
-  void read_item(const LineReader::Line& line, Item& item, const Read& read) {
+  /// Reads the line of a scene, or of what its Fields, derived from LineFields, are of. Throws if it is bad.
+  template <class Fields, class AScene, class Item>
+  void read_fields(const LineReader::Line& line, const AScene* scene, Item& item) {
+    Fields fields;
+    std::string flaw;  // the first; reading goes on, because the id may follow
+    read_members(line, item.id, flaw, [&](std::string_view key, json::Value value) {
+      item.bad_scene |= key == "scene";
+      fields.read(key, value, item.id, on_unknown_key);
+    });
+    if (!flaw.empty()) throw InputError(flaw);
+    if (fields.scene) {
+      if (on_unknown_key) fields.report_beside_scene(on_unknown_key);
+      item.scene = scene_from<AScene>(*fields.scene, on_unknown_key);
+      item.bad_scene = false;
+      item.kind = StreamItem::Kind::scene;
+    } else if (!fields.golden || fields.x || fields.v) {
+      item.no_scene = scene == nullptr;
+      if (item.no_scene) throw InputError(std::string("no scene before this ") + Fields::kName);
+      fields.set(item, *scene);
+      item.kind = StreamItem::Kind::query;
+    }
+  }
+
+  /// Reads an item by read_fields().
+  template <class Fields, class AScene, class Item>
+  void read_item(const LineReader::Line& line, const AScene* scene, Item& item) {
     item.kind = StreamItem::Kind::nothing;
     item.id = "null";
     item.no_scene = item.bad_scene = false;
@@ -115,7 +131,7 @@ struct ExchangeReader::Impl {
       if (item.bad_scene) item.id = "null";
     };
     try {
-      read();
+      read_fields<Fields>(line, scene, item);
     } catch (const json::Error& error) {
       bad(not_json(line, error.what()));
     } catch (const NotJson& error) {

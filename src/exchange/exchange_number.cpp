@@ -1,8 +1,8 @@
 #include "src/exchange/exchange_number.hpp"
 
-#include <algorithm>
 #include <charconv>
-#include <limits>
+#include <clocale>
+#include <cstdlib>
 #include <string>
 
 namespace lorentz {
@@ -14,61 +14,19 @@ std::size_t after_digits(std::string_view text, std::size_t place) {
   return place;
 }
 
-// A notation, and how far from 1 a binary64 can be in powers of its exponent's base.
 struct Notation {
   std::chars_format format;
-  std::string_view digits;
-  std::string_view exponent_marks;
-  std::int64_t exponents_a_digit;
-  std::int64_t far;
+  std::string_view prefix, digits;
 };
 
-constexpr Notation kDecimal{std::chars_format::general, "0123456789", "eE", 1, 400};
-constexpr Notation kHexadecimal{std::chars_format::hex, "0123456789abcdefABCDEF", "pP", 4, 1200};
+constexpr Notation kDecimal{std::chars_format::general, "", "0123456789"};
+constexpr Notation kHexadecimal{std::chars_format::hex, "0x", "0123456789abcdefABCDEF"};
 
-// The number 0.DIGITS base^exponent. DIGITS has no zero in front, and is empty for zero.
-struct Parts {
-  std::string digits;
-  std::int64_t exponent = 0;
-};
-
-// An exponent beyond 2^60 counts as 2^60, which is beyond any number of digits in memory.
-std::int64_t exponent_of(std::string_view text) {
-  constexpr std::int64_t kMost = std::int64_t{1} << 60;
-  const bool negative = text.starts_with('-');
-  if (negative || text.starts_with('+')) text.remove_prefix(1);
-  std::int64_t exponent = 0;
-  const auto status = std::from_chars(text.data(), text.data() + text.size(), exponent).ec;
-  if (status != std::errc{}) exponent = kMost;
-  return negative ? -std::min(exponent, kMost) : std::min(exponent, kMost);
-}
-
-// The parts of a text that std::from_chars has found to be a number.
-Parts parts_of(std::string_view text, const Notation& notation) {
-  Parts parts;
-  const auto mark = std::min(text.find_first_of(notation.exponent_marks), text.size());
-  if (mark < text.size()) parts.exponent = exponent_of(text.substr(mark + 1));
-  const auto point = std::min(text.find('.'), mark);
-  parts.digits = text.substr(0, point);
-  if (point < mark) parts.digits += text.substr(point + 1, mark - point - 1);
-  const auto zeros = std::min(parts.digits.find_first_not_of('0'), parts.digits.size());
-  parts.digits.erase(0, zeros);
-  parts.exponent +=
-      notation.exponents_a_digit * (static_cast<std::int64_t>(point) - static_cast<std::int64_t>(zeros));
-  return parts;
-}
-
-// Rewrites the number with its digits at the front, so that neither the place of the point nor the exponent
-// is far from 0.
-double nearest_of_parts(const Parts& parts, const Notation& notation) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (parts.digits.empty() || parts.exponent < -notation.far) return 0;
-  if (parts.exponent > notation.far) return kInfinity;
-  const std::string text = "0." + parts.digits + notation.exponent_marks[0] + std::to_string(parts.exponent);
-  double value = 0;
-  const auto status = std::from_chars(text.data(), text.data() + text.size(), value, notation.format).ec;
-  if (status == std::errc::result_out_of_range) return parts.exponent > 0 ? kInfinity : 0;
-  return value;
+// std::strtod rounds correctly, too, and knows the large from the small, however long the number is and
+// however its digits and its exponent make up for each other. But it takes a point for the locale's only.
+double nearest_of_long(const std::string& text) {
+  static const locale_t point = newlocale(LC_ALL_MASK, "C", nullptr);
+  return strtod_l(text.c_str(), nullptr, point);
 }
 
 // std::from_chars rounds correctly, but reports "out of range" both for numbers that are too large and for
@@ -83,7 +41,7 @@ std::optional<double> nearest_unsigned(std::string_view text, const Notation& no
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value, notation.format);
   if (status == std::errc::invalid_argument || end != text.data() + text.size()) return std::nullopt;
   if (status == std::errc{} && text.size() < kLong) return value;
-  return nearest_of_parts(parts_of(text, notation), notation);
+  return nearest_of_long(std::string(notation.prefix).append(text));
 }
 
 }  // namespace

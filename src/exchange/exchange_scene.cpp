@@ -143,9 +143,10 @@ void check_scene_keys(const SceneNode& node, const OnUnknownKey& on_unknown_key)
         check_keys(*atoms, "lattices.atoms.", {"position", "radius", "semiaxes"}, on_unknown_key);
 }
 
-// A scene in numbers of either type.
+}  // namespace
+
 template <class AScene>
-AScene parts_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
+AScene scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
   using ALattice = typename decltype(AScene::lattices)::value_type;
   using AnAtom = typename decltype(ALattice::atoms)::value_type;
   using Number = decltype(AnAtom::radius);
@@ -171,7 +172,8 @@ AScene parts_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
   return scene;
 }
 
-}  // namespace
+template Scene scene_from(const SceneNode&, const OnUnknownKey&);
+template RationalScene scene_from(const SceneNode&, const OnUnknownKey&);
 
 Rational rational_at(const SceneNode& node, const std::string& place) {
   if (const double* number = std::get_if<double>(&node.value)) return finite_number(*number, place);
@@ -180,14 +182,6 @@ Rational rational_at(const SceneNode& node, const std::string& place) {
   if (auto number = rational_from(*text)) return *number;
   throw InputError(place + ": " + json_quoted(*text) +
                    " is not a rational number (like \"1/3\", \"0.1\", \"2.5e-3\", \"0x1.8p-1\")");
-}
-
-Scene scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
-  return parts_from<Scene>(node, on_unknown_key);
-}
-
-RationalScene rational_scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
-  return parts_from<RationalScene>(node, on_unknown_key);
 }
 
 }  // namespace lorentz

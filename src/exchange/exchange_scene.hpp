@@ -28,11 +28,10 @@ struct SceneNode::Member {
   SceneNode node;
 };
 
-/// Throws InputError with the place of what is missing or wrong, for example "lattices[0].atoms[1].radius".
-Scene scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key);
-
-/// The same for rational numbers, exactly.
-RationalScene rational_scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key);
+/// A Scene, or a RationalScene, exactly. Throws InputError with the place of what is missing or wrong, for
+/// example "lattices[0].atoms[1].radius".
+template <class AScene>
+AScene scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key);
 
 /// A number, exactly: a binary64, or a text that rational_from accepts. Throws InputError, naming `place`.
 Rational rational_at(const SceneNode& node, const std::string& place);

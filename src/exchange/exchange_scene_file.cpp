@@ -83,14 +83,13 @@ std::string text_of(const std::string& path) {
   return text;
 }
 
-// The result of `scene_of` for the file's content.
-template <class SceneOf>
-auto read(const std::string& path, const SceneOf& scene_of) {
+template <class AScene>
+AScene read(const std::string& path, const OnUnknownKey& on_unknown_key) {
   try {
     const std::string text = text_of(path);
     const auto first = text.find_first_not_of(" \t\r\n");
     if (first == std::string::npos) throw InputError("is empty: a scene needs dimension and lattices");
-    return scene_of(text[first] == '{' ? parse_json(text) : parse_toml(text));
+    return scene_from<AScene>(text[first] == '{' ? parse_json(text) : parse_toml(text), on_unknown_key);
   } catch (const InputError& error) {
     throw InputError(path + ": " + error.what());
   }
@@ -99,11 +98,11 @@ auto read(const std::string& path, const SceneOf& scene_of) {
 }  // namespace
 
 Scene read_scene_file(const std::string& path, const OnUnknownKey& on_unknown_key) {
-  return read(path, [&](const SceneNode& node) { return scene_from(node, on_unknown_key); });
+  return read<Scene>(path, on_unknown_key);
 }
 
 RationalScene read_rational_scene_file(const std::string& path, const OnUnknownKey& on_unknown_key) {
-  return read(path, [&](const SceneNode& node) { return rational_scene_from(node, on_unknown_key); });
+  return read<RationalScene>(path, on_unknown_key);
 }
 
 std::string exchange_libraries() {

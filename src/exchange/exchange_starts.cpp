@@ -8,13 +8,6 @@
 namespace lorentz {
 namespace {
 
-// The content of a line, before it is compared with the scene.
-struct StartFields {
-  std::optional<SceneNode> scene, x, v, direction;
-  std::optional<FromRead> from;
-  bool golden = false;
-};
-
 const SceneNode::Array& components_at(const SceneNode& node, const char* key, int dimension) {
   const auto* array = std::get_if<SceneNode::Array>(&node.value);
   if (!array) throw InputError(std::string(key) + ": needs an array of numbers");
@@ -45,74 +38,50 @@ void set_direction(const SceneNode& direction, int dimension, Start& start) {
   start.v[1] = surd_at(*slope, "direction.slope");
 }
 
-Start start_from(const StartFields& fields, const RationalScene& scene) {
-  if (!fields.x) throw InputError("x is missing");
-  if (fields.v.has_value() == fields.direction.has_value())
-    throw InputError(fields.v ? "has both v and direction; leave one out" : "v is missing (or direction)");
-  Start start;
-  const auto& x = components_at(*fields.x, "x", scene.dimension);
-  for (std::size_t i = 0; i < x.size(); ++i) start.x[i] = rational_at(x[i], "x");
-  if (fields.direction) set_direction(*fields.direction, scene.dimension, start);
-  if (fields.v) {
-    const auto& v = components_at(*fields.v, "v", scene.dimension);
-    for (std::size_t i = 0; i < v.size(); ++i) start.v[i] = surd_at(v[i], "v");
-  }
-  if (fields.from) {
-    check_cell(*fields.from, scene);
-    start.from = fields.from->obstacle;
-  }
-  if (auto flaw = flaw_of(start, scene)) throw InputError(*flaw);
-  return start;
-}
+// The content of a line.
+struct StartFields : LineFields {
+  static constexpr const char* kName = "start";
+  std::optional<SceneNode> x, v, direction;
 
-void read_start_field(std::string_view key, json::Value value, Id& id, StartFields& fields,
-                      const OnUnknownKey& on_unknown_key) {
-  const std::string place(key);
-  if (key == "id")
-    id = read_id(value);
-  else if (key == "from")
-    fields.from = read_from(value, on_unknown_key);
-  else if (key == "scene")
-    fields.scene = read_node(value);
-  else if (key == "x")
-    fields.x = read_node(value, place);
-  else if (key == "v")
-    fields.v = read_node(value, place);
-  else if (key == "direction")
-    fields.direction = read_node(value, place);
-  else {
-    fields.golden |= key == "golden";
-    skip(value);
-    if (on_unknown_key && !is_beside_query(key)) on_unknown_key(place);
+  void read(std::string_view key, json::Value value, Id& id, const OnUnknownKey& on_unknown_key) {
+    if (key == "x")
+      x = read_node(value, "x");
+    else if (key == "v")
+      v = read_node(value, "v");
+    else if (key == "direction")
+      direction = read_node(value, "direction");
+    else
+      LineFields::read(key, value, id, on_unknown_key);
   }
-}
+
+  void report_beside_scene(const OnUnknownKey&) const {}
+
+  void set(StartItem& item, const RationalScene& scene) const {
+    if (!x) throw InputError("x is missing");
+    if (v.has_value() == direction.has_value())
+      throw InputError(v ? "has both v and direction; leave one out" : "v is missing (or direction)");
+    Start start;
+    const auto& place = components_at(*x, "x", scene.dimension);
+    for (std::size_t i = 0; i < place.size(); ++i) start.x[i] = rational_at(place[i], "x");
+    if (direction) set_direction(*direction, scene.dimension, start);
+    if (v) {
+      const auto& velocity = components_at(*v, "v", scene.dimension);
+      for (std::size_t i = 0; i < velocity.size(); ++i) start.v[i] = surd_at(velocity[i], "v");
+    }
+    if (from) {
+      check_cell(*from, scene);
+      start.from = from->obstacle;
+    }
+    if (auto flaw = flaw_of(start, scene)) throw InputError(*flaw);
+    item.start = std::move(start);
+  }
+};
 
 }  // namespace
 
-void ExchangeReader::Impl::read_start(const LineReader::Line& line, const RationalScene* scene,
-                                      StartItem& item) {
-  StartFields fields;
-  std::string flaw;  // the first; reading goes on, because the id may follow
-  read_members(line, item.id, flaw, [&](std::string_view key, json::Value value) {
-    item.bad_scene |= key == "scene";
-    read_start_field(key, value, item.id, fields, on_unknown_key);
-  });
-  if (!flaw.empty()) throw InputError(flaw);
-  if (fields.scene) {
-    item.scene = rational_scene_from(*fields.scene, on_unknown_key);
-    item.bad_scene = false;
-    item.kind = StreamItem::Kind::scene;
-  } else if (!fields.golden || fields.x || fields.v) {
-    item.no_scene = scene == nullptr;
-    if (item.no_scene) throw InputError("no scene before this start");
-    item.start = start_from(fields, *scene);
-    item.kind = StreamItem::Kind::query;
-  }
-}
-
 void ExchangeReader::read_start_line(const LineReader::Line& line, const RationalScene* scene,
                                      StartItem& item) {
-  impl_->read_item(line, item, [&] { impl_->read_start(line, scene, item); });
+  impl_->read_item<StartFields>(line, scene, item);
 }
 
 }  // namespace lorentz

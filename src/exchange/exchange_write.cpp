@@ -1,6 +1,7 @@
 #include "src/exchange/exchange_write.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -143,22 +144,22 @@ void append_answer_line(std::string& out, const Id& id, const Answer& answer, co
   out += '\n';
 }
 
+namespace {
+
+// In the order of Outcome.
+constexpr std::array<std::string_view, 6> kOutcomes{"hit", "never", "inside", "later", "undecided", "error"};
+static_assert(static_cast<std::size_t>(Outcome::error) + 1 == kOutcomes.size());
+
+}  // namespace
+
 std::string_view name_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::hit:
-      return "hit";
-    case Outcome::never:
-      return "never";
-    case Outcome::inside:
-      return "inside";
-    case Outcome::later:
-      return "later";
-    case Outcome::undecided:
-      return "undecided";
-    case Outcome::error:
-      break;
-  }
-  return "error";
+  return kOutcomes[static_cast<std::size_t>(outcome)];
+}
+
+std::optional<Outcome> outcome_named(std::string_view name) {
+  const auto found = std::find(kOutcomes.begin(), kOutcomes.end(), name);
+  if (found == kOutcomes.end()) return std::nullopt;
+  return static_cast<Outcome>(found - kOutcomes.begin());
 }
 
 }  // namespace lorentz

@@ -23,6 +23,9 @@ inline void append_json(std::string& out, const Scene& scene) {
   json::append(out, [&](json::Members& object) { add_scene(object, scene); });
 }
 
+/// The outcome with this name (name_of), or nothing.
+std::optional<Outcome> outcome_named(std::string_view name);
+
 /// Adds lattice, atom and cell.
 void add_obstacle(json::Members& object, const ObstacleId& obstacle, const Components& count);
 

@@ -185,6 +185,11 @@ NpyHeader read_npy_header(InputFile& file) {
   }
 }
 
+void refuse_truncated(const InputFile& file, std::uint64_t done, std::uint64_t promised) {
+  throw InputError(file.name() + ": ends too early: " + std::to_string(promised - done) + " of " +
+                   std::to_string(promised) + " rows are missing");
+}
+
 std::string npy_header(std::string_view description, std::string_view shape) {
   std::string text = "{'descr': ";
   text.append(description).append(", 'fortran_order': False, 'shape': ").append(shape).append(", }");

@@ -1,6 +1,7 @@
 // The header of a .npy file: NumPy's formats 1.0, 2.0 and 3.0. Private to the formats.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -21,6 +22,9 @@ struct NpyField {
   std::size_t offset = 0;          ///< in the row
 
   std::size_t count() const;  ///< the number of its numbers
+  /// A number of 1, 2, 4 or 8 bytes.
+  bool has_usual_size() const { return std::has_single_bit(bytes) && bytes <= 8; }
+  bool is_integer() const { return (kind == 'i' || kind == 'u') && has_usual_size(); }
 };
 
 struct NpyHeader {
@@ -34,6 +38,9 @@ struct NpyHeader {
 
 /// Reads the header, and leaves the file at the first element. Throws InputError, with the file's name.
 NpyHeader read_npy_header(InputFile& file);
+
+/// Throws InputError for a file that ends before row `done`.
+[[noreturn]] void refuse_truncated(const InputFile& file, std::uint64_t done, std::uint64_t promised);
 
 /// The header of a file, padded as in NumPy. `description` and `shape` are literals of Python.
 std::string npy_header(std::string_view description, std::string_view shape);

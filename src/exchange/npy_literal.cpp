@@ -52,18 +52,18 @@ class Parser {
     PythonValue value;
     switch (next_char()) {
       case '{':
-        read_dictionary(value, depth);
-        return value;
+        read_items(value, PythonValue::Kind::dictionary, '}', depth);
+        break;
       case '(':
         read_items(value, PythonValue::Kind::tuple, ')', depth);
-        return value;
+        break;
       case '[':
         read_items(value, PythonValue::Kind::list, ']', depth);
-        return value;
+        break;
       default:
         read_word(value);
-        return value;
     }
+    return value;
   }
 
   void read_word(PythonValue& value) {
@@ -110,26 +110,17 @@ class Parser {
     bool comma = true;
     while (!take(end)) {
       if (!comma) fail();
+      if (kind == PythonValue::Kind::dictionary) {
+        const PythonValue key = read(depth + 1);
+        if (!key.is(PythonValue::Kind::string) || !take(':')) fail();
+        value.keys.push_back(key.text);
+      }
       value.items.push_back(read(depth + 1));
       comma = take(',');
     }
     if (kind == PythonValue::Kind::tuple && value.items.size() == 1 && !comma) {
       PythonValue only = std::move(value.items.front());
       value = std::move(only);
-    }
-  }
-
-  void read_dictionary(PythonValue& value, int depth) {
-    value.kind = PythonValue::Kind::dictionary;
-    ++place_;
-    bool comma = true;
-    while (!take('}')) {
-      if (!comma) fail();
-      const PythonValue key = read(depth + 1);
-      if (!key.is(PythonValue::Kind::string) || !take(':')) fail();
-      value.keys.push_back(key.text);
-      value.items.push_back(read(depth + 1));
-      comma = take(',');
     }
   }
 

@@ -32,22 +32,14 @@ inline bool must_swap(const NpyField& field) {
 
 // An integer of any integer type of NumPy; nothing beyond the range of int64.
 inline std::optional<std::int64_t> integer_at(const NpyField& field, const char* bytes) {
-  const bool swap = must_swap(field), is_signed = field.kind == 'i';
-  switch (field.bytes) {
-    case 1:
-      return is_signed ? number_in<std::int8_t, std::uint8_t>(bytes, false)
-                       : std::int64_t{number_in<std::uint8_t, std::uint8_t>(bytes, false)};
-    case 2:
-      return is_signed ? number_in<std::int16_t, std::uint16_t>(bytes, swap)
-                       : std::int64_t{number_in<std::uint16_t, std::uint16_t>(bytes, swap)};
-    case 4:
-      return is_signed ? number_in<std::int32_t, std::uint32_t>(bytes, swap)
-                       : std::int64_t{number_in<std::uint32_t, std::uint32_t>(bytes, swap)};
-    default:
-      break;
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < field.bytes; ++i) {
+    const char byte = bytes[field.big_endian ? field.bytes - 1 - i : i];
+    bits |= std::uint64_t{static_cast<unsigned char>(byte)} << 8 * i;
   }
-  const auto value = number_in<std::int64_t, std::uint64_t>(bytes, swap);
-  return is_signed || value >= 0 ? std::optional(value) : std::nullopt;
+  const std::size_t unused = 64 - 8 * field.bytes;
+  if (field.kind == 'i') return static_cast<std::int64_t>(bits << unused) >> unused;
+  return bits >> 63 ? std::nullopt : std::optional(static_cast<std::int64_t>(bits));
 }
 
 }  // namespace lorentz

@@ -16,39 +16,27 @@ void Answer::clear() {
 }
 
 Answer Answer::hit(ObstacleId obstacle, double time) {
-  Answer answer;
-  answer.outcome = Outcome::hit;
-  answer.obstacle = std::move(obstacle);
-  answer.time = time;
-  return answer;
+  return {.outcome = Outcome::hit, .obstacle = std::move(obstacle), .time = time};
 }
 
 Answer Answer::inside(ObstacleId obstacle) {
-  Answer answer;
-  answer.outcome = Outcome::inside;
-  answer.obstacle = std::move(obstacle);
-  return answer;
+  return {.outcome = Outcome::inside, .obstacle = std::move(obstacle)};
 }
 
 Answer Answer::never() {
-  Answer answer;
-  answer.outcome = Outcome::never;
-  return answer;
+  return {.outcome = Outcome::never};
 }
 
 Answer Answer::later() {
-  Answer answer;
-  answer.outcome = Outcome::later;
-  return answer;
+  return {.outcome = Outcome::later};
 }
 
 Answer Answer::undecided() {
-  return Answer{};
+  return {};
 }
 
 Answer Answer::error(std::string message) {
-  Answer answer;
-  answer.outcome = Outcome::error;
+  Answer answer{.outcome = Outcome::error};
   answer.message = std::move(message);
   return answer;
 }

@@ -2,48 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <limits>
-#include <type_traits>
-#include <utility>
 
 namespace lorentz {
 namespace {
 
-// Calls visit(number) for each number of a query or a scene, constant or not.
-template <class Q, class Visit>
-requires std::same_as<std::remove_const_t<Q>, Query>
-void for_each_number(Q& query, const Visit& visit) {
-  for (auto& component : query.x) visit(component);
-  for (auto& component : query.v) visit(component);
-}
-
-template <class S, class Visit>
-requires std::same_as<std::remove_const_t<S>, Scene>
-void for_each_number(S& scene, const Visit& visit) {
-  const auto visit_all = [&](auto& vectors) {
-    for (auto& vector : vectors)
-      for (auto& component : vector) visit(component);
-  };
-  for (auto& lattice : scene.lattices) visit_all(lattice.vectors);
-  for_each_atom(scene, [&](auto& atom) {
-    for (auto& component : atom.position) visit(component);
-    visit(atom.radius);
-    visit_all(atom.semiaxes);
-  });
-}
-
-template <class T>
-T all_rounded(T of, NumberFormat precision) {
-  for_each_number(of, [&](double& number) { number = rounded(number, precision); });
-  return of;
-}
-
-template <class T>
-bool all_consist_of(const T& of, NumberFormat precision) {
-  bool yes = true;
-  for_each_number(of, [&](double number) { yes &= rounded(number, precision) == number; });
-  return yes;
+void round_each(Vec& vector, NumberFormat precision) {
+  for (double& component : vector) component = rounded(component, precision);
 }
 
 }  // namespace
@@ -60,18 +25,30 @@ double ulp(double value, NumberFormat precision) {
   return std::ldexp(1.0, std::ilogb(size) + 1 - bits_of(precision));
 }
 
-bool consists_of(const Scene& scene, NumberFormat precision) {
-  return precision == NumberFormat::binary64 || all_consist_of(scene, precision);
-}
-bool consists_of(const Query& query, NumberFormat precision) {
-  return precision == NumberFormat::binary64 || all_consist_of(query, precision);
+Scene rounded(Scene scene, NumberFormat precision) {
+  for (Lattice& lattice : scene.lattices)
+    for (Vec& vector : lattice.vectors) round_each(vector, precision);
+  for_each_atom(scene, [&](Atom& atom) {
+    round_each(atom.position, precision);
+    atom.radius = rounded(atom.radius, precision);
+    for (Vec& axis : atom.semiaxes) round_each(axis, precision);
+  });
+  return scene;
 }
 
-Scene rounded(Scene scene, NumberFormat precision) {
-  return all_rounded(std::move(scene), precision);
-}
 Query rounded(Query query, NumberFormat precision) {
-  return all_rounded(std::move(query), precision);
+  round_each(query.x, precision), round_each(query.v, precision);
+  return query;
+}
+
+bool consists_of(const Scene& scene, NumberFormat precision) {
+  return precision == NumberFormat::binary64 || rounded(scene, precision) == scene;
+}
+
+bool consists_of(const Query& query, NumberFormat precision) {
+  if (precision == NumberFormat::binary64) return true;
+  const Query nearest = rounded(query, precision);
+  return nearest.x == query.x && nearest.v == query.v;
 }
 
 }  // namespace lorentz

@@ -103,14 +103,11 @@ std::optional<Surd> surd_from(std::string_view text) {
   return surd;
 }
 
-bool is_positive(const Rational& number) {
-  if (const double* value = std::get_if<double>(&number)) return *value > 0 && std::isfinite(*value);
-  const auto above_zero = [](const Integer& n) { return n != Integer(0) && !n.decimal().starts_with('-'); };
-  const auto& [numerator, denominator] = std::get<Fraction>(number);
-  return above_zero(numerator) && above_zero(denominator);
-}
-
 namespace {
+
+bool is_above_zero(const Integer& n) {
+  return n != Integer(0) && !n.decimal().starts_with('-');
+}
 
 // The sign of a number: -1, 0 or 1. For a number that is not finite, or a fraction whose denominator is not
 // above zero, the result is not finite. Whether a scene or a start is valid depends on signs alone, so the
@@ -119,8 +116,8 @@ double sign_of(const Rational& number) {
   if (const double* value = std::get_if<double>(&number))
     return std::isfinite(*value) ? (*value > 0) - (*value < 0) : *value;
   const auto& [numerator, denominator] = std::get<Fraction>(number);
-  if (!is_positive(Fraction{denominator, 1})) return std::numeric_limits<double>::quiet_NaN();
-  return numerator == Integer(0) ? 0 : is_positive(Fraction{numerator, 1}) ? 1 : -1;
+  if (!is_above_zero(denominator)) return std::numeric_limits<double>::quiet_NaN();
+  return numerator == Integer(0) ? 0 : is_above_zero(numerator) ? 1 : -1;
 }
 
 Scene signs_of(const RationalScene& scene) {
@@ -134,6 +131,10 @@ double sign_of(const Surd& number) {
 }
 
 }  // namespace
+
+bool is_positive(const Rational& number) {
+  return sign_of(number) == 1;
+}
 
 std::optional<std::string> flaw_of(const RationalScene& scene) {
   return flaw_of(signs_of(scene));

@@ -6,8 +6,12 @@
 #include "src/problem/finite.hpp"
 
 namespace lorentz {
-
 namespace {
+
+void check_dimension(int dimension) {
+  if (dimension != 2 && dimension != 3)
+    throw InputError("dimension: needs 2 or 3, not " + std::to_string(dimension));
+}
 
 std::optional<std::string> flaw_of_atom(const Atom& atom, int dimension) {
   if (!all_finite(atom.position)) return "position is not finite";
@@ -64,18 +68,8 @@ const Scene& checked(const Scene& scene) {
 }
 
 bool is_crystal(const Scene& scene) {
-  return std::all_of(scene.lattices.begin(), scene.lattices.end(),
-                     [](const Lattice& lattice) { return lattice.missing == 0; });
+  return std::ranges::all_of(scene.lattices, [](const Lattice& lattice) { return lattice.missing == 0; });
 }
-
-namespace {
-
-void check_dimension(int dimension) {
-  if (dimension != 2 && dimension != 3)
-    throw InputError("dimension: needs 2 or 3, not " + std::to_string(dimension));
-}
-
-}  // namespace
 
 int Components::checked_dimension(int dimension) {
   if (dimension != 0) check_dimension(dimension);

@@ -116,13 +116,12 @@ Scene scaled(Scene scene, int exponent) {
   const auto scale = [exponent](Vec& a) {
     for (double& component : a) component = std::scalbn(component, exponent);
   };
-  for (Lattice& lattice : scene.lattices) {
+  for (Lattice& lattice : scene.lattices)
     for (Vec& u : lattice.vectors) scale(u);
-    for (Atom& atom : lattice.atoms) {
-      atom.radius = std::scalbn(atom.radius, exponent);
-      for (Vec& axis : atom.semiaxes) scale(axis);
-    }
-  }
+  for_each_atom(scene, [&](Atom& atom) {
+    atom.radius = std::scalbn(atom.radius, exponent);
+    for (Vec& axis : atom.semiaxes) scale(axis);
+  });
   return scene;
 }
 

@@ -6,14 +6,14 @@
 
 namespace lorentz {
 
-/// The obstacle { A y : |y| < 1 }, relative to its centre.
+/// An obstacle relative to its centre: a ball, or the ellipsoid { A y : |y| < 1 }, whose frame is y.
 template <class Real>
 struct MeetingShape {
   bool ball = true;
-  Real radius = 0;                  ///< for a ball
+  Real radius = 0;                  ///< of the ball, or 1 in the ellipsoid's frame
   std::array<Point<Real>, 3> axes;  ///< for an ellipsoid: the columns of A,
   std::array<Point<Real>, 3> dual;  ///< and the rows of A^-1
-  double inverse_size = 0;          ///< an upper bound on |A^-1|
+  double inverse_size = 1;          ///< an upper bound on |A^-1|; 1 for a ball
 };
 
 template <class Real>
@@ -41,16 +41,12 @@ struct MeetingEntry {
     const Point<Real> p = times(inverse, outer(u, outer(w, u)));
     const Real p2 = inner(p, p), square = radius * radius - p2;
     const bool grazes = !(high_part(square) > 0);
-    root = grazes ? Real(0) : root_of(square * u2);
-    point = grazes ? times(radius / root_of(p2), p) : plus(p, -(root * inverse), u);
+    root = grazes ? Real(0) : sqrt(square * u2);
+    point = grazes ? times(radius / sqrt(p2), p) : plus(p, -(root * inverse), u);
     time = -((inner(w, u) + root) * inverse);
     const double reach = high_part(radius) + slack, way = high_part(time) * high_part(time) * high_part(u2);
     there = high_part(p2) <= reach * reach && way < HUGE_VAL && (high_part(time) > 0 || way <= slack * slack);
   }
-
- private:
-  static double root_of(double x) { return std::sqrt(x); }
-  static Wide root_of(Wide x) { return sqrt(x); }
 };
 
 /// The line is w + t v relative to the obstacle's centre. `far` is the largest number that went into w when
@@ -61,27 +57,25 @@ LineMeeting<Real> meeting_of(const MeetingShape<Real>& shape, const Point<Real>&
   constexpr double kRounding = 0x1p-48;
   const double size =
       std::fabs(high_part(w[0])) + std::fabs(high_part(w[1])) + std::fabs(high_part(w[2])) + far;
-  LineMeeting<Real> meeting;
-  if (shape.ball) {
-    const MeetingEntry<Real> entry(w, v, shape.radius, kRounding * size);
-    const Real turn = (entry.root + entry.root) / (shape.radius * shape.radius);
-    meeting.time = entry.time;
-    meeting.offset = meeting.normal = entry.point;
-    meeting.velocity = plus(v, turn, entry.point);
-    meeting.on_the_line = entry.there;
-    return meeting;
-  }
   const auto in_frame = [&](const Point<Real>& a) {
-    return Point<Real>{inner(shape.dual[0], a), inner(shape.dual[1], a), inner(shape.dual[2], a)};
+    return shape.ball
+               ? a
+               : Point<Real>{inner(shape.dual[0], a), inner(shape.dual[1], a), inner(shape.dual[2], a)};
   };
-  const MeetingEntry<Real> entry(in_frame(w), in_frame(v), Real(1), kRounding * size * shape.inverse_size);
+  const MeetingEntry<Real> entry(in_frame(w), in_frame(v), shape.radius,
+                                 kRounding * size * shape.inverse_size);
   const Point<Real>& y = entry.point;
+  LineMeeting<Real> meeting;
   meeting.time = entry.time;
-  meeting.offset = plus(plus(times(y[0], shape.axes[0]), y[1], shape.axes[1]), y[2], shape.axes[2]);
-  meeting.normal = plus(plus(times(y[0], shape.dual[0]), y[1], shape.dual[1]), y[2], shape.dual[2]);
-  const Real turn = (entry.root + entry.root) / inner(meeting.normal, meeting.normal);
-  meeting.velocity = plus(v, turn, meeting.normal);
   meeting.on_the_line = entry.there;
+  meeting.offset = meeting.normal = y;
+  Real square = shape.radius * shape.radius;
+  if (!shape.ball) {
+    meeting.offset = plus(plus(times(y[0], shape.axes[0]), y[1], shape.axes[1]), y[2], shape.axes[2]);
+    meeting.normal = plus(plus(times(y[0], shape.dual[0]), y[1], shape.dual[1]), y[2], shape.dual[2]);
+    square = inner(meeting.normal, meeting.normal);
+  }
+  meeting.velocity = plus(v, (entry.root + entry.root) / square, meeting.normal);
   return meeting;
 }
 

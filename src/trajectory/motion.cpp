@@ -5,11 +5,6 @@
 namespace lorentz {
 namespace {
 
-template <class Real>
-Point<Real> exact_point(const Vec& a) {
-  return joined<Real>(a, Vec{});
-}
-
 // dual_of, for both kinds of numbers.
 template <class Real>
 std::array<Point<Real>, 3> inverse_of(const std::array<Point<Real>, 3>& axes) {
@@ -23,11 +18,11 @@ template <class Real>
 MeetingShape<Real> shape_of(const Atom& atom, int dimension) {
   MeetingShape<Real> shape;
   shape.ball = atom.is_ball();
-  shape.radius = Real(atom.radius);
+  shape.radius = Real(shape.ball ? atom.radius : 1);
   if (shape.ball) return shape;
-  for (int i = 0; i < 3; ++i)
-    shape.axes[i] = exact_point<Real>(i < dimension ? atom.semiaxes[i] : Vec{0, 0, 1});
+  for (int i = 0; i < 3; ++i) shape.axes[i] = joined<Real>(i < dimension ? atom.semiaxes[i] : Vec{0, 0, 1});
   shape.dual = inverse_of<Real>(shape.axes);
+  shape.inverse_size = 0;
   for (int i = 0; i < dimension; ++i) shape.inverse_size += length(high_part(shape.dual[i]));
   return shape;
 }
@@ -89,9 +84,9 @@ Motion<Real>::Motion(const Scene& scene) : places_(scene), one_lattice_(scene.la
   for (const Lattice& lattice : scene.lattices) {
     MotionRows& rows = lattices_.emplace_back();
     for (int i = 0; i < 3; ++i)
-      rows.vectors[i] = exact_point<Real>(i < scene.dimension ? lattice.vectors[i] : Vec{});
+      rows.vectors[i] = joined<Real>(i < scene.dimension ? lattice.vectors[i] : Vec{});
     for (const Atom& atom : lattice.atoms)
-      rows.obstacles.push_back({exact_point<Real>(atom.position), shape_of<Real>(atom, scene.dimension)});
+      rows.obstacles.push_back({joined<Real>(atom.position), shape_of<Real>(atom, scene.dimension)});
   }
 }
 
@@ -107,7 +102,7 @@ Inquiry Motion<Real>::asked(const Particle& particle) const {
 
 // The vector from the centre of the obstacle from which the offset counts to the centre of the named one.
 template <class Real>
-Point<Real> Motion<Real>::step_at_home(const Particle& particle, const Named& named) const {
+Point<Real> Motion<Real>::step_at_home(const Particle& particle, const Flight& named) const {
   const MotionRows& rows = lattices_[0];
   Point<Real> step =
       plus(rows.obstacles[named.atom].position, Real(-1), rows.obstacles[particle.atom].position);
@@ -117,14 +112,14 @@ Point<Real> Motion<Real>::step_at_home(const Particle& particle, const Named& na
 }
 
 template <class Real>
-Point<Real> Motion<Real>::step_in_scene(const Particle& particle, const Named& named) const {
+Point<Real> Motion<Real>::step_in_scene(const Particle& particle, const Flight& named) const {
   const Point<Wide> step = plus(places_.centre(named.lattice, named.atom, named.cell), Wide(-1),
                                 places_.centre(particle.lattice, particle.atom, particle.cell));
   return joined<Real>(high_part(step), low_part(step));
 }
 
 template <class Real>
-bool Motion<Real>::see(const Particle& particle, const Named& named, Point<Real>& w,
+bool Motion<Real>::see(const Particle& particle, const Flight& named, Point<Real>& w,
                        std::array<std::int64_t, 3>& cell) const {
   cell = {};
   for (int i = 0; i < places_.scene().dimension; ++i) {
@@ -138,7 +133,7 @@ bool Motion<Real>::see(const Particle& particle, const Named& named, Point<Real>
 }
 
 template <class Real>
-Stop Motion<Real>::meet(Particle& particle, const Inquiry& asked, const Named& named, double until,
+Stop Motion<Real>::meet(Particle& particle, const Inquiry& asked, const Flight& named, double until,
                         Collision& collision) const {
   Point<Real> w;
   std::array<std::int64_t, 3> cell;
@@ -163,13 +158,34 @@ Stop Motion<Real>::meet(Particle& particle, const Inquiry& asked, const Named& n
 }
 
 template <class Real>
-Stop Motion<Real>::fly_on(Particle& particle, double until, Stop otherwise) const {
-  if (!(until < HUGE_VAL)) return otherwise;
-  move<Real>(particle, until);
-  return Stop::time;
+Stop Motion<Real>::end(Particle& particle, const Inquiry& asked, const Flight& flight, double until,
+                       Collision& collision) const {
+  switch (flight.outcome) {
+    case Outcome::hit:
+      return meet(particle, asked, flight, until, collision);
+    case Outcome::never:
+    case Outcome::later:
+      if (!(until < HUGE_VAL)) return flight.outcome == Outcome::never ? Stop::never : Stop::later;
+      move<Real>(particle, until);
+      return Stop::time;
+    case Outcome::inside:
+      return Stop::inside;
+    case Outcome::undecided:
+      return Stop::undecided;
+    default:
+      return Stop::error;
+  }
 }
 
 template class Motion<double>;
 template class Motion<Wide>;
+
+AnyMotion::AnyMotion(const Scene& scene, Precision precision)
+    : variant(precision == Precision::binary64 ? variant(std::in_place_index<0>, scene)
+                                               : variant(std::in_place_index<1>, scene)) {}
+
+const Places& AnyMotion::places() const {
+  return std::visit([](const auto& one) -> const Places& { return one.places(); }, *this);
+}
 
 }  // namespace lorentz

@@ -2,18 +2,14 @@
 // that an engine names. Private to src/trajectory.
 #pragma once
 
+#include <variant>
 #include <vector>
 
+#include <lorentz/flight.hpp>
 #include <lorentz/trajectory.hpp>
 #include "src/trajectory/meeting.hpp"
 
 namespace lorentz {
-
-/// An obstacle as an engine names it. Its cell is in the frame in which the query was asked.
-struct Named {
-  std::int32_t lattice, atom;
-  std::array<std::int64_t, 3> cell;
-};
 
 /// The start of a flight as the engine is asked about it, and the cell of the obstacle that the particle
 /// leaves.
@@ -58,14 +54,11 @@ class Motion {
 
   Inquiry asked(const Particle& particle) const;
 
-  /// Makes the collision with the named obstacle. If that comes after the time `until`, moves the particle to
-  /// its position at `until` instead.
-  Stop meet(Particle& particle, const Inquiry& asked, const Named& named, double until,
-            Collision& collision) const;
-
-  /// Where nothing is met: moves the particle to the time `until`, or returns `otherwise` if `until` is
-  /// infinite.
-  Stop fly_on(Particle& particle, double until, Stop otherwise) const;
+  /// Ends the flight as the engine says: makes the collision with the obstacle, whose cell is in the frame in
+  /// which the query was asked; or, if nothing is met until then, moves the particle to its position at the
+  /// time `until`.
+  Stop end(Particle& particle, const Inquiry& asked, const Flight& flight, double until,
+           Collision& collision) const;
 
  private:
   struct Obstacle {
@@ -77,10 +70,12 @@ class Motion {
     std::vector<Obstacle> obstacles;
   };
 
-  bool see(const Particle& particle, const Named& named, Point<Real>& w,
+  Stop meet(Particle& particle, const Inquiry& asked, const Flight& named, double until,
+            Collision& collision) const;
+  bool see(const Particle& particle, const Flight& named, Point<Real>& w,
            std::array<std::int64_t, 3>& cell) const;
-  Point<Real> step_at_home(const Particle& particle, const Named& named) const;
-  Point<Real> step_in_scene(const Particle& particle, const Named& named) const;
+  Point<Real> step_at_home(const Particle& particle, const Flight& named) const;
+  Point<Real> step_in_scene(const Particle& particle, const Flight& named) const;
 
   Places places_;
   bool one_lattice_;
@@ -89,5 +84,11 @@ class Motion {
 
 extern template class Motion<double>;
 extern template class Motion<Wide>;
+
+/// Motion with states in the numbers of a precision.
+struct AnyMotion : std::variant<Motion<double>, Motion<Wide>> {
+  AnyMotion(const Scene& scene, Precision precision);
+  const Places& places() const;
+};
 
 }  // namespace lorentz

@@ -28,14 +28,6 @@ bool in_range(const Scene& scene) {
   return good;
 }
 
-Point<Wide> exact(const Vec& a) {
-  return joined<Wide>(a, Vec{});
-}
-
-Vec rounded(const Point<Wide>& a) {
-  return {a[0].value(), a[1].value(), a[2].value()};
-}
-
 }  // namespace
 
 Places::Places(const Scene& scene) : scene_(scene) {
@@ -72,8 +64,8 @@ Particle Places::at(const Query& start, Precision precision) const {
   if (!in_range(start.v)) throw UnsupportedError("trajectories are for speeds between 2^-100 and 2^100");
   Particle particle;
   set_home(start, particle);
-  const Point<Wide> home = centre(particle.lattice, particle.atom, particle.cell), v = exact(start.v);
-  const Point<Wide> offset = plus(exact(start.x), Wide(-1), home);
+  const Point<Wide> home = centre(particle.lattice, particle.atom, particle.cell), v = joined<Wide>(start.v);
+  const Point<Wide> offset = plus(joined<Wide>(start.x), Wide(-1), home);
   const Wide square = inner(v, v);
   particle.velocity = start.v;
   particle.offset = rounded(offset), particle.speed_squared = square.value();
@@ -101,9 +93,9 @@ void Places::check(const Particle& particle) const {
 
 Point<Wide> Places::centre(std::int32_t lattice, std::int32_t atom,
                            const std::array<std::int64_t, 3>& cell) const {
-  Point<Wide> sum = exact(scene_.lattices[lattice].atoms[atom].position);
+  Point<Wide> sum = joined<Wide>(scene_.lattices[lattice].atoms[atom].position);
   for (int i = 0; i < scene_.dimension; ++i)
-    sum = plus(sum, wide(cell[i]), exact(scene_.lattices[lattice].vectors[i]));
+    sum = plus(sum, wide(cell[i]), joined<Wide>(scene_.lattices[lattice].vectors[i]));
   return sum;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include <lorentz/vec.hpp>
 #include "src/engines/base/double_double.hpp"
@@ -15,14 +16,11 @@ template <class Real>
 using Point = std::array<Real, 3>;
 
 template <class Real>
-Real joined(double high, double low);
-template <>
-inline double joined<double>(double high, double) {
-  return high;
-}
-template <>
-inline Wide joined<Wide>(double high, double low) {
-  return Wide::sum(high, low);
+Real joined(double high, double low) {
+  if constexpr (std::is_same_v<Real, Wide>)
+    return Wide::sum(high, low);
+  else
+    return high;
 }
 
 inline double high_part(double x) {
@@ -45,7 +43,7 @@ inline Wide wide(std::int64_t n) {
 }
 
 template <class Real>
-Point<Real> joined(const Vec& high, const Vec& low) {
+Point<Real> joined(const Vec& high, const Vec& low = {}) {
   return {joined<Real>(high[0], low[0]), joined<Real>(high[1], low[1]), joined<Real>(high[2], low[2])};
 }
 
@@ -56,6 +54,10 @@ Vec high_part(const Point<Real>& a) {
 template <class Real>
 Vec low_part(const Point<Real>& a) {
   return {low_part(a[0]), low_part(a[1]), low_part(a[2])};
+}
+
+inline Vec rounded(const Point<Wide>& a) {
+  return {a[0].value(), a[1].value(), a[2].value()};
 }
 
 template <class Real>

@@ -1,7 +1,5 @@
 #include <lorentz/trajectory.hpp>
 
-#include <variant>
-
 #include <lorentz/reduction.hpp>
 #include "src/trajectory/motion.hpp"
 
@@ -10,18 +8,11 @@ namespace lorentz {
 struct Trajectory::Inside {
   AskFirstHit ask;
   const Reduction* reduction = nullptr;  ///< if set, used instead of `ask`
-  std::variant<Motion<double>, Motion<Wide>> motion;
+  AnyMotion motion;
   Query query;
   Answer answer;
 
-  Inside(const Scene& scene, Precision precision)
-      : motion(precision == Precision::binary64
-                   ? std::variant<Motion<double>, Motion<Wide>>(std::in_place_index<0>, scene)
-                   : std::variant<Motion<double>, Motion<Wide>>(std::in_place_index<1>, scene)) {}
-
-  const Places& places() const {
-    return std::visit([](const auto& one) -> const Places& { return one.places(); }, motion);
-  }
+  Inside(const Scene& scene, Precision precision) : motion(scene, precision) {}
 };
 
 namespace {
@@ -37,13 +28,6 @@ void set(const Particle& particle, const Inquiry& asked, Query& query) {
   for (int i = 0; i < 3; ++i) query.from->cell[i] = asked.cell[i];
 }
 
-// What the engine answered about a flight.
-struct Heard {
-  Outcome outcome = Outcome::error;
-  Named named{};
-  bool overflow = false;
-};
-
 // A negative index becomes a very large one, which is not in the scene, either.
 bool has(const Scene& scene, const ObstacleId& obstacle) {
   const auto lattice = static_cast<std::size_t>(obstacle.lattice),
@@ -51,19 +35,21 @@ bool has(const Scene& scene, const ObstacleId& obstacle) {
   return lattice < scene.lattices.size() && atom < scene.lattices[lattice].atoms.size();
 }
 
-Heard heard(const Flight& flight) {
-  return {flight.outcome, {flight.lattice, flight.atom, flight.cell}, false};
-}
-
-Heard heard(const Answer& answer, const Scene& scene) {
-  Heard all{answer.outcome, {answer.obstacle.lattice, answer.obstacle.atom, {}}, false};
-  if (answer.outcome != Outcome::hit) return all;
-  if (!has(scene, answer.obstacle)) return {};
-  for (int i = 0; i < 3; ++i) {
-    all.overflow |= !answer.obstacle.cell[i].fits_int64();
-    all.named.cell[i] = answer.obstacle.cell[i].int64();
+// The answer as a flight, an error if there is no such obstacle; false if its cell is beyond 64 bits.
+bool set(const Answer& answer, const Scene& scene, Flight& flight) {
+  flight.outcome = answer.outcome;
+  if (answer.outcome != Outcome::hit) return true;
+  if (!has(scene, answer.obstacle)) {
+    flight.outcome = Outcome::error;
+    return true;
   }
-  return all;
+  flight.lattice = answer.obstacle.lattice, flight.atom = answer.obstacle.atom;
+  bool fits = true;
+  for (int i = 0; i < 3; ++i) {
+    fits &= answer.obstacle.cell[i].fits_int64();
+    flight.cell[i] = answer.obstacle.cell[i].int64();
+  }
+  return fits;
 }
 
 }  // namespace
@@ -80,7 +66,7 @@ Trajectory::Trajectory(const Engine& engine, const Scene& scene, const Query& st
 Trajectory::Trajectory(AskFirstHit ask, const Scene& scene, const Query& start, Precision precision)
     : inside_(std::make_unique<Inside>(scene, precision)) {
   inside_->ask = std::move(ask);
-  particle_ = inside_->places().at(start, precision);
+  particle_ = inside_->motion.places().at(start, precision);
 }
 
 Trajectory::~Trajectory() = default;
@@ -88,7 +74,7 @@ Trajectory::Trajectory(Trajectory&&) noexcept = default;
 Trajectory& Trajectory::operator=(Trajectory&&) noexcept = default;
 
 void Trajectory::set_state(const Particle& particle) {
-  inside_->places().check(particle);
+  inside_->motion.places().check(particle);
   particle_ = particle;
   stop_ = Stop::none;
 }
@@ -104,62 +90,28 @@ Stop Trajectory::advance(const Motion& motion, double until) {
   Query& query = inside_->query;
   Answer& answer = inside_->answer;
   set(particle_, asked, query);
-  Heard of_flight;
+  Flight flight;
   if (inside_->reduction) {
-    of_flight = heard(inside_->reduction->fly(query, flight_limit(particle_, until)));
+    flight = inside_->reduction->fly(query, flight_limit(particle_, until));
   } else {
     inside_->ask(query, flight_limit(particle_, until), answer);
-    of_flight = heard(answer, motion.places().scene());
+    if (!set(answer, motion.places().scene(), flight)) return Stop::overflow;
   }
-  switch (of_flight.outcome) {
-    case Outcome::hit:
-      if (of_flight.overflow) return Stop::overflow;
-      return motion.meet(particle_, asked, of_flight.named, until, collision_);
-    case Outcome::never:
-      return motion.fly_on(particle_, until, Stop::never);
-    case Outcome::later:
-      return motion.fly_on(particle_, until, Stop::later);
-    case Outcome::inside:
-      return Stop::inside;
-    case Outcome::undecided:
-      return Stop::undecided;
-    default:
-      message_ =
-          answer.outcome == Outcome::error ? answer.message : "the engine named an atom that is not there";
-      return Stop::error;
-  }
+  const Stop stop = motion.end(particle_, asked, flight, until, collision_);
+  if (stop == Stop::error)
+    message_ =
+        answer.outcome == Outcome::error ? answer.message : "the engine named an atom that is not there";
+  return stop;
 }
 
 Vec Trajectory::place() const {
-  const Point<Wide> place = inside_->places().place(particle_);
-  return {place[0].value(), place[1].value(), place[2].value()};
+  return rounded(inside_->motion.places().place(particle_));
 }
 
 const char* name_of(Stop stop) {
-  switch (stop) {
-    case Stop::none:
-      return "none";
-    case Stop::collisions:
-      return "collisions";
-    case Stop::time:
-      return "time";
-    case Stop::condition:
-      return "condition";
-    case Stop::never:
-      return "never";
-    case Stop::later:
-      return "later";
-    case Stop::inside:
-      return "inside";
-    case Stop::undecided:
-      return "undecided";
-    case Stop::missed:
-      return "missed";
-    case Stop::overflow:
-      return "overflow";
-    default:
-      return "error";
-  }
+  constexpr const char* kNames[] = {"none",   "collisions", "time",   "condition", "never", "later",
+                                    "inside", "undecided",  "missed", "overflow",  "error"};
+  return kNames[static_cast<int>(stop)];
 }
 
 }  // namespace lorentz

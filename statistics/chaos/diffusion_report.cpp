@@ -1,10 +1,10 @@
-#include "statistics/chaos/diffusion_report.hpp"
-
+// Reports of mean squared displacements as text, CSV and JSON.
 #include <fmt/format.h>
 
 #include "report/scene_name.hpp"
 #include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
+#include "statistics/chaos/diffusion.hpp"
 #include "statistics/chaos/theory.hpp"
 
 namespace lorentz::chaos {

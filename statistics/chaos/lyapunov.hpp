@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <lorentz/scene.hpp>
-#include "statistics/chaos/estimate.hpp"
 #include "statistics/chaos/groups.hpp"
+#include "statistics/theory/laws.hpp"
 
 namespace lorentz::chaos {
 
@@ -44,5 +44,23 @@ struct Lyapunov {
 /// Also throws for a whole spectrum if exponents are above about 18 (r below 2e-4 in 2D), because rounding
 /// then destroys the negative ones.
 Lyapunov lyapunov_of(const LyapunovPlan& plan, const Work& work = {});
+
+/// The report, with theory for comparison.
+struct LyapunovReport {
+  LyapunovReport(std::string scene_name, LyapunovPlan its_plan, Lyapunov what_was_found);
+
+  std::string scene;  ///< its name as given by the user
+  LyapunovPlan plan;
+  Lyapunov found;
+  flights::MeanFreePath exact;
+  std::optional<double> limit;  ///< as r -> 0: the first exponent (2D), the sum of the positive ones (3D)
+
+  /// Exponent k per unit of time, from the exact mean free path where it is known.
+  Estimate flow(std::size_t k) const;
+
+  std::string table() const;
+  std::string csv() const;   ///< one row per exponent
+  std::string json() const;  ///< one object on one line
+};
 
 }  // namespace lorentz::chaos

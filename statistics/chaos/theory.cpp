@@ -5,18 +5,15 @@
 
 #include <lorentz/geometry.hpp>
 #include "src/problem/scene_geometry.hpp"
+#include "statistics/theory/small_obstacles.hpp"
 
 namespace lorentz::chaos {
+
+using flights::only_ball;
+
 namespace {
 
 constexpr double kPi = std::numbers::pi, kZeta3 = 1.2020569031595942854;
-
-// The ball of a scene with one ball per cell, else nullptr.
-const Atom* only_ball(const Scene& scene, int dimension) {
-  const bool one =
-      scene.dimension == dimension && scene.lattices.size() == 1 && scene.lattices[0].atoms.size() == 1;
-  return one && scene.lattices[0].atoms[0].is_ball() ? &scene.lattices[0].atoms[0] : nullptr;
-}
 
 }  // namespace
 
@@ -49,10 +46,6 @@ std::optional<double> machta_zwanzig(const Scene& scene) {
   if (!triangular || gap < 0) return std::nullopt;
   const double area = (std::sqrt(0.75) * square - kPi * disc->radius * disc->radius) / 2;
   return 3 * gap / (kPi * area) * square / 12;
-}
-
-double head_on_multiplier(double L, double r) {
-  return L / r - 1 + L / r * std::sqrt(1 - 2 * r / L);
 }
 
 }  // namespace lorentz::chaos

@@ -23,8 +23,4 @@ std::optional<double> exponents_of_small_balls(const Scene& scene);
 /// overlapping discs.
 std::optional<double> machta_zwanzig(const Scene& scene);
 
-/// The factor by which a collision widens a pencil that bounces head-on between two discs or balls of radius
-/// r whose centres are a distance L apart.
-double head_on_multiplier(double L, double r);
-
 }  // namespace lorentz::chaos

@@ -14,7 +14,6 @@
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_json.hpp"
 #include "src/exchange/json_writer.hpp"
-#include "statistics/flights/plan.hpp"
 
 namespace lorentz::flights {
 

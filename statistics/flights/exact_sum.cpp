@@ -1,7 +1,10 @@
 #include "statistics/flights/exact_sum.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
@@ -59,56 +62,42 @@ ExactSum ExactSum::size(bool& negative) const {
 double ExactSum::value() const {
   bool negative = false;
   const ExactSum sum = size(negative);
-  int top = kDigits - 1;
-  while (top > 0 && sum.digits_[static_cast<std::size_t>(top)] == 0) --top;
-  // The four highest digits have at least 97 bits. Lower digits only break ties.
+  std::size_t low = kDigits - 4;  // of the four highest digits, which have at least 97 bits
+  while (low > 0 && sum.digits_[low + 3] == 0) --low;
   Wide head = 0;
-  for (int i = top; i > top - 4; --i)
-    head =
-        head << kDigitBits | static_cast<std::uint32_t>(i < 0 ? 0 : sum.digits_[static_cast<std::size_t>(i)]);
-  for (int i = 0; i <= top - 4; ++i)
-    if (sum.digits_[static_cast<std::size_t>(i)] != 0) head |= 1;
-  // Round to the 53 bits of the result, or to fewer if it is subnormal, so that the scaling does not round.
-  const int place = kDigitBits * (top - 3) + kLowest;
-  int bits = 0;
-  for (Wide rest = head; rest != 0; rest >>= 1) ++bits;
-  const int drop = std::max({0, bits - 53, kLowest - place});
-  if (drop > 0 && drop < 128) {
-    const Wide half = static_cast<Wide>(1) << (drop - 1), rest = head & ((half << 1) - 1);
-    head >>= drop;
-    if (rest > half || (rest == half && (head & 1) != 0)) ++head;
-  }
-  const double rounded = std::ldexp(static_cast<double>(head), place + drop);
+  for (std::size_t i = low + 4; i-- > low;) head = head << kDigitBits | static_cast<Wide>(sum.digits_[i]);
+  // Lower digits only break ties.
+  if (std::any_of(&sum.digits_[0], &sum.digits_[low], [](std::int64_t digit) { return digit != 0; }))
+    head |= 1;
+  // The conversion rounds, to nearest. The scaling does not: a sum is a multiple of 2^-1074, so that one below
+  // the normal numbers has less than 53 bits.
+  const double rounded = std::ldexp(static_cast<double>(head), kDigitBits * static_cast<int>(low) + kLowest);
   return negative ? -rounded : rounded;
 }
 
 std::string ExactSum::text() const {
   bool negative = false;
   const ExactSum sum = size(negative);
-  static constexpr char kHex[] = "0123456789abcdef";
   std::string text;
-  for (std::size_t i = kDigits; i-- > 0;)
-    for (int shift = kDigitBits - 4; shift >= 0; shift -= 4) {
-      const char c = kHex[sum.digits_[i] >> shift & 15];
-      if (!text.empty() || c != '0') text += c;
-    }
-  if (text.empty()) return "0";
+  for (std::size_t i = kDigits; i-- > 0;) text += fmt::format("{:08x}", sum.digits_[i]);
+  text.erase(0, std::min(text.find_first_not_of('0'), text.size() - 1));
   return negative ? '-' + text : text;
 }
 
 ExactSum ExactSum::of(std::string_view text) {
+  constexpr std::size_t kHexadecimal = kDigitBits / 4;  // digits in a digit
   const bool negative = text.starts_with('-');
   if (negative) text.remove_prefix(1);
   // The highest digit may be half full.
-  if (text.empty() || text.size() >= std::size_t{kDigits} * kDigitBits / 4)
+  if (text.empty() || text.size() >= kDigits * kHexadecimal)
     throw std::invalid_argument("not a sum: too many hexadecimal digits");
+  if (text.find_first_not_of("0123456789abcdef") != text.npos)
+    throw std::invalid_argument("no sum: not hexadecimal");
   ExactSum sum;
-  int place = 0;
-  for (auto c = text.rbegin(); c != text.rend(); ++c, place += 4) {
-    const bool decimal = *c >= '0' && *c <= '9';
-    if (!decimal && !(*c >= 'a' && *c <= 'f')) throw std::invalid_argument("no sum: not hexadecimal");
-    const std::int64_t value = decimal ? *c - '0' : *c - 'a' + 10;
-    sum.digits_[static_cast<std::size_t>(place / kDigitBits)] += value << place % kDigitBits;
+  for (std::int64_t& digit : sum.digits_) {
+    const std::string_view last = text.substr(text.size() - std::min(text.size(), kHexadecimal));
+    std::from_chars(last.data(), last.data() + last.size(), digit, 16);
+    text.remove_suffix(last.size());
   }
   if (negative)
     for (std::int64_t& digit : sum.digits_) digit = -digit;

@@ -1,6 +1,7 @@
-#include "statistics/flights/findings.hpp"
-
+// The predictions of theory for a run.
 #include <algorithm>
+
+#include "statistics/flights/report.hpp"
 
 namespace lorentz::flights {
 

@@ -6,7 +6,7 @@
 #include "files/messages.hpp"
 #include "pictures/free_path_plot.hpp"
 #include "report/scene_name.hpp"
-#include "statistics/flights/findings.hpp"
+#include "statistics/flights/report.hpp"
 
 namespace lorentz::flights {
 namespace {

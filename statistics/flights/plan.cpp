@@ -1,9 +1,8 @@
-#include "statistics/flights/plan.hpp"
-
+// The plan of a run: which flights to fly.
 #include <algorithm>
 #include <cmath>
 
-#include <lorentz/exchange.hpp>
+#include "report/query_text.hpp"
 #include "src/problem/scene_geometry.hpp"
 #include "statistics/flights/account.hpp"
 
@@ -14,15 +13,12 @@ std::uint64_t FlightsPlan::blocks() const {
 }
 
 std::vector<std::pair<std::string, std::string>> FlightsPlan::words() const {
-  std::string line;
-  append_scene_line(line, scene);
-  line.pop_back();
   return {{"engine", engine},
           {"starts", name_of(from)},
           {"seed", std::to_string(seed)},
           {"count", std::to_string(count)},
           {"cells", std::to_string(cells)},
-          {"scene", line}};
+          {"scene", report::scene_line(scene)}};
 }
 
 int unit_exponent(const Scene& scene) {

@@ -1,4 +1,4 @@
-#include "statistics/flights/findings.hpp"
+#include "statistics/flights/report.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "statistics/flights/account.hpp"
-#include "statistics/flights/plan.hpp"
 
 namespace lorentz::flights {
 

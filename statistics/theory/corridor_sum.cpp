@@ -1,4 +1,4 @@
-#include "statistics/theory/corridor_sum.hpp"
+// The tail constant of one 2D lattice of discs.
 
 #include <cmath>
 #include <numbers>
@@ -7,6 +7,7 @@
 
 #include <lorentz/geometry.hpp>
 #include "src/problem/scene_geometry.hpp"
+#include "statistics/theory/small_obstacles.hpp"
 
 namespace lorentz::flights {
 namespace {

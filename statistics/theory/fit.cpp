@@ -11,50 +11,32 @@
 #include <stdexcept>
 #include <vector>
 
+#include "statistics/theory/merged_bins.hpp"
+
 namespace lorentz::flights {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-void check(std::span<const double> edges, std::span<const std::uint64_t> counts) {
-  if (edges.empty() || counts.size() != edges.size() + 1)
-    throw std::invalid_argument("bins: one count more than edges is wanted");
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    if (!(edges[i] > (i ? edges[i - 1] : 0)) || !std::isfinite(edges[i]))
-      throw std::invalid_argument("bins: the edges have to be above 0, finite, and ascend");
-}
-
 struct Bin {
-  double from, to, expected;
+  double expected;
   std::uint64_t count;
+
+  void operator+=(const Bin& other) { expected += other.expected, count += other.count; }
 };
 
-// Merges neighbouring bins, from the left, until 25 paths are expected in each.
-std::vector<Bin> merged(std::span<const double> edges, std::span<const std::uint64_t> counts, double total,
-                        const std::function<double(double)>& survival) {
+// Neighbouring bins are merged until 25 paths are expected in each.
+std::vector<Bin> bins_of(std::span<const double> edges, std::span<const std::uint64_t> counts, double total,
+                         const std::function<double(double)>& survival) {
   constexpr double kLeastExpected = 25;
   std::vector<Bin> bins;
-  double from = 0, longer = 1;
+  double longer = 1;
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    const bool last = i == edges.size();
-    const double to = last ? kInfinity : edges[i], still_longer = last ? 0 : survival(to);
-    const Bin bin{from, to, total * (longer - still_longer), counts[i]};
-    from = to;
+    const double still_longer = i == edges.size() ? 0 : survival(edges[i]);
+    bins.push_back({total * (longer - still_longer), counts[i]});
     longer = still_longer;
-    if (bins.empty() || bins.back().expected >= kLeastExpected) {
-      bins.push_back(bin);
-    } else {
-      bins.back() = {bins.back().from, bin.to, bins.back().expected + bin.expected,
-                     bins.back().count + bin.count};
-    }
   }
-  if (bins.size() > 1 && !(bins.back().expected >= kLeastExpected)) {
-    const Bin rest = bins.back();
-    bins.pop_back();
-    bins.back() = {bins.back().from, rest.to, bins.back().expected + rest.expected,
-                   bins.back().count + rest.count};
-  }
-  return bins;
+  return merged(bins, [](const Bin& bin) { return bin.expected >= kLeastExpected; });
 }
 
 // Whether the survival falls from 1 to 0, up to rounding. If not, some bin has a negative probability, which
@@ -79,22 +61,14 @@ double statistic_of(const Bin& bin) {
 
 ChiSquared chi_squared(std::span<const double> edges, std::span<const std::uint64_t> counts,
                        std::uint64_t total, const std::function<double(double)>& survival) {
-  check(edges, counts);
+  check_bins(edges, counts);
   if (std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}) != total)
     throw std::invalid_argument("bins: the counts have to add up to the total");
-  const std::vector<Bin> bins = merged(edges, counts, static_cast<double>(total), survival);
+  const std::vector<Bin> bins = bins_of(edges, counts, static_cast<double>(total), survival);
   ChiSquared result;
-  const Bin* worst = &bins[0];
-  for (const Bin& bin : bins) {
-    result.statistic += statistic_of(bin);
-    if (statistic_of(bin) > statistic_of(*worst)) worst = &bin;
-  }
+  for (const Bin& bin : bins) result.statistic += statistic_of(bin);
   result.degrees = static_cast<int>(bins.size()) - 1;
   if (!is_law(edges, survival)) result.statistic = kInfinity;
-  result.worst_from = worst->from;
-  result.worst_to = worst->to;
-  result.worst_count = worst->count;
-  result.worst_expected = worst->expected;
   if (!(result.statistic < kInfinity))
     result.p_value = 0;
   else if (result.degrees > 0)
@@ -178,16 +152,12 @@ std::optional<double> best_power(const BinnedTail& tail) {
   return zero_of(slope, high / 2, high);
 }
 
-std::size_t bins_from(std::size_t first, std::span<const double> edges) {
-  return first < edges.size() ? edges.size() - 1 - first : 0;
-}
-
 }  // namespace
 
 std::optional<TailExponent> tail_exponent_from(std::size_t first, std::span<const double> edges,
                                                std::span<const std::uint64_t> counts) {
-  check(edges, counts);
-  if (bins_from(first, edges) < kLeastBins) return std::nullopt;
+  check_bins(edges, counts);
+  if (first >= edges.size() || edges.size() - 1 - first < kLeastBins) return std::nullopt;
   BinnedTail tail;
   for (std::size_t i = first; i < edges.size(); ++i)
     tail.add(std::log(edges[i] / edges[first]), static_cast<double>(counts[i + 1]));
@@ -224,7 +194,7 @@ std::optional<std::size_t> edge_before(double paths, std::span<const double> edg
 
 std::optional<TailExponent> tail_exponent(std::span<const double> edges,
                                           std::span<const std::uint64_t> counts, std::uint64_t least_count) {
-  check(edges, counts);
+  check_bins(edges, counts);
   const auto least = static_cast<double>(least_count);
   const auto far = edge_before(least, edges, counts);
   const auto pilot = far ? tail_exponent_from(*far, edges, counts) : std::nullopt;

@@ -1,5 +1,5 @@
-// Tests whether counted free paths follow a law, and measures the power with which they fall. The input is
-// only counts in bins, because 10^9 paths cannot be stored.
+// Tests whether counted free paths follow a law, and measures the power with which they fall, and the constant
+// of a tail that is approached slowly. The input is only counts in bins, because 10^9 paths cannot be stored.
 //
 // Bins: the edges e_0 < e_1 < .. < e_n, and n + 2 counts of paths: below e_0, in [e_0, e_1), .., and from e_n
 // on. The last count includes endless paths. Functions throw std::invalid_argument for bad bins.
@@ -19,12 +19,6 @@ struct ChiSquared {
   int degrees = 0;                ///< merged bins minus one, because they add up to the total
   std::optional<double> p_value;  ///< P(a statistic this large or larger | the law); empty if there is only
                                   ///< one bin, because then nothing is tested
-
-  /// The merged bin that adds most to the statistic: its ends (0 and infinity where it has none), the count
-  /// in it, and the count that the law expects.
-  double worst_from = 0, worst_to = 0;
-  std::uint64_t worst_count = 0;
-  double worst_expected = 0;
 };
 
 /// `total` paths were flown; the counts add up to it. `survival(t)` is P(path > t). Bins with fewer than 25
@@ -61,5 +55,30 @@ std::optional<TailExponent> tail_exponent_from(std::size_t first, std::span<cons
 /// if the law does not fall like a power.
 std::optional<double> local_exponent(std::span<const double> edges, double from,
                                      const std::function<double(double)>& survival);
+
+/// P(path > t) = constant * t^-power (1 + O(t^-approach)).
+struct SlowTail {
+  double power = 1, approach = 1;
+};
+
+struct TailConstant {
+  double value = 0, error = 0;  ///< one standard error, statistical only
+  double from = 0;              ///< measured on paths longer than this edge
+  std::uint64_t count = 0;      ///< the number of these paths
+};
+
+/// The extrapolated constant C. The model: the number of paths expected between a and b is `total` times the
+/// difference of C t^-power + D t^-(power + approach) between a and b. C and D come from least squares,
+/// weighted by the statistical errors, over the bins from the first edge on that is not below `from`. Empty
+/// if fewer than 4 bins have at least 25 paths after merging with their neighbours. Throws
+/// std::invalid_argument for bad bins.
+std::optional<TailConstant> tail_constant(std::span<const double> edges,
+                                          std::span<const std::uint64_t> counts, std::uint64_t total,
+                                          const SlowTail& tail, double from);
+
+/// The t from which to measure the constant in 3D, in mean free paths between collisions. The terms that the
+/// model leaves out bias C like 1/t, and the statistical error grows like sqrt(t^power / total). The two stay
+/// in a fixed proportion if t grows like total^(1 / (2 + power)).
+double tail_begins(double power, std::uint64_t total);
 
 }  // namespace lorentz::flights

@@ -44,10 +44,6 @@ std::string name_of(const SmallObstacles& small) {
   return name;
 }
 
-}  // namespace
-
-namespace {
-
 // Seen from the obstacle that a particle leaves, the other obstacles stand at the distances of the lattice,
 // and the first few shells are visible in the statistics. The shells up to t have about t^2 obstacles, with a
 // relative unevenness of t^-3/2. From kSpacings on, this is below the statistical error of 10^8 flights at

@@ -35,6 +35,12 @@ std::string reason_against(const Scene& scene) {
 
 }  // namespace
 
+const Atom* only_ball(const Scene& scene, int dimension) {
+  const bool one =
+      scene.dimension == dimension && scene.lattices.size() == 1 && scene.lattices[0].atoms.size() == 1;
+  return one && scene.lattices[0].atoms[0].is_ball() ? &scene.lattices[0].atoms[0] : nullptr;
+}
+
 double SmallObstacles::mean_rate() const {
   double sum = 0;
   for (const Rates& rates : directions)

@@ -1,4 +1,5 @@
-// Scenes with a known limit law: 2D lattices with one obstacle per cell each. Private to statistics/theory.
+// Scenes with a known limit law: one ball per cell, or 2D lattices with one obstacle per cell each. Private to
+// statistics.
 #pragma once
 
 #include <optional>
@@ -8,6 +9,9 @@
 #include <lorentz/scene.hpp>
 
 namespace lorentz::flights {
+
+/// The ball of a scene of this dimension with one ball per cell, else null.
+const Atom* only_ball(const Scene& scene, int dimension);
 
 /// The rates for one direction: for each lattice, the width of its obstacle across that direction divided by
 /// the area of its cell. A path t is s = rate * t in the lattice's limit law, and the rate is that of
@@ -26,5 +30,17 @@ struct SmallObstacles {
 
 /// Empty if the scene is not of that kind; `why_not` is then the reason.
 std::optional<SmallObstacles> small_obstacles_of(const Scene& scene, std::string& why_not);
+
+/// The tail constant of one 2D lattice of discs, as a sum in binary64. The exact search lists every corridor,
+/// which is slow for 10^5 corridors.
+struct CorridorSum {
+  double value = 0;       ///< C in P(a path from a uniform start > t) ~ C / t; 0 without a corridor
+  bool of_limit = false;  ///< true: not the sum over corridors, which would be millions, but its limit
+                          ///< r -> 0, which then differs by less than 1e-5
+};
+
+/// For a lattice with one disc that does not overlap its translates. Empty if there are millions of corridors
+/// but the limit is not close. This happens in a slender cell.
+std::optional<CorridorSum> corridor_tail_constant(const Lattice& lattice);
 
 }  // namespace lorentz::flights

@@ -1,10 +1,11 @@
-#include "statistics/theory/tail_constant.hpp"
+// The constant of a tail that is approached slowly.
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 #include <vector>
+
+#include "statistics/theory/fit.hpp"
+#include "statistics/theory/merged_bins.hpp"
 
 namespace lorentz::flights {
 namespace {
@@ -12,55 +13,31 @@ namespace {
 constexpr double kLeastCount = 25;
 constexpr std::size_t kLeastBinsOfTail = 4;
 
-// A merged bin: the contribution of either term between its ends, for a coefficient of 1, and the count.
-struct MergedBin {
+// The contribution of either term between the ends of a bin, for a coefficient of 1, and the count.
+struct TailBin {
   double leading, next, count;
+
+  void operator+=(const TailBin& other) {
+    leading += other.leading, next += other.next, count += other.count;
+  }
 };
 
-class MergedBins {
- public:
-  MergedBins(const SlowTail& tail, double total) : tail_(tail), total_(total) {}
-
-  // Adds the bin from `from`, where the previous bin ended, up to `to`.
-  void add(double from, double to, double count) {
-    const auto term = [&](double power) {
-      return total_ * (std::pow(from, -power) - (std::isfinite(to) ? std::pow(to, -power) : 0));
-    };
-    const MergedBin row{term(tail_.power), term(tail_.power + tail_.approach), count};
-    if (rows_.empty() || rows_.back().count >= kLeastCount)
-      rows_.push_back(row);
-    else
-      merge(row);
-  }
-  // Merges the last bin with the one before if its count is too small.
-  std::vector<MergedBin> all() {
-    if (rows_.size() > 1 && rows_.back().count < kLeastCount) {
-      const MergedBin rest = rows_.back();
-      rows_.pop_back();
-      merge(rest);
-    }
-    return rows_;
-  }
-
- private:
-  void merge(const MergedBin& row) {
-    MergedBin& last = rows_.back();
-    last = {last.leading + row.leading, last.next + row.next, last.count + row.count};
-  }
-
-  const SlowTail tail_;
-  const double total_;
-  std::vector<MergedBin> rows_;
-};
+// The bin from `from` to `to`, or without end.
+TailBin bin_of(const SlowTail& tail, double total, double from, std::optional<double> to, double count) {
+  const auto term = [&](double power) {
+    return total * (std::pow(from, -power) - (to ? std::pow(*to, -power) : 0));
+  };
+  return {term(tail.power), term(tail.power + tail.approach), count};
+}
 
 struct TailFit {
   double leading = 0, next = 0, variance = 0;  // variance: of `leading`
 };
 
 // One step. The variance of a count is the expectation of the previous fit.
-TailFit weighted_fit(const std::vector<MergedBin>& rows, const std::optional<TailFit>& before) {
+TailFit weighted_fit(const std::vector<TailBin>& rows, const std::optional<TailFit>& before) {
   double aa = 0, ab = 0, bb = 0, ac = 0, bc = 0;
-  for (const MergedBin& row : rows) {
+  for (const TailBin& row : rows) {
     const double expected =
         before ? before->leading * row.leading + before->next * row.next : std::max(row.count, 1.0);
     const double weight = 1 / std::max(expected, 1.0);
@@ -77,19 +54,18 @@ TailFit weighted_fit(const std::vector<MergedBin>& rows, const std::optional<Tai
 std::optional<TailConstant> tail_constant(std::span<const double> edges,
                                           std::span<const std::uint64_t> counts, std::uint64_t total,
                                           const SlowTail& tail, double from) {
-  if (edges.empty() || counts.size() != edges.size() + 1)
-    throw std::invalid_argument("bins: one count more than edges is wanted");
+  check_bins(edges, counts);
   std::size_t first = 0;
   while (first < edges.size() && edges[first] < from) ++first;
-  MergedBins rows(tail, static_cast<double>(total));
+  std::vector<TailBin> bins;
   TailConstant result;
   for (std::size_t i = first; i < edges.size(); ++i) {
-    const bool last = i + 1 == edges.size();
-    rows.add(edges[i], last ? std::numeric_limits<double>::infinity() : edges[i + 1],
-             static_cast<double>(counts[i + 1]));
+    const auto to = i + 1 < edges.size() ? std::optional(edges[i + 1]) : std::nullopt;
+    bins.push_back(
+        bin_of(tail, static_cast<double>(total), edges[i], to, static_cast<double>(counts[i + 1])));
     result.count += counts[i + 1];
   }
-  const std::vector<MergedBin> all = rows.all();
+  const auto all = merged(bins, [](const TailBin& bin) { return bin.count >= kLeastCount; });
   if (all.size() < kLeastBinsOfTail) return std::nullopt;
   constexpr int kSteps = 5;
   std::optional<TailFit> fit;

@@ -5,7 +5,6 @@
 
 #include <lorentz/horizon.hpp>
 #include "src/problem/scene_geometry.hpp"
-#include "statistics/theory/corridor_sum.hpp"
 #include "statistics/theory/incommensurate.hpp"
 #include "statistics/theory/laws.hpp"
 #include "statistics/theory/small_obstacles.hpp"
@@ -45,10 +44,9 @@ std::optional<Tail> tail_2d_of_small(const Scene& scene, Ensemble ensemble) {
 
 // With xi = r^2 t / V, the density from a uniform start is pi / (48 zeta(3)) xi^-2, and the mean is 1 / pi.
 std::optional<Tail> tail_3d_of_small(const Scene& scene, Ensemble ensemble) {
-  const bool ball = scene.lattices.size() == 1 && scene.lattices[0].atoms.size() == 1 &&
-                    scene.lattices[0].atoms[0].is_ball();
+  const Atom* ball = only_ball(scene, 3);
   if (!ball) return std::nullopt;
-  const double r = scene.lattices[0].atoms[0].radius, unit = cell_volume(scene.lattices[0], 3) / (r * r);
+  const double r = ball->radius, unit = cell_volume(scene.lattices[0], 3) / (r * r);
   return tail_of("r -> 0", 1, kPi / (48 * kZeta3) * unit, unit / kPi, ensemble,
                  "of the limit law; approached like (r^2 t / V)^(-2/3)");
 }
@@ -131,13 +129,10 @@ Tail tail_of_horizon(const Scene& scene, Ensemble ensemble) {
 std::optional<Tail> tail_of_small_discs(const Scene& scene, Ensemble ensemble) {
   constexpr double kSmall = 0.1;  // in units of the square root of the cell's area; the shortest vector is at
                                   // most 1.07, so that its corridor is at least 0.7 wide
-  if (scene.dimension != 2 || scene.lattices.size() != 1 || scene.lattices[0].atoms.size() != 1)
-    return std::nullopt;
-  const Lattice& lattice = scene.lattices[0];
-  const Atom& disc = lattice.atoms[0];
-  if (!disc.is_ball() || disc.radius > kSmall * std::sqrt(cell_volume(lattice, 2))) return std::nullopt;
+  const Atom* disc = only_ball(scene, 2);
+  if (!disc || disc->radius > kSmall * std::sqrt(cell_volume(scene.lattices[0], 2))) return std::nullopt;
   if (!mean_free_path_of(scene).value) return std::nullopt;  // the sum is for discs that don't overlap
-  const auto sum = corridor_tail_constant(lattice);
+  const auto sum = corridor_tail_constant(scene.lattices[0]);
   return tail_of_channels(scene, ensemble, sum ? std::optional(sum->value) : std::nullopt,
                           !sum            ? "of the corridors; too many to be added up"
                           : sum->of_limit ? "of the limit law: there are too many corridors to be added up"

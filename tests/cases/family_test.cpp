@@ -15,8 +15,8 @@
 
 #include <lorentz/scene_check.hpp>
 #include "cases/bad_queries.hpp"
+#include "cases/drawn_flights.hpp"
 #include "cases/families/target.hpp"
-#include "cases/free_start.hpp"
 #include "cases/integer_vectors.hpp"
 #include "cases/ulps.hpp"
 #include "tests/support/support.hpp"
@@ -219,11 +219,12 @@ TEST_CASE("In binary32 every target's cases are sound, of such numbers, and the 
 TEST_CASE("In binary32 a start that rounding puts into an obstacle is drawn again", "[cases][family]") {
   INFO("seed 4");
   // Starts 10^-9 radii outside a disc: rounded, about half of them are inside.
-  const Family skin("skin-of-a-disc", "a test's", {{"skin", "outside by 10^-9 radii"}}, [](Source& source) {
+  const auto make = [](Source& source, Case& made) {
     const double r = 0.25;
     const Vec n = source.random.direction(2);
-    return Case{unit_scene(2, r), {{n[0] * r * (1 + 1e-9), n[1] * r * (1 + 1e-9), 0}, n, {}}, {"skin"}};
-  });
+    made = {unit_scene(2, r), {{n[0] * r * (1 + 1e-9), n[1] * r * (1 + 1e-9), 0}, n, {}}, {"skin"}};
+  };
+  const Family skin("skin-of-a-disc", "a test's", {{"skin", "outside by 10^-9 radii"}}, make);
   const NumberFormat precision = NumberFormat::binary32;
   long rounded_in = 0;
   for (std::uint64_t index = 0; index < 1000; ++index) {

@@ -2,7 +2,7 @@
 #include "tests/support/command_line.hpp"
 #include "cli/fuzz.hpp"
 #include "files/messages.hpp"
-#include "report/finding_json.hpp"
+#include "report/query_text.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -5,7 +5,6 @@
 
 #include <lorentz/errors.hpp>
 #include "cases/random.hpp"
-#include "runs/check.hpp"
 #include "runs/lock_file.hpp"
 #include "runs/piece_store.hpp"
 #include "tests/support/command_line.hpp"

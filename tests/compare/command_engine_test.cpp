@@ -1,7 +1,9 @@
 // cmd:COMMAND: other programs as engines, and what is made of their faults. tests/compare/odd_engine.py and
 // tests/compare/silent_engine.sh have the faults.
 #include <sys/resource.h>
+#include <unistd.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <csignal>
@@ -267,6 +269,21 @@ done
   for (const int count : {1, 1, 5001, 5001, 5001})
     CHECK(asked(*program, lorentz::unit_scene(2, 0.25), count).size() == static_cast<std::size_t>(count));
   CHECK(lines(folder.read("starts")) == 2 + kTimes + 5);
+  // It stays known as one that answers in pairs after a run in which it answered at the end only: while the
+  // input pauses it is given time to answer a pair. Otherwise each pair would take a start.
+  CHECK(asked(*program, lorentz::unit_scene(2, 0.25), 1).size() == 1);
+  constexpr std::size_t kPairs = 10;
+  std::array<int, 2> silent_input{};
+  REQUIRE(pipe(silent_input.data()) == 0);
+  std::size_t answers = 0;
+  program->on_reply([&](lorentz::question::Reply&) { ++answers; });
+  for (std::size_t i = 0; i < kPairs; ++i) {
+    for (const double x : {0.0, 1.0}) program->ask("null", {{x, 0.5, 0}, {1, 1, 0}, {}});
+    while (program->idle(silent_input[0])) continue;
+  }
+  for (const int end : silent_input) close(end);
+  CHECK(answers == 2 * kPairs);
+  CHECK(lines(folder.read("starts")) < 2 + kTimes + 6 + kPairs);
   CHECK_FALSE(program->failed());
 }
 
@@ -301,6 +318,36 @@ done
   CHECK(starts_after(1) == starts);
   program->finish();
   CHECK_FALSE(program->failed());
+}
+
+TEST_CASE("Runs that are told the end during a search do not count as silent", "[compare][command_engine]") {
+  // Its first start holds an answer back and dies at the second query; the others answer line by line.
+  const Folder folder;
+  const std::string script = folder.write("recovers.sh", R"(echo >>"$1"
+starts=$(wc -l <"$1")
+while read -r line; do
+  case $line in *scene*) continue ;; esac
+  id=${line#*:} && id=${id%%,*}
+  [ "$starts" -gt 1 ] && echo "{\"id\":$id,\"outcome\":\"never\"}" && continue
+  [ -n "$held" ] && exit 3
+  held=$id
+done
+)");
+  const auto program =
+      lorentz::question::engine_named("cmd:exec sh " + script + " " + folder.file("starts")).answerer({});
+  const auto ask = [&](int count) {
+    for (const lorentz::Answer& answer : asked(*program, lorentz::unit_scene(2, 0.25), count))
+      CHECK(answer.outcome == lorentz::Outcome::never);
+    return lines(folder.read("starts"));
+  };
+  // The second start gets one query and the third two, which ends the search for the one at fault.
+  CHECK(ask(3) == 3);
+  // Had these two been taken for silent ones, each query would be followed by the end and by a new start. As
+  // it is, there is one for the first 4 queries, and one for the others, unless both do not answer for 0.5 s.
+  constexpr std::size_t kQueriesAfter = 11;
+  std::size_t starts = 0;
+  for (std::size_t i = 0; i < kQueriesAfter; ++i) starts = ask(1);
+  CHECK(starts < 3 + kQueriesAfter);
 }
 
 TEST_CASE("How a program ended, in words", "[compare][command_engine]") {

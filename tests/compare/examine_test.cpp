@@ -44,17 +44,17 @@ TEST_CASE("A tally's errors of times: the largest, the mean, and what a share of
           "[compare][examine]") {
   Tally tally;
   CHECK(tally.mean_ulp() == 0);
-  CHECK(tally.ulp_at(0.5) == 0);
+  CHECK(question::quantile(tally.ulps, 0.5) == 0);
   for (const double ulps : {3, 10, 1, 2, 9, 4, 8, 5, 7, 6})
     tally.count({.verdict = Verdict::agree, .ulps = ulps});
   tally.count({Verdict::agree});  // without a time
   CHECK(tally.timed_hits == 10);
   CHECK(tally.max_ulp() == 10);
   CHECK(tally.mean_ulp() == 5.5);
-  CHECK(tally.ulp_at(0) == 1);
-  CHECK(tally.ulp_at(0.3) == 4);    // the nearest to 2.7 steps up from the first
-  CHECK(tally.ulp_at(0.99) == 10);  // to 8.91
-  CHECK(tally.ulp_at(1) == 10);
+  CHECK(question::quantile(tally.ulps, 0) == 1);
+  CHECK(question::quantile(tally.ulps, 0.3) == 4);    // the nearest to 2.7 steps up from the first
+  CHECK(question::quantile(tally.ulps, 0.99) == 10);  // to 8.91
+  CHECK(question::quantile(tally.ulps, 1) == 10);
 }
 
 TEST_CASE("Exact answers are the same from the oracle and from certified, scenes mixed",
@@ -178,7 +178,7 @@ TEST_CASE("A race asks each engine the requested number of questions, in each ro
   options.rounds = 2;
   options.counts = {0, 17, 30, 99};
   std::map<std::string, std::size_t> asked;
-  options.listener.progress = [&](const std::string& name, std::size_t done, std::size_t total) {
+  options.answerer.listener.progress = [&](const std::string& name, std::size_t done, std::size_t total) {
     if (done == total) asked[name] += done;
   };
   const std::vector<question::Speed> speeds = question::race(questions, engines, options);

@@ -4,7 +4,6 @@
 #include "src/engines/reduction/bounds.hpp"
 #include <lorentz/engine_base.hpp>
 #include <lorentz/geometry.hpp>
-#include "src/engines/reduction/basis_3d.hpp"
 
 #include <boost/multiprecision/mpfr.hpp>
 #include <catch2/catch.hpp>
@@ -13,7 +12,6 @@
 #include "src/engines/reduction/formulas.hpp"
 #include "src/engines/reduction/predicates.hpp"
 #include "src/engines/reduction/reduce_3d.hpp"
-#include "src/engines/reduction/sparse_rows.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

@@ -5,8 +5,7 @@
 #include <boost/multiprecision/mpfr.hpp>
 #include <catch2/catch.hpp>
 
-#include "src/engines/reduction/direction_2d.hpp"
-#include "src/engines/reduction/direction_3d.hpp"
+#include "src/engines/reduction/reduce_3d.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

@@ -10,8 +10,6 @@
 #include <lorentz/errors.hpp>
 #include <lorentz/oracle.hpp>
 #include "runs/world.hpp"
-#include "statistics/flights/flyer.hpp"
-#include "statistics/flights/plan.hpp"
 #include "statistics/flights/run.hpp"
 #include "tests/support/command_line.hpp"
 #include "tests/support/scenes.hpp"

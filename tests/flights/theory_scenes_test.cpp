@@ -1,8 +1,8 @@
 // What theory says of scenes: against closed forms, counting, and the oracle's channels.
-#include "statistics/theory/corridor_sum.hpp"
 #include "statistics/theory/incommensurate.hpp"
 #include "statistics/theory/laws.hpp"
 #include "statistics/theory/limit_law.hpp"
+#include "statistics/theory/small_obstacles.hpp"
 
 #include <catch2/catch.hpp>
 

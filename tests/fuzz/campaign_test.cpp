@@ -10,7 +10,7 @@
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
 #include "cases/families/family_list.hpp"
-#include "cases/scene_edit.hpp"
+#include "cases/integer_vectors.hpp"
 #include "fuzz/examine/variants.hpp"
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/command_line.hpp"
@@ -420,7 +420,7 @@ TEST_CASE("The cause of a finding says what is special about it, and nothing els
   CHECK(features(flat, {{0.5, 0.5}, {0, 2}, {}}) == ", along an axis");
   CHECK(features(solid, {{0.5, 0.5, 0.5}, {1, 0, 0}, {}}) == ", along an axis");
   CHECK(features(solid, {{0.5, 0.5, 0.5}, {1, 0, 2}, {}}) == ", in a plane of axes");
-  CHECK(features(flat, {{0.5, 0.5}, {1, 2}, cases::obstacle(0, 0)}) == ", leaving");
+  CHECK(features(flat, {{0.5, 0.5}, {1, 2}, cases::obstacle({0, 0})}) == ", leaving");
   CHECK(features(flat, {{0.5, 0x1p200}, {1, 2}, {}}).find(", far start") == 0);
   for (const double extreme : {0x1p900, -0x1p900, 0x1p-900, -0x1p-900}) {
     CHECK(features(flat, {{0.5, 0.5}, {1, extreme}, {}}) == ", extreme numbers");
@@ -436,7 +436,7 @@ TEST_CASE("A finding of a store is plain text, nothing in it below zero, its ans
   fuzz::Examined wrong;
   wrong.kind = Kind::wrong;
   wrong.given = Answer::never();
-  wrong.exact = Answer::hit(cases::obstacle(1, 0), 0.25);
+  wrong.exact = Answer::hit(cases::obstacle({1, 0}), 0.25);
   fuzz::Finding good;
   good.target = "generic";
   good.kind = "wrong";
@@ -493,7 +493,7 @@ TEST_CASE("A case that is shrunk keeps both outcomes: what was said, and what is
   plan.keep = 4;
   // Wrong in two ways, and about hits, starts inside, and flights without end.
   const auto wrong = told([](const question::Place&, const Query& query) {
-    return query.v[0] > 0 ? Answer::never() : Answer::inside(cases::obstacle(7, 7));
+    return query.v[0] > 0 ? Answer::never() : Answer::inside(cases::obstacle({7, 7}));
   });
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   run_in(store, plan, 60, 2, wrong);

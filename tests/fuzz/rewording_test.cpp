@@ -9,8 +9,8 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
+#include "cases/drawn_flights.hpp"
 #include "cases/families/target.hpp"
-#include "cases/free_start.hpp"
 #include "fuzz/examine/time_limit.hpp"
 #include "fuzz/rewording/notation.hpp"
 #include "fuzz/rewording/rewording_steps.hpp"
@@ -148,7 +148,7 @@ bool renames(const fuzz::RewordingStep& step, const Scene& scene) {
 
 // What one step says that it did, it did: decided by the numbers before and after. Returns its first word.
 std::string require_effect(const fuzz::RewordingStep& step, const Scene& before, const Scene& after) {
-  const std::string words = step.words(), first = words.substr(0, words.find(' '));
+  const std::string words = step.words, first = words.substr(0, words.find(' '));
   const auto power = words.find("2^");
   const long exponent = power == std::string::npos ? 0 : std::stol(words.substr(power + 2));
   const int dimension = before.dimension;
@@ -174,7 +174,7 @@ std::string require_effect(const fuzz::RewordingStep& step, const Scene& before,
       for (std::size_t a = 0; a < before.lattices[l].atoms.size(); ++a)
         REQUIRE(after.lattices[l].atoms[a].position == sum(before.lattices[l].atoms[a].position, by));
   } else if (first == "lengths") {
-    REQUIRE((exponent != 0 && step.time_exponent() == exponent && v == velocity));
+    REQUIRE((exponent != 0 && step.time_exponent == exponent && v == velocity));
     if (can) REQUIRE(x[0] == std::ldexp(start[0], static_cast<int>(exponent)));
     for (std::size_t i = 0; i < numbers.size(); ++i)
       REQUIRE(numbers[i] == std::ldexp(old_numbers[i], static_cast<int>(exponent)));
@@ -237,10 +237,10 @@ TEST_CASE("Rewording: each step that is counted changes what it says", "[fuzz][r
           Scene after = scene;
           const auto step = draw(random, after);
           INFO("seed " << kSeed << ", " << target.name() << ' ' << index << ": "
-                       << (step ? step->words() : name) << '\n'
+                       << (step ? step->words : name) << '\n'
                        << stream(scene, {}) << stream(after, {}));
           if (step && std::string(name) == "lengths")
-            middling += std::abs(step->time_exponent()) > 16 && std::abs(step->time_exponent()) < 400;
+            middling += std::abs(step->time_exponent) > 16 && std::abs(step->time_exponent) < 400;
           if (step && std::string(name) == "scene" && scene.lattices.size() > 1)
             second_at_origin += after.lattices[1].atoms[0].position == Vec{};
           if (step)

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "cases/scene_edit.hpp"
+#include "cases/integer_vectors.hpp"
 #include "fuzz/campaign/campaign.hpp"
 #include "fuzz/examine/answerers.hpp"
 #include "fuzz/examine/examiner.hpp"
@@ -215,7 +215,7 @@ TEST_CASE("A number that is simpler to read has a lower complexity", "[fuzz][shr
     CHECK(score(in_order[i - 1]) < score(in_order[i]));
   }
   CHECK(score(1024) == score(0x1p-10));
-  const Query left{{}, {1, 0}, cases::obstacle(0, 0)}, far{{}, {1, 0}, cases::obstacle(5, 0)};
+  const Query left{{}, {1, 0}, cases::obstacle({0, 0})}, far{{}, {1, 0}, cases::obstacle({5, 0})};
   CHECK(fuzz::complexity(scene, left) > score(0));
   CHECK(fuzz::complexity(scene, far) > fuzz::complexity(scene, left));
   Scene two = scene, ellipse = scene, lattices = scene;
@@ -247,7 +247,7 @@ TEST_CASE("Shrinking reflects, brings home, and makes velocities and radii small
 
   const Scene flat = unit_scene(2, 0.25);
   for (const bool leaves : {false, true}) {
-    const Query far{{5.25, -2.5}, {1, 0}, leaves ? std::optional(cases::obstacle(5, -3)) : std::nullopt};
+    const Query far{{5.25, -2.5}, {1, 0}, leaves ? std::optional(cases::obstacle({5, -3})) : std::nullopt};
     const auto as_far = [&](const Scene& its, const Query& q) {
       if (!(its == flat) || q.from.has_value() != leaves || q.v != far.v) return false;
       for (int i = 0; i < 2; ++i) {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <thread>
 
-#include "judge/repetition.hpp"
+#include "judge/simplest.hpp"
 #include "question/engines.hpp"
 #include "starts/free_starts.hpp"
 #include "tests/support/command_line.hpp"

@@ -28,6 +28,19 @@ def words_of(sites):
     return {(one.operator, one.after) for one in sites}
 
 
+class Equivalent(unittest.TestCase):
+    def test_lines_still_stand(self):
+        """Each line of equivalent.tsv quotes the sources as they are, but for blanks."""
+        here = pathlib.Path(__file__).resolve().parent
+        for line in (here / "equivalent.tsv").read_text().splitlines():
+            if line.startswith("#"):
+                continue
+            path, before, _, reason = line.split("\t")
+            self.assertTrue(reason)
+            source = (here.parents[1] / path).read_text()
+            self.assertIn("".join(before.split()), "".join(source.split()), f"{path}: no such line any more")
+
+
 class Sites(unittest.TestCase):
     def test_python(self):
         with tempfile.TemporaryDirectory() as folder:

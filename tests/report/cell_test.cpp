@@ -7,8 +7,8 @@
 
 #include <lorentz/exchange.hpp>
 #include "cases/random.hpp"
+#include "report/bench_report.hpp"
 #include "report/curves.hpp"
-#include "report/power_fit.hpp"
 #include "report/query_text.hpp"
 #include "src/exchange/json_writer.hpp"
 

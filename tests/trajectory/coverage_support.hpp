@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "statistics/chaos/estimate.hpp"
+#include "statistics/chaos/groups.hpp"
 
 namespace lorentz::test {
 

@@ -299,7 +299,7 @@ class Coverage {
 
 class Check {
  public:
-  Check(const Scene& scene, long most_steps) : most_steps_(most_steps), dimension_(scene.dimension) {
+  Check(const Scene& scene, long most_steps) : most_steps_(most_steps) {
     CommonExponent exponent;
     for (const Lattice& lattice : scene.lattices) {
       for (const Vec& vector : lattice.vectors) see(exponent, vector);
@@ -345,14 +345,72 @@ class Check {
   /// A query in integers, as each atom sees it.
   using Flight = std::vector<std::vector<CertificateView>>;
 
-  Flight flight_of(const Query& query) const;
-  CertificateView view_of(int lattice, int atom, const ZVec3& x, const ZVec3& v, long unit) const;
+  Flight flight_of(const Query& query) const {
+    CommonExponent of_query;
+    see(of_query, query.x), see(of_query, query.v);
+    const long unit = std::min(exponent_, of_query.get());
+    const ZVec3 x = scaled_vec(query.x, unit), v = scaled_vec(query.v, unit);
+    Flight flight(bodies_.size());
+    for (std::size_t l = 0; l < bodies_.size(); ++l)
+      for (std::size_t a = 0; a < bodies_[l].size(); ++a)
+        flight[l].push_back(view_of(static_cast<int>(l), static_cast<int>(a), x, v, unit));
+    return flight;
+  }
+
+  CertificateView view_of(int lattice, int atom, const ZVec3& x, const ZVec3& v, long unit) const {
+    const Body& body = bodies_[lattice][atom];
+    const unsigned long bits = body.bits_of_coordinates(unit),
+                        shift = static_cast<unsigned long>(exponent_ - unit);
+    CertificateView view{lattice, atom, body.rank, {}, {}, {}, {}, {}};
+    view.v = shifted(body.in_own_coordinates(v), bits);
+    for (std::size_t i = 0; i < 3; ++i) view.u[i] = shifted(body.u[i], bits + shift);
+    view.w0 = sum(shifted(body.p, bits + shift), -1, shifted(body.in_own_coordinates(x), bits));
+    view.v2 = dot(view.v, view.v);
+    view.rho2 = shifted_left(body.r * body.r, 2 * body.bits_of_radius(unit)) * view.v2;
+    return view;
+  }
+
   bool has(int lattice, int atom) const {
     const auto l = static_cast<std::size_t>(lattice), a = static_cast<std::size_t>(atom);  // huge if negative
     return l < bodies_.size() && a < bodies_[l].size();
   }
-  Obstacle read_obstacle(const ObstacleId& id) const;
-  Conclusion claim_of(const Query& query, const Answer& answer, const Flight& flight) const;
+
+  Obstacle read_obstacle(const ObstacleId& id) const {
+    const int rank = has(id.lattice, id.atom) ? bodies_[id.lattice][id.atom].rank : 3;
+    try {
+      return {id.lattice, id.atom, rank, read_cell(id.cell, rank)};
+    } catch (const Refuted& refuted) {
+      refute("a cell " + refuted.why);
+    }
+  }
+
+  /// Reads the claim, and checks it for the answer's obstacle itself: the obstacle is not `from`, and it is
+  /// entered at this time or contains x.
+  Conclusion claim_of(const Query& query, const Answer& answer, const Flight& flight) const {
+    Conclusion claim{answer.outcome};
+    if (query.from) claim.from = read_obstacle(*query.from);
+    if (answer.outcome == Outcome::never) return claim;
+    const auto& [lattice, atom, cell] = answer.obstacle;
+    if (!has(lattice, atom)) refute("the answer's " + name_of(lattice, atom) + " does not exist");
+    claim.obstacle = read_obstacle(answer.obstacle);
+    const std::string name = "the answer's " + claim.obstacle.name();
+    if (claim.is_from(claim.obstacle)) refute(name + " is `from`");
+    const CertificateView& view = flight[lattice][atom];
+    const ZVec3 w = sum(view.w0, 1, combination(claim.obstacle.n, view.u));
+    const Z s = dot(view.v, w), d = view.rho2 - view.across(w, s, w, s);
+    if (d <= 0) refute(name + " is not met by the line");
+    const bool contains_x = s * s < d;
+    if (contains_x != (answer.outcome == Outcome::inside))
+      refute(name + (contains_x ? " contains x" : " does not contain x"));
+    if (contains_x) return claim;
+    if (s <= 0) refute(name + " lies behind");
+    claim.time = {s, d, view.v2};
+    if (!answer.time || !rounds_to(claim.time, *answer.time))
+      refute(name + " is not entered at the time given");
+    if (!answer.time_decimal.empty() && !rounds_to(claim.time, answer.time_decimal))
+      refute(name + " is not entered at the time given in decimal");
+    return claim;
+  }
 
   template <class Piece, class Look>
   void check_pieces(const char* kind, const Flight& flight, const std::vector<Piece>& pieces,
@@ -368,111 +426,44 @@ class Check {
   }
 
   static void check_window(const Conclusion& claim, const CertificateView& view, const Window& window,
-                           Coverage& coverage, Budget& budget);
-  static void check_rows(const CertificateView& view, const Rows& rows, Coverage& coverage, Budget& budget);
-  static bool covered(const Conclusion& claim, const CertificateView& view, const Coverage& coverage);
+                           Coverage& coverage, Budget& budget) {
+    const End from(window.from);
+    std::optional<End> to;
+    WindowRange range{Z(-(-(from.n * view.v2) >> from.bits)), std::nullopt};
+    if (!window.to.infinite) {
+      to.emplace(window.to);
+      range.hi = Z(to->n * view.v2 >> to->bits);
+    }
+    coverage.add(view, from, to);
+    const Basis basis = read_basis(window.basis, view);
+    Search(view, basis, range, budget, [&](const Z& s, const Z& d, const auto& cell_of) {
+      claim.hold_against(view, s, d, cell_of);
+    }).run();
+  }
+
+  /// In a row along v the obstacles are b_1 apart, so if the row is met, one of them has 0 <= s <= |s_1|.
+  static void check_rows(const CertificateView& view, const Rows& rows, Coverage& coverage, Budget& budget) {
+    coverage.add_rows();
+    const Basis basis = read_basis(rows.basis, view);
+    const Z s1 = dot(view.v, basis.b[0]);
+    if (view.rank == 0 || view.across(basis.b[0], s1, basis.b[0], s1) != 0)
+      refute("b_1 is not parallel to v");
+    Search(view, basis, WindowRange{0, Z(abs(s1))}, budget, [&](const Z&, const Z&, const auto& cell_of) {
+      refute("the line meets " + Obstacle{view.lattice, view.atom, view.rank, cell_of()}.name());
+    }).run();
+  }
+
+  /// True if every obstacle that could contradict the claim has been looked at.
+  static bool covered(const Conclusion& claim, const CertificateView& view, const Coverage& coverage) {
+    if (claim.outcome == Outcome::never) return coverage.endless();
+    return coverage.reaches(view, claim.time) ||
+           (claim.outcome == Outcome::inside &&
+            std::tie(view.lattice, view.atom) > std::tie(claim.obstacle.lattice, claim.obstacle.atom));
+  }
 
   long most_steps_, exponent_ = 0;
-  int dimension_;
   std::vector<std::vector<Body>> bodies_;
 };
-
-Check::Flight Check::flight_of(const Query& query) const {
-  CommonExponent of_query;
-  see(of_query, query.x), see(of_query, query.v);
-  const long unit = std::min(exponent_, of_query.get());
-  const ZVec3 x = scaled_vec(query.x, unit), v = scaled_vec(query.v, unit);
-  Flight flight(bodies_.size());
-  for (std::size_t l = 0; l < bodies_.size(); ++l)
-    for (std::size_t a = 0; a < bodies_[l].size(); ++a)
-      flight[l].push_back(view_of(static_cast<int>(l), static_cast<int>(a), x, v, unit));
-  return flight;
-}
-
-CertificateView Check::view_of(int lattice, int atom, const ZVec3& x, const ZVec3& v, long unit) const {
-  const Body& body = bodies_[lattice][atom];
-  const unsigned long bits = body.bits_of_coordinates(unit),
-                      shift = static_cast<unsigned long>(exponent_ - unit);
-  CertificateView view{lattice, atom, body.rank, {}, {}, {}, {}, {}};
-  view.v = shifted(body.in_own_coordinates(v), bits);
-  for (std::size_t i = 0; i < 3; ++i) view.u[i] = shifted(body.u[i], bits + shift);
-  view.w0 = sum(shifted(body.p, bits + shift), -1, shifted(body.in_own_coordinates(x), bits));
-  view.v2 = dot(view.v, view.v);
-  view.rho2 = shifted_left(body.r * body.r, 2 * body.bits_of_radius(unit)) * view.v2;
-  return view;
-}
-
-Obstacle Check::read_obstacle(const ObstacleId& id) const {
-  const int rank = has(id.lattice, id.atom) ? bodies_[id.lattice][id.atom].rank : 3;
-  try {
-    return {id.lattice, id.atom, rank, read_cell(id.cell, rank)};
-  } catch (const Refuted& refuted) {
-    refute("a cell " + refuted.why);
-  }
-}
-
-/// Reads the claim, and checks it for the answer's obstacle itself: the obstacle is not `from`, and it is
-/// entered at this time or contains x.
-Conclusion Check::claim_of(const Query& query, const Answer& answer, const Flight& flight) const {
-  Conclusion claim{answer.outcome};
-  if (query.from) claim.from = read_obstacle(*query.from);
-  if (answer.outcome == Outcome::never) return claim;
-  const auto& [lattice, atom, cell] = answer.obstacle;
-  if (!has(lattice, atom)) refute("the answer's " + name_of(lattice, atom) + " does not exist");
-  claim.obstacle = read_obstacle(answer.obstacle);
-  const std::string name = "the answer's " + claim.obstacle.name();
-  if (claim.is_from(claim.obstacle)) refute(name + " is `from`");
-  const CertificateView& view = flight[lattice][atom];
-  const ZVec3 w = sum(view.w0, 1, combination(claim.obstacle.n, view.u));
-  const Z s = dot(view.v, w), d = view.rho2 - view.across(w, s, w, s);
-  if (d <= 0) refute(name + " is not met by the line");
-  const bool contains_x = s * s < d;
-  if (contains_x != (answer.outcome == Outcome::inside))
-    refute(name + (contains_x ? " contains x" : " does not contain x"));
-  if (contains_x) return claim;
-  if (s <= 0) refute(name + " lies behind");
-  claim.time = {s, d, view.v2};
-  const ScaledTime exact{claim.time, 0};
-  if (!answer.time || !rounds_to(exact, *answer.time)) refute(name + " is not entered at the time given");
-  if (!answer.time_decimal.empty() && !rounds_to(exact, answer.time_decimal))
-    refute(name + " is not entered at the time given in decimal");
-  return claim;
-}
-
-void Check::check_window(const Conclusion& claim, const CertificateView& view, const Window& window,
-                         Coverage& coverage, Budget& budget) {
-  const End from(window.from);
-  std::optional<End> to;
-  WindowRange range{Z(-(-(from.n * view.v2) >> from.bits)), std::nullopt};
-  if (!window.to.infinite) {
-    to.emplace(window.to);
-    range.hi = Z(to->n * view.v2 >> to->bits);
-  }
-  coverage.add(view, from, to);
-  const Basis basis = read_basis(window.basis, view);
-  Search(view, basis, range, budget, [&](const Z& s, const Z& d, const auto& cell_of) {
-    claim.hold_against(view, s, d, cell_of);
-  }).run();
-}
-
-/// In a row along v the obstacles are b_1 apart, so if the row is met, one of them has 0 <= s <= |s_1|.
-void Check::check_rows(const CertificateView& view, const Rows& rows, Coverage& coverage, Budget& budget) {
-  coverage.add_rows();
-  const Basis basis = read_basis(rows.basis, view);
-  const Z s1 = dot(view.v, basis.b[0]);
-  if (view.rank == 0 || view.across(basis.b[0], s1, basis.b[0], s1) != 0) refute("b_1 is not parallel to v");
-  Search(view, basis, WindowRange{0, Z(abs(s1))}, budget, [&](const Z&, const Z&, const auto& cell_of) {
-    refute("the line meets " + Obstacle{view.lattice, view.atom, view.rank, cell_of()}.name());
-  }).run();
-}
-
-/// True if every obstacle that could contradict the claim has been looked at.
-bool Check::covered(const Conclusion& claim, const CertificateView& view, const Coverage& coverage) {
-  if (claim.outcome == Outcome::never) return coverage.endless();
-  return coverage.reaches(view, claim.time) ||
-         (claim.outcome == Outcome::inside &&
-          std::tie(view.lattice, view.atom) > std::tie(claim.obstacle.lattice, claim.obstacle.atom));
-}
 
 }  // namespace
 

@@ -25,23 +25,17 @@ int compare(const ProofTime& a, const ProofTime& b) {
   return sign_of(b.q * a.s - a.q * b.s, a.q * a.q * b.d, b.q * b.q * a.d);
 }
 
-// Multiplied by q m: 2^e m (s - sqrt(d)) - n q; for e < 0 multiplied by 2^-e as well.
-int ScaledTime::compare(const Z& n, const Z& m) const {
-  const Z factor = shifted_left(m, static_cast<unsigned long>(std::max(exponent, 0L)));
-  const Z other = shifted_left(n * time.q, static_cast<unsigned long>(std::max(-exponent, 0L)));
-  return sign_of(factor * time.s - other, 0, factor * factor * time.d);
+// Multiplied by q m: m (s - sqrt(d)) - n q.
+int ProofTime::compare(const Z& n, const Z& m) const {
+  return sign_of(m * s - n * q, 0, m * m * d);
 }
 
-int ScaledTime::compare_dyadic(const Z& n, long k) const {
+int ProofTime::compare_dyadic(const Z& n, long k) const {
   return compare(shifted_left(n, static_cast<unsigned long>(std::max(k, 0L))),
                  shifted_left(1, static_cast<unsigned long>(std::max(-k, 0L))));
 }
 
 namespace {
-
-Z power_of_ten(unsigned long exponent) {
-  return power(10, exponent);
-}
 
 /// digits 10^exponent as written: all digits except leading zeros are significant.
 struct Decimal {
@@ -89,7 +83,7 @@ std::optional<Decimal> read_decimal(std::string_view text) {
 // midpoint, is twice as close, unless e = -1074. The midpoints belong to it iff m is even. An infinity reads
 // as 2^52 2^972, the next number after the largest one, and it rounds accordingly: every time from its lower
 // midpoint on belongs to it.
-bool rounds_to(const ScaledTime& exact, double given) {
+bool rounds_to(const ProofTime& exact, double given) {
   if (std::isnan(given) || std::signbit(given)) return false;
   const auto bits = std::bit_cast<std::uint64_t>(given);
   const long biased = static_cast<long>(bits >> 52), e = std::max(biased, 1L) - 1075;
@@ -104,15 +98,14 @@ bool rounds_to(const ScaledTime& exact, double given) {
 
 // As above, with powers of ten. Below 100..0 the numbers of as many digits are ten times as close, and the
 // last of them, 99..9, is odd.
-bool rounds_to(const ScaledTime& exact, const std::string& text) {
+bool rounds_to(const ProofTime& exact, const std::string& text) {
   if (text == "0") return exact.compare(0, 1) == 0;
   const std::optional<Decimal> given = read_decimal(text);
   if (!given || given->digits.empty()) return false;
-  const Z m(given->digits, 10),
-      up = power_of_ten(static_cast<unsigned long>(std::max(given->exponent, 0L))),
-      down = power_of_ten(static_cast<unsigned long>(std::max(-given->exponent, 0L)));
+  const Z m(given->digits, 10), up = power(10, static_cast<unsigned long>(std::max(given->exponent, 0L))),
+                                down = power(10, static_cast<unsigned long>(std::max(-given->exponent, 0L)));
   const int tie = m % 2 == 0 ? 0 : 1;
-  const bool first_of_decade = m == power_of_ten(given->digits.size() - 1);
+  const bool first_of_decade = m == power(10, given->digits.size() - 1);
   const bool above_low = first_of_decade ? exact.compare((20 * m - 1) * up, 20 * down) >= 0
                                          : exact.compare((2 * m - 1) * up, 2 * down) >= tie;
   return above_low && exact.compare((2 * m + 1) * up, 2 * down) <= -tie;

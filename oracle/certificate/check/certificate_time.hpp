@@ -14,15 +14,6 @@ int sign_of(const Z& a, const Z& c, const Z& b);
 /// The time (s - sqrt(d)) / q of an entry, q > 0.
 struct ProofTime {
   Z s = 0, d = 0, q = 1;
-};
-
-/// Sign of a - b.
-int compare(const ProofTime& a, const ProofTime& b);
-
-/// An entry in the query's own unit: time * 2^exponent.
-struct ScaledTime {
-  ProofTime time;
-  long exponent;
 
   /// Sign of this minus n / m, m > 0.
   int compare(const Z& n, const Z& m) const;
@@ -30,12 +21,15 @@ struct ScaledTime {
   int compare_dyadic(const Z& n, long k) const;
 };
 
+/// Sign of a - b.
+int compare(const ProofTime& a, const ProofTime& b);
+
 /// True if the exact time, which must not be negative, rounds to `given`: to nearest, ties to even, and
 /// beyond the largest binary64 to infinity.
-bool rounds_to(const ScaledTime& exact, double given);
+bool rounds_to(const ProofTime& exact, double given);
 
 /// True if these are the first significant digits of the exact time, which must not be negative, rounded half
 /// to even.
-bool rounds_to(const ScaledTime& exact, const std::string& given);
+bool rounds_to(const ProofTime& exact, const std::string& given);
 
 }  // namespace lorentz::oracle::certificate

@@ -22,13 +22,16 @@ Vec centre_of(const Scene& scene, const ObstacleId& id) {
   return centre;
 }
 
+Vec divided(const Vec& a, double by) {
+  return {a[0] / by, a[1] / by, a[2] / by};
+}
+
 // The gradient of |A^-1 a|^2 / 2 at a, which is A^-T A^-1 a; for a ball, a itself.
 Vec gradient(const Atom& atom, int dimension, const Vec& a) {
   if (atom.is_ball()) return a;
   const std::array<Vec, 3> dual = dual_of(semiaxes_of(atom, dimension), dimension);
   Vec sum{};
-  for (int i = 0; i < dimension; ++i)
-    for (int k = 0; k < 3; ++k) sum[k] += dot(dual[i], a) * dual[i][k];
+  for (int i = 0; i < dimension; ++i) sum = plus(sum, dot(dual[i], a), dual[i]);
   return sum;
 }
 
@@ -36,7 +39,7 @@ Vec gradient(const Atom& atom, int dimension, const Vec& a) {
 // GCC's.
 double length_of_any(const Vec& a) {
   const double largest = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
-  return largest > 0 ? largest * length({a[0] / largest, a[1] / largest, a[2] / largest}) : largest;
+  return largest > 0 ? largest * length(divided(a, largest)) : largest;
 }
 
 }  // namespace
@@ -45,30 +48,16 @@ Detail collision_detail(const Scene& scene, const Query& query, const Answer& an
   if (!answer.time) throw InputError("answer: needs a hit with a time");
   checked(answer.obstacle, checked(scene));
   const Vec centre = centre_of(scene, answer.obstacle);
-  const double speed = length_of_any(query.v);
-  Detail detail;
-  double along = 0;
-  Vec arm{};
-  for (int k = 0; k < 3; ++k) {
-    detail.point[k] = query.x[k] + *answer.time * query.v[k];
-    arm[k] = detail.point[k] - centre[k];
-    along += arm[k] * (query.v[k] / speed);
-  }
+  const Vec point = plus(query.x, *answer.time, query.v), arm = plus(point, -1, centre);
+  const Vec direction = divided(query.v, length_of_any(query.v));
+  const Vec across = plus(arm, -dot(arm, direction), direction);
   const Atom& atom = scene.lattices[answer.obstacle.lattice].atoms[answer.obstacle.atom];
   const Vec outward = gradient(atom, scene.dimension, arm);
-  const double length = length_of_any(outward);
-  Vec across{};
-  for (int k = 0; k < 3; ++k) {
-    detail.normal[k] = outward[k] / length;
-    across[k] = arm[k] - along * (query.v[k] / speed);
-  }
-  detail.impact_parameter = length_of_any(across);
-  return detail;
+  return {point, divided(outward, length_of_any(outward)), length_of_any(across)};
 }
 
 Vec reflected(const Vec& v, const Vec& normal) {
-  const double twice = 2 * dot(v, normal);
-  return {v[0] - twice * normal[0], v[1] - twice * normal[1], v[2] - twice * normal[2]};
+  return plus(v, -2 * dot(v, normal), normal);
 }
 
 }  // namespace lorentz

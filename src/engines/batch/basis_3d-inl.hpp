@@ -1,18 +1,5 @@
-// Short bases of a 3D lattice as seen along the velocities, in lanes, as in
-// src/engines/reduction/reduce_3d.hpp, basis_3d.hpp and direction_3d.hpp. Private to the batch engine.
-#if defined(LORENTZ_BATCH_BASIS_3D_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_BASIS_3D_INL_HPP
-#undef LORENTZ_BATCH_BASIS_3D_INL_HPP
-#else
-#define LORENTZ_BATCH_BASIS_3D_INL_HPP
-#endif
-
-#include "src/engines/batch/time-inl.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
+// Short bases of a 3D lattice as seen along the velocities, in lanes, as in src/engines/reduction/reduce_3d.hpp.
+// Private to the batch engine.
 
 using Arm3 = ArmOf3<LaneFma>;
 using Basis3 = BasisOf3<LaneFma>;
@@ -118,18 +105,5 @@ HWY_INLINE M reduce_basis(const Frame& frame, Basis3& basis, M wanted) {
   return is_short;
 }
 
-#define LORENTZ_INLINE HWY_INLINE
-#include "src/engines/reduction/direction_3d-inl.hpp"
-
-#include "src/engines/reduction/window_3d-inl.hpp"
-#undef LORENTZ_INLINE
-
 template <bool kUnit, bool kBall>
 using Direction3 = DirectionOf3<LaneFma, kUnit, kBall>;
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,25 +1,5 @@
 // One vector of queries from start to end, in lanes, as in src/engines/reduction/scene_flight.hpp and
 // flight_kernel.hpp. Private to the batch engine.
-#if defined(LORENTZ_BATCH_BLOCK_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_BLOCK_INL_HPP
-#undef LORENTZ_BATCH_BLOCK_INL_HPP
-#else
-#define LORENTZ_BATCH_BLOCK_INL_HPP
-#endif
-
-#include <cstring>
-
-#include "src/engines/batch/late-inl.hpp"
-#include "src/engines/batch/search_2d-inl.hpp"
-#include "src/engines/batch/search_3d-inl.hpp"
-#include "src/engines/batch/sparse-inl.hpp"
-#include "src/engines/batch/stretch.hpp"
-#include "src/engines/batch/turn-inl.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
 
 enum class Lattices { crystals, sparse, none };
 
@@ -91,7 +71,10 @@ class Block {
     LaneEntry<D, kBall> best;
     V best_atom = none();
     for (std::size_t a = 0; a < scene_.atoms.size(); ++a) {
-      set_direction(a, velocity, to);
+      if constexpr (kFewer)
+        to.set(scene_.atoms[a], velocity);
+      else
+        set_direction(a, velocity, to);
       AtomStart made;
       StartOrReference start = start_of(a, made);
       Leaving<D> leaving;
@@ -129,16 +112,8 @@ class Block {
     }
   }
 
+  // In a crystal.
   HWY_INLINE void set_direction(std::size_t a, const V (&velocity)[D], typename Search::Direction& to) {
-    const Bravais& lattice = scene_.atoms[a];
-    if constexpr (kFewer)
-      return to.set(lattice, velocity);
-    else
-      set_direction_in_crystal(a, velocity, to);
-  }
-
-  HWY_INLINE void set_direction_in_crystal(std::size_t a, const V (&velocity)[D],
-                                           typename Search::Direction& to) {
     const Bravais& lattice = scene_.atoms[a];
     if (a > 0) {
       const Bravais& before = scene_.atoms[a - 1];
@@ -402,10 +377,3 @@ inline void fly_any(const PreparedScene& scene, Stretch& stretch) {
   if (scene.atoms.size() == 1 && scene.atoms[0].unit) return fly_stretch<D, true, kBall>(scene, stretch);
   return fly_stretch<D, false, kBall>(scene, stretch);
 }
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

@@ -8,24 +8,6 @@
 // The engine for one flight (src/engines/reduction) and this one share code: the files *-inl.hpp there. Code
 // that exists only in this folder does, lane by lane, the operations of a single flight, one by one and in
 // their order. So the bounds of bounds.hpp hold, and both give the same bits. A branch there is a mask here.
-#if defined(LORENTZ_BATCH_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_LANES_INL_HPP
-#undef LORENTZ_BATCH_LANES_INL_HPP
-#else
-#define LORENTZ_BATCH_LANES_INL_HPP
-#endif
-
-#include <type_traits>
-
-#include <lorentz/engine_base.hpp>
-#include "src/engines/batch/twin-inl.hpp"
-#include "src/engines/reduction/bounds.hpp"
-#include "src/engines/reduction/bravais.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
 
 HWY_INLINE V none() {
   return all(0);
@@ -70,15 +52,12 @@ HWY_INLINE V operator/(double a, V b) {
 HWY_INLINE V NegIf(M m, V a) {
   return Xor(a, where(m, all(-0.0)));
 }
-HWY_INLINE V largest(V a, V b, V c) {
-  return Max(Max(a, b), c);
-}
 HWY_INLINE void exchange(M m, V& a, V& b) {
   const V before = a;
   a = select(m, b, a), b = select(m, before, b);
 }
 
-/// AxesOf of src/engines/reduction/frame_3d.hpp, in lanes.
+/// AxesOf of src/engines/reduction/one_flight.hpp, in lanes.
 template <class, bool kTurned>
 class AxesOf {
  public:
@@ -121,23 +100,11 @@ struct LaneFma {
 #define LORENTZ_INLINE HWY_INLINE
 #define LORENTZ_RARE HWY_INLINE
 #define LORENTZ_NOINLINE HWY_NOINLINE
-// Each file needs those before it.
 #include "src/engines/base/double_double-inl.hpp"
 
 #include "src/engines/reduction/formulas-inl.hpp"
 
-#include "src/engines/reduction/stable_meeting-inl.hpp"
-
-#include "src/engines/reduction/offset-inl.hpp"
-
-#include "src/engines/reduction/basis_3d-inl.hpp"
-#include "src/engines/reduction/direction_2d-inl.hpp"
-#include "src/engines/reduction/entry_time-inl.hpp"
-
-#include "src/engines/reduction/frame_3d-inl.hpp"
-#include "src/engines/reduction/one_obstacle-inl.hpp"
-#include "src/engines/reduction/search_2d-inl.hpp"
-#include "src/engines/reduction/sparse_rows-inl.hpp"
+#include "src/engines/reduction/shared-inl.hpp"
 #undef LORENTZ_NOINLINE
 #undef LORENTZ_RARE
 #undef LORENTZ_INLINE
@@ -157,10 +124,3 @@ struct Lanes {
     leave(m);
   }
 };
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

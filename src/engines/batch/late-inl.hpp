@@ -1,20 +1,5 @@
 // Times that take long are computed at the end of a stretch, when there are enough of them to fill the lanes.
 // Private to the batch engine.
-#if defined(LORENTZ_BATCH_LATE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_LATE_INL_HPP
-#undef LORENTZ_BATCH_LATE_INL_HPP
-#else
-#define LORENTZ_BATCH_LATE_INL_HPP
-#endif
-
-#include "src/engines/batch/stretch.hpp"
-#include "src/engines/batch/time-inl.hpp"
-#include "src/engines/batch/velocity-inl.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
 
 /// Hits in a scene with one atom whose time is computed late: grazed balls, and times that `soon_rounded`
 /// could not round.
@@ -70,10 +55,3 @@ class LateTimes {
   Column<int> index_;
   Column<double> n_[D], s_, slack_, slack_error_;
 };
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,22 +1,5 @@
 // One of the processor's vectors, with the operations that the batch engine needs. Included once for each set
 // of instructions. Private to the batch engine.
-#if defined(LORENTZ_BATCH_NATIVE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_NATIVE_INL_HPP
-#undef LORENTZ_BATCH_NATIVE_INL_HPP
-#else
-#define LORENTZ_BATCH_NATIVE_INL_HPP
-#endif
-
-#include <cmath>
-#include <cstdint>
-#include <cstring>
-
-#include <hwy/highway.h>
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
 
 using namespace hwy::HWY_NAMESPACE;
 
@@ -94,10 +77,3 @@ HWY_INLINE N root_above(N a) {
 HWY_INLINE N inverse_power_of(N a) {
   return BitCast(kTag, ShiftLeft<52>(Set(kIntegerTag, 2046) - ShiftRight<52>(BitCast(kIntegerTag, a))));
 }
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

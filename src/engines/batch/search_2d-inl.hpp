@@ -1,18 +1,5 @@
 // The search for the first obstacles in 2D, in lanes, as in src/engines/reduction/search_2d.hpp. Private to
 // the batch engine.
-#if defined(LORENTZ_BATCH_SEARCH_2D_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_SEARCH_2D_INL_HPP
-#undef LORENTZ_BATCH_SEARCH_2D_INL_HPP
-#else
-#define LORENTZ_BATCH_SEARCH_2D_INL_HPP
-#endif
-
-#include "src/engines/batch/time-inl.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
 
 /// The first obstacles of one atom, with one start per lane.
 template <bool kUnit, bool kBall>
@@ -170,10 +157,3 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
   V slope_, n_, m_, last_;
   M in_order_;
 };
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

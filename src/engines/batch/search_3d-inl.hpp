@@ -1,18 +1,5 @@
 // The search for the first obstacles in 3D, in lanes, as in src/engines/reduction/search_3d.hpp,
-// planes_3d.hpp, lines_3d.hpp and candidates_3d.hpp. Private to the batch engine.
-#if defined(LORENTZ_BATCH_SEARCH_3D_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_SEARCH_3D_INL_HPP
-#undef LORENTZ_BATCH_SEARCH_3D_INL_HPP
-#else
-#define LORENTZ_BATCH_SEARCH_3D_INL_HPP
-#endif
-
-#include "src/engines/batch/basis_3d-inl.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
+// lines_3d.hpp and candidates_3d.hpp. Private to the batch engine.
 
 using Point3 = PointOf3<LaneFma>;
 
@@ -257,10 +244,3 @@ class Search3 {
   Point3 plane_;
   M none_met_;
 };
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,18 +1,5 @@
 // The search for balls of lattices with fewer vectors than dimensions, in lanes, as in
 // src/engines/reduction/sparse_search.hpp. Private to the batch engine.
-#if defined(LORENTZ_BATCH_SPARSE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_SPARSE_INL_HPP
-#undef LORENTZ_BATCH_SPARSE_INL_HPP
-#else
-#define LORENTZ_BATCH_SPARSE_INL_HPP
-#endif
-
-#include "src/engines/batch/time-inl.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
 
 template <int D>
 struct LaneDirection {
@@ -188,10 +175,3 @@ class SparseSearch {
   Vector start_seen_;
   SparseCombination<LaneFma, D> rows_[2];
 };
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

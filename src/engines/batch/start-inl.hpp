@@ -1,18 +1,5 @@
 // Where one atom's lattice lies as seen from the starts, in lanes, as in src/engines/reduction/offset.hpp and
 // atom_start.hpp. Private to the batch engine.
-#if defined(LORENTZ_BATCH_START_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_START_INL_HPP
-#undef LORENTZ_BATCH_START_INL_HPP
-#else
-#define LORENTZ_BATCH_START_INL_HPP
-#endif
-
-#include "src/engines/batch/lanes-inl.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
 
 /// The cell of the obstacle that each lane of `any` leaves, relative to the home cell, in the short basis.
 template <int D>
@@ -96,10 +83,3 @@ struct Start : Offset<LaneFma, D> {
     return inside;
   }
 };
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

@@ -11,34 +11,6 @@ std::span<T> part_of(std::span<T> column, std::size_t begin, std::size_t length 
   return column.empty() ? column : column.subspan(begin, length);
 }
 
-// Checks one column after the other, and keeps the first flaw.
-class ColumnCheck {
- public:
-  explicit ColumnCheck(std::size_t size) : size_(size) {}
-
-  /// A column of queries has one row for each.
-  template <class T>
-  void asked(std::span<T> column, const std::string& name, bool needed) {
-    if (column.size() != size_) see(column.size(), name, needed);
-  }
-  template <class T>
-  void told(std::span<T> column, const std::string& name, bool needed) {
-    if (column.size() < size_) see(column.size(), name, needed);
-  }
-  const std::optional<std::string>& flaw() const { return flaw_; }
-
- private:
-  void see(std::size_t rows, const std::string& name, bool needed) {
-    if (flaw_ || (rows == 0 && !needed)) return;
-    flaw_ = rows == 0 ? "the column " + name + " is missing"
-                      : "the column " + name + " has " + std::to_string(rows) + " rows, not " +
-                            std::to_string(size_);
-  }
-
-  std::size_t size_;
-  std::optional<std::string> flaw_;
-};
-
 }  // namespace
 
 Query QueryColumns::query(std::size_t i, int dimension) const {
@@ -78,24 +50,37 @@ std::optional<std::string> flaw_of(const QueryColumns& queries, const FlightColu
   const bool any_from =
       !queries.from_lattice.empty() || !queries.from_atom.empty() ||
       std::ranges::any_of(queries.from_cell, [](const auto& column) { return !column.empty(); });
-  ColumnCheck check(std::max({queries.x[0].size(), queries.x[1].size(), queries.v[0].size()}));
-  check.asked(queries.max_time, "max_time", false);
-  check.asked(queries.from_lattice, "from_lattice", any_from);
-  check.asked(queries.from_atom, "from_atom", any_from);
+  const std::size_t size = std::max({queries.x[0].size(), queries.x[1].size(), queries.v[0].size()});
+  std::optional<std::string> flaw;  // the first
+  const auto see = [&](std::size_t rows, const std::string& name, bool needed) {
+    if (flaw || (rows == 0 && !needed)) return;
+    flaw = rows == 0
+               ? "the column " + name + " is missing"
+               : "the column " + name + " has " + std::to_string(rows) + " rows, not " + std::to_string(size);
+  };
+  const auto asked = [&](const auto& column, const std::string& name, bool needed) {
+    if (column.size() != size) see(column.size(), name, needed);
+  };
+  const auto told = [&](const auto& column, const std::string& name, bool needed = false) {
+    if (column.size() < size) see(column.size(), name, needed);
+  };
+  asked(queries.max_time, "max_time", false);
+  asked(queries.from_lattice, "from_lattice", any_from);
+  asked(queries.from_atom, "from_atom", any_from);
   for (int k = 0; k < dimension; ++k) {
     const std::string component = "[" + std::to_string(k) + "]";
-    check.asked(queries.x[k], "x" + component, true);
-    check.asked(queries.v[k], "v" + component, true);
-    check.asked(queries.from_cell[k], "from_cell" + component, any_from);
+    asked(queries.x[k], "x" + component, true);
+    asked(queries.v[k], "v" + component, true);
+    asked(queries.from_cell[k], "from_cell" + component, any_from);
   }
-  for (int k = 0; k < 3; ++k) check.told(flights.cell[k], "cell[" + std::to_string(k) + "]", false);
-  check.told(flights.outcome, "outcome", true);
-  check.told(flights.stage, "stage", false);
-  check.told(flights.time_is_rounded, "time_is_rounded", false);
-  check.told(flights.lattice, "lattice", false);
-  check.told(flights.atom, "atom", false);
-  check.told(flights.time, "time", false);
-  return check.flaw();
+  for (int k = 0; k < 3; ++k) told(flights.cell[k], "cell[" + std::to_string(k) + "]");
+  told(flights.outcome, "outcome", true);
+  told(flights.stage, "stage");
+  told(flights.time_is_rounded, "time_is_rounded");
+  told(flights.lattice, "lattice");
+  told(flights.atom, "atom");
+  told(flights.time, "time");
+  return flaw;
 }
 
 void QueryTable::clear() {

@@ -1,18 +1,5 @@
-// When the obstacles found are entered, in lanes, as in src/engines/reduction/entry_time.hpp and
-// stable_meeting.hpp. Private to the batch engine.
-#if defined(LORENTZ_BATCH_TIME_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_TIME_INL_HPP
-#undef LORENTZ_BATCH_TIME_INL_HPP
-#else
-#define LORENTZ_BATCH_TIME_INL_HPP
-#endif
-
-#include "src/engines/batch/start-inl.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
+// When the obstacles found are entered, in lanes, as in src/engines/reduction/entry_time.hpp. Private to the
+// batch engine.
 
 /// The results of a search from which the time is computed, and the obstacle's cell relative to the home
 /// cell, in the short basis.
@@ -169,10 +156,3 @@ class Times : public CloseTime<Times<D, kUnit, kBall>, LaneFma, LaneFma, D, kUni
   const Start<D, kUnit, kBall>& start_;
   const V (&n_)[D];
 };
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

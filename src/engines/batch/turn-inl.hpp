@@ -1,18 +1,5 @@
 // The symmetry of the unit lattices of balls that brings each lane's velocity into the first octant: Octant
 // of src/engines/reduction/offset.hpp. Private to the batch engine.
-#if defined(LORENTZ_BATCH_TURN_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_TURN_INL_HPP
-#undef LORENTZ_BATCH_TURN_INL_HPP
-#else
-#define LORENTZ_BATCH_TURN_INL_HPP
-#endif
-
-#include "src/engines/batch/lanes-inl.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
 
 template <int D, bool kTurned>
 struct Turn {  // nothing is turned
@@ -65,10 +52,3 @@ struct Turn<3, true> {
       here[k] = Xor(select(first[k], there[0], select(last[k], there[2], there[1])), sign[k]);
   }
 };
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

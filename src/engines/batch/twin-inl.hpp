@@ -1,18 +1,5 @@
 // Two vectors as one, so that the processor works on one while the other waits for a division or a mask.
 // Included once for each set of instructions. Private to the batch engine.
-#if defined(LORENTZ_BATCH_TWIN_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_TWIN_INL_HPP
-#undef LORENTZ_BATCH_TWIN_INL_HPP
-#else
-#define LORENTZ_BATCH_TWIN_INL_HPP
-#endif
-
-#include "src/engines/batch/native-inl.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
 
 struct V {
   N a, b;
@@ -27,9 +14,9 @@ constexpr std::size_t kLanes = 2 * kNativeLanes;
   HWY_INLINE Result name(Argument x) {          \
     return {name(x.a), name(x.b)};              \
   }
-#define LORENTZ_ON_BOTH_2(Result, name, Argument)  \
-  HWY_INLINE Result name(Argument x, Argument y) { \
-    return {name(x.a, y.a), name(x.b, y.b)};       \
+#define LORENTZ_ON_BOTH_2(Result, name, First, Second) \
+  HWY_INLINE Result name(First x, Second y) {          \
+    return {name(x.a, y.a), name(x.b, y.b)};           \
   }
 #define LORENTZ_ON_BOTH_3(name, First)                 \
   HWY_INLINE V name(First x, V y, V z) {               \
@@ -59,14 +46,16 @@ LORENTZ_ON_BOTH(V, Round, V)
 LORENTZ_ON_BOTH(V, inverse_power_of, V)
 LORENTZ_ON_BOTH(V, root_above, V)
 LORENTZ_ON_BOTH(M, Not, M)
-LORENTZ_ON_BOTH_2(V, Max, V)
-LORENTZ_ON_BOTH_2(V, Min, V)
-LORENTZ_ON_BOTH_2(V, Xor, V)
-LORENTZ_ON_BOTH_2(V, And, V)
-LORENTZ_ON_BOTH_2(V, CopySign, V)
-LORENTZ_ON_BOTH_2(M, And, M)
-LORENTZ_ON_BOTH_2(M, Or, M)
-LORENTZ_ON_BOTH_2(M, AndNot, M)
+LORENTZ_ON_BOTH_2(V, Max, V, V)
+LORENTZ_ON_BOTH_2(V, Min, V, V)
+LORENTZ_ON_BOTH_2(V, Xor, V, V)
+LORENTZ_ON_BOTH_2(V, And, V, V)
+LORENTZ_ON_BOTH_2(V, CopySign, V, V)
+LORENTZ_ON_BOTH_2(M, And, M, M)
+LORENTZ_ON_BOTH_2(M, Or, M, M)
+LORENTZ_ON_BOTH_2(M, AndNot, M, M)
+LORENTZ_ON_BOTH_2(V, IfThenElseZero, M, V)
+LORENTZ_ON_BOTH_2(V, IfThenZeroElse, M, V)
 LORENTZ_ON_BOTH_3(MulAdd, V)
 LORENTZ_ON_BOTH_3(MulSub, V)
 LORENTZ_ON_BOTH_3(NegMulAdd, V)
@@ -77,12 +66,6 @@ LORENTZ_ON_BOTH_3(IfThenElse, M)
 #undef LORENTZ_ON_BOTH_3
 #undef LORENTZ_OPERATOR
 
-HWY_INLINE V IfThenElseZero(M m, V x) {
-  return {IfThenElseZero(m.a, x.a), IfThenElseZero(m.b, x.b)};
-}
-HWY_INLINE V IfThenZeroElse(M m, V x) {
-  return {IfThenZeroElse(m.a, x.a), IfThenZeroElse(m.b, x.b)};
-}
 HWY_INLINE V all(double a) {
   return {Set(kTag, a), Set(kTag, a)};
 }
@@ -114,10 +97,3 @@ HWY_INLINE std::size_t store_some(V x, M m, double* to) {
   const std::size_t count = store_some(x.a, m.a, to);
   return count + store_some(x.b, m.b, to + count);
 }
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

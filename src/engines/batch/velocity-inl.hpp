@@ -1,18 +1,4 @@
 // Velocities in lanes, as ScaledVelocity of engine_base.hpp for one flight. Private to the batch engine.
-#if defined(LORENTZ_BATCH_VELOCITY_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef LORENTZ_BATCH_VELOCITY_INL_HPP
-#undef LORENTZ_BATCH_VELOCITY_INL_HPP
-#else
-#define LORENTZ_BATCH_VELOCITY_INL_HPP
-#endif
-
-#include <lorentz/engine_base.hpp>
-#include "src/engines/batch/lanes-inl.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace lorentz {
-namespace HWY_NAMESPACE {
-namespace {
 
 /// Velocities scaled by powers of two so that their largest components lie in [1, 2). Lanes whose velocity is
 /// far from 1, or has tiny components, are left over.
@@ -48,10 +34,3 @@ struct Velocity {
     return kUnit ? limit : limit * all(scene.inverse_unit);
   }
 };
-
-}  // namespace
-}  // namespace HWY_NAMESPACE
-}  // namespace lorentz
-HWY_AFTER_NAMESPACE();
-
-#endif

@@ -20,14 +20,6 @@ constexpr double kBehindWall = 1e-9, kListMargin = 1e-6, kFlattest = 1e6;
 constexpr int kLargestExponent = 500;
 constexpr double kSmallest = 0x1p-500;  // of an obstacle, in units of the longest component of the cell
 
-Vec minus(const Vec& a, const Vec& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-bool all_finite(const Vec& a) {
-  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
-}
-
 // The obstacle's own coordinates, in which it is the unit ball: A^-1 a. Not used for balls.
 using OwnCoordinates = std::array<Vec, 3>;
 
@@ -40,7 +32,7 @@ struct Obstacle {
 
   // The time at which the line enters it; nothing if the obstacle lies behind.
   std::optional<double> entry(const Vec& x, const Vec& v) const {
-    const Vec arm = minus(x, centre);
+    const Vec arm = plus(x, -1, centre);
     if (!own) {
       if (dot(arm, v) >= 0) return std::nullopt;
       return entry_time(arm, v, radius);
@@ -51,7 +43,7 @@ struct Obstacle {
   }
 
   bool contains(const Vec& x) const {
-    const Vec arm = minus(x, centre), place = own ? coordinates(*own, arm) : arm;
+    const Vec arm = plus(x, -1, centre), place = own ? coordinates(*own, arm) : arm;
     return dot(place, place) < (own ? 1 : radius * radius);
   }
 };
@@ -63,11 +55,7 @@ struct From {
 
   From(const ObstacleId* from, int lattice) {
     if (!from || from->lattice != lattice) return;
-    for (int i = 0; i < 3; ++i) {
-      if (!from->cell[i].fits_int64()) return;  // farther away than any walk
-      n[i] = from->cell[i].int64();
-    }
-    atom = from->atom;
+    if (const auto cell = index_of(from->cell)) atom = from->atom, n = *cell;
   }
 
   bool is(const Obstacle& obstacle, const CellIndex& cell) const {
@@ -135,8 +123,7 @@ std::optional<std::string> CellWalk::CellLattice::beyond() const {
       "does not do cells as flat as this one, whose walls binary64 cannot tell apart";
   if (std::abs(exponent) > kLargestExponent) return "does lattice vectors between 2^-500 and 2^500 only";
   for (int i = 0; i < dimension; ++i) {
-    if (!all_finite(dual[i])) return kTooFlat;
-    double sum = 0;  // the size of the terms of a coordinate within the cell
+    double sum = 0;  // the size of the terms of a coordinate within the cell; not finite if dual[i] is not
     for (int k = 0; k < dimension; ++k)
       for (int j = 0; j < dimension; ++j) sum += std::fabs(dual[i][k] * vectors[j][k]);
     if (!(sum < kFlattest)) return kTooFlat;

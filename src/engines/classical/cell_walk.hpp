@@ -4,13 +4,23 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <optional>
 
 #include <lorentz/engine.hpp>
 
 namespace lorentz {
 
 using CellIndex = std::array<std::int64_t, 3>;
+
+/// The cell of an obstacle; nothing if it is farther away than any walk.
+inline std::optional<CellIndex> index_of(const Cell& cell) {
+  CellIndex n;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!cell[i].fits_int64()) return std::nullopt;
+    n[i] = cell[i].int64();
+  }
+  return n;
+}
 
 /// Follows the particle through each lattice's own cells (the parallelepipeds centred at its points) in
 /// binary64. In each cell it solves the quadratics of all obstacles that reach into the cell, which are

@@ -14,17 +14,6 @@ ObstacleId obstacle_of(const CellIndex& n) {
   return {0, 0, {Integer(n[0]), Integer(n[1]), Integer(n[2])}};
 }
 
-// The cell of the obstacle that is left; nothing if it is farther away than any walk.
-std::optional<CellIndex> cell_left(const Ray& ray) {
-  if (!ray.from) return std::nullopt;
-  CellIndex n;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!ray.from->cell[i].fits_int64()) return std::nullopt;
-    n[i] = ray.from->cell[i].int64();
-  }
-  return n;
-}
-
 }  // namespace
 
 Answer Classical::flight_of(const Ray& ray, double max_time) const {
@@ -40,7 +29,7 @@ Answer Classical::flight_of(const Ray& ray, double max_time) const {
     n[i] = static_cast<std::int64_t>(home);
     x[i] -= home;
   }
-  const std::optional<CellIndex> left = cell_left(ray);
+  const std::optional<CellIndex> left = ray.from ? index_of(ray.from->cell) : std::nullopt;
   const auto is_from = [&] { return left && n == *left; };
   if (dot(x, x) < r * r && !is_from()) return Answer::inside(obstacle_of(n));
 

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <optional>
-#include <type_traits>
 
-#include "src/engines/reduction/direction_2d.hpp"
-#include "src/engines/reduction/direction_3d.hpp"
+#include "src/engines/reduction/offset.hpp"
+#include "src/engines/reduction/reduce_3d.hpp"
 
 namespace lorentz {
 

@@ -35,12 +35,13 @@ class AtomStart {
     }
     Wide leaving[D];
     const bool has_from = find_from(from, leaving);
-    for (int which = 0; which < 1 << others; ++which) {
+    for (int which = 0; which <= others; ++which) {
+      if ((which & others) != which) continue;
       Wide d[D];
       std::copy(offset.d, offset.d + D, d);
       double error = offset.error;
       if (which > 0) {
-        choose(which, other, N);
+        for (int i = 0; i < D; ++i) N[i] = which >> i & 1 ? Wide(other[i]) : Wide();
         error = place_of<kUnit>(*lattice, offset, N, d);
       }
       const Decision decision = is_inside<kUnit, kBall>(d, error, *lattice, stage);
@@ -99,32 +100,17 @@ class AtomStart {
   }
 
  private:
-  static bool same(const Wide* a, const Wide* b) {
-    for (int i = 0; i < D; ++i)
-      if (a[i].hi != b[i].hi || a[i].lo != b[i].lo) return false;
-    return true;
-  }
-
-  // The cells besides the home cell whose obstacle may contain x: up to one step along each basis vector.
+  // The steps to the cells besides the home cell whose obstacle may contain x: up to one along each basis
+  // vector. Returns a bit for each.
   int neighbours(double (&other)[D]) const {
-    int count = 0;
+    int bits = 0;
     for (int i = 0; i < D; ++i) {
       const double coordinate = coordinate_from_home(*lattice, offset, i);
       if (std::fabs(coordinate) + lattice->reach[i] < 1 - kMaxHomeError) continue;
       other[i] = std::copysign(1, coordinate);
-      ++count;
+      bits |= 1 << i;
     }
-    return count;
-  }
-
-  // Sets N to subset number `which` of these steps.
-  static void choose(int which, const double (&other)[D], Wide (&N)[D]) {
-    for (int i = 0, bit = 0; i < D; ++i) {
-      N[i] = Wide();
-      if (other[i] == 0) continue;
-      if (which >> bit & 1) N[i] = Wide(other[i]);
-      ++bit;
-    }
+    return bits;
   }
 };
 

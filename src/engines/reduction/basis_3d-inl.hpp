@@ -1,5 +1,5 @@
 // Short bases of a 3D lattice as seen along a line, and the parts of the dual basis that are needed to
-// enumerate its planes and lines. Included by basis_3d.hpp and by the batch engine.
+// enumerate its planes and lines.
 
 /// A lattice vector: its integer coefficients in the lattice's short basis, and its components across the
 /// line (in units of r) and along it. (Like a double it is not initialised by default. The same holds for the

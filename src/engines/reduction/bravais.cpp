@@ -199,13 +199,12 @@ std::string beyond(const Bravais& bravais, const Metric& metric) {
   if (bravais.rank == 0) return "";
   const double smallest = bravais.dimension == 2 ? kSmallestRadius2d : kSmallestRadius3d;
   const double shortest = bravais.unit && !metric.shape ? 1 : shortest_vector(bravais, metric) * (1 - kAmple);
-  const Vec& reach = bravais.reach;
   if (!(shortest > 1 / kMaxSpacing && shortest < kMaxSpacing && home_error(bravais) < kMaxHomeError))
     return "does not do lattices of so different spacings, or so flat a cell";
   if (metric.shape && !(2 * bravais.radius <= shortest))
     return "does ellipsoids only that do not overlap their own translates";
   if (!(2 * bravais.radius <= shortest)) return "does radii up to half the shortest lattice vector only";
-  if (!(std::max({reach[0], reach[1], reach[2]}) < 1 - 2 * kMaxHomeError))
+  if (!(std::ranges::max(bravais.reach) < 1 - 2 * kMaxHomeError))
     return "does not do obstacles that reach so far into a cell so flat";
   if (bravais.rank == bravais.dimension && !(bravais.radius >= smallest * shortest))
     return "does radii from " + std::string(bravais.dimension == 2 ? "1e-12" : "1e-7") +
@@ -275,11 +274,8 @@ class LatticePreparation {
   // Uses a short basis in the metric of the shape: that of the previous atom, if it has the same shape.
   std::string set_ellipsoid(Bravais& bravais) {
     const Atom& atom = lattice_.atoms[bravais.atom];
-    std::vector<Vec> semiaxes = atom.semiaxes;
-    for (int i = 0; i < scene_.dimension && atom.is_ball(); ++i) {
-      semiaxes.emplace_back();
-      semiaxes.back()[i] = atom.radius;
-    }
+    const std::array<Vec, 3> axes = semiaxes_of(atom, scene_.dimension);
+    std::vector<Vec> semiaxes(axes.begin(), axes.begin() + scene_.dimension);
     for (Vec& axis : semiaxes)
       for (double& component : axis) component *= scale_;
     if (last_semiaxes_ != semiaxes) {
@@ -309,8 +305,7 @@ class LatticePreparation {
     Bravais axes = bravais;
     set_basis(axes, short_);
     set_reach(axes, {&bravais.shape});
-    axes.unit =
-        std::max({axes.reach[0], axes.reach[1], scene_.dimension == 3 ? axes.reach[2] : 0}) < kReachOfAxes;
+    axes.unit = std::ranges::max(axes.reach) < kReachOfAxes;
     if (axes.unit) bravais = axes;
   }
 
@@ -323,7 +318,7 @@ class LatticePreparation {
       bravais.reach[i] = bravais.radius * (1 + kReachSlop) *
                          (metric.length_of_form(bravais.dual[i]) +
                           2 * bravais.coordinate_error * metric.length_of_longest_form());
-    bravais.reaches_out = !(std::max({bravais.reach[0], bravais.reach[1], bravais.reach[2]}) < kReachAtHome);
+    bravais.reaches_out = !(std::ranges::max(bravais.reach) < kReachAtHome);
   }
 
   static std::string finish(Bravais& bravais, const Metric& metric) {
@@ -342,13 +337,6 @@ class LatticePreparation {
   std::optional<Shortening> shaped_;
 };
 
-bool has_ellipsoids(const Scene& scene) {
-  for (const Lattice& lattice : scene.lattices)
-    for (const Atom& atom : lattice.atoms)
-      if (!atom.is_ball()) return true;
-  return false;
-}
-
 // The length by which all others are measured: the first lattice's shortest vector, or the size of a single
 // obstacle.
 double first_length(const Scene& scene) {
@@ -364,7 +352,7 @@ double first_length(const Scene& scene) {
 PreparedScene prepare(const Scene& scene) {
   checked(scene);
   PreparedScene prepared;
-  prepared.ellipsoids = has_ellipsoids(scene);
+  for_each_atom(scene, [&](const Atom& atom) { prepared.ellipsoids |= !atom.is_ball(); });
   const double first = first_length(scene);
   if (!(first > 1 / kMaxLength && first < kMaxLength)) {
     prepared.beyond = "does lattice vectors and single obstacles between 2^-400 and 2^400 only";

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "src/engines/reduction/found.hpp"
-#include "src/engines/reduction/stable_meeting.hpp"
+#include "src/engines/reduction/offset.hpp"
 #include "src/engines/reduction/window_3d.hpp"
 
 namespace lorentz {
@@ -51,17 +51,11 @@ class Candidates3 {
   }
 
  private:
-  Look offer(const Wide* N, double s, double s_error, double slack, double slack_error) {
+  Look offer(const Wide (&N)[3], double s, double s_error, double slack, double slack_error) {
     if (!(s + s_error < found.s - found.s_error)) return same(N, found.N) ? Look::missed : Look::doubtful;
     for (int i = 0; i < 3; ++i) found.N[i] = N[i];
     found.s = s, found.s_error = s_error, found.slack = slack, found.slack_error = slack_error;
     return Look::taken;
-  }
-
-  static bool same(const Wide* a, const Wide* b) {
-    for (int i = 0; i < 3; ++i)
-      if (a[i].hi != b[i].hi || a[i].lo != b[i].lo) return false;
-    return true;
   }
 
   // The same decisions in double-double.

@@ -1,4 +1,4 @@
-// A 2D Bravais lattice seen along a velocity: the text of direction_2d.hpp, and of the batch engine.
+// A 2D Bravais lattice seen along a velocity.
 //
 // In coordinates (s, h), along the line and across it, the lattice points of the strip |h| < rho are wanted,
 // and of these the first with s > 0. Euclid's algorithm on the heights of two basis vectors on either side of
@@ -119,12 +119,6 @@ struct Direction2 {
       return kRho * kRoundoff;
     else
       return shape.rho_error;
-  }
-  LORENTZ_INLINE double slack_scale() const {
-    if constexpr (kBall)
-      return 1;
-    else
-      return shape.slack_scale;
   }
 
  private:

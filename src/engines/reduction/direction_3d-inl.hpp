@@ -1,4 +1,4 @@
-// A 3D Bravais lattice seen along a velocity. Included by direction_3d.hpp and by the batch engine.
+// A 3D Bravais lattice seen along a velocity.
 //
 // Coordinates are measured across the line in units of r, and along it in units of a length that grows while
 // nothing is met. In these units the cylinder has radius 1 and a window of it has length 1, and if a basis is

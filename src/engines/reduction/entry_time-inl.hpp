@@ -1,5 +1,5 @@
-// When an obstacle that was found is entered: roughly, and within a few ulps. Included by entry_time.hpp and
-// by the batch engine. Both get the rest, in double-double, from StableMeeting.
+// When an obstacle that was found is entered: roughly, and within a few ulps. Both engines get the rest,
+// in double-double, from StableMeeting.
 
 /// The results of the search from which the time is computed: s = v . d, and the slack, whose root q is half
 /// the chord.

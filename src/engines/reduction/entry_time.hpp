@@ -2,15 +2,9 @@
 // bound on the error. Private to the reduction engine.
 #pragma once
 
-#include <type_traits>
-
-#include "src/engines/reduction/offset.hpp"
+#include "src/engines/reduction/one_flight.hpp"
 
 namespace lorentz {
-
-#define LORENTZ_INLINE inline
-#include "src/engines/reduction/entry_time-inl.hpp"
-#undef LORENTZ_INLINE
 
 template <class Arch, int D, bool kUnit, bool kBall>
 class EntryTime

@@ -75,7 +75,6 @@ class AtomFlight {
       outcome = search.run(nullptr, s_limit);
     }
     stage = std::max(stage, search.found.stage);
-    if (outcome == Outcome::undecided) stage = Stage::undecided;
     if (outcome == Outcome::hit) take(to, search.found);
   }
 

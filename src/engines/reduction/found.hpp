@@ -20,6 +20,11 @@ struct Found {
   double h = 0;  ///< v x d; only in 2D, for ellipsoids
 
   bool any() const { return s < kNothing; }
+  Outcome outcome() const { return any() ? Outcome::hit : Outcome::never; }
+  Outcome give_up() {
+    stage = Stage::undecided;
+    return Outcome::undecided;
+  }
   void needs(Stage needed) {
     if (stage < needed) stage = needed;
   }

@@ -1,5 +1,4 @@
 // Coordinates of a 3D lattice as seen along a velocity: two across the line, in units of r, and one along it.
-// Included by frame_3d.hpp and by the batch engine.
 
 template <class Numbers, bool kUnit, bool kBall>
 struct FrameOf3 {

@@ -1,5 +1,5 @@
 // Where a lattice lies as seen from a start x: the offset of the obstacle in x's home cell, and whether x
-// lies in an obstacle. Included by offset.hpp and by the batch engine.
+// lies in an obstacle.
 
 /// The obstacle of the home cell, relative to x: d = B home + p - x.
 template <class Numbers, int D>

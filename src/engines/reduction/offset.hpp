@@ -1,16 +1,11 @@
-// Where the lattice lies as seen from a start x: the offset of the ball in x's home cell, and whether x lies
-// in a ball. Private to the reduction engine.
+// The octant of a velocity, and whether a start lies in a ball. Private to the reduction engine.
 #pragma once
 
 #include <cmath>
-#include <type_traits>
 
-#include <lorentz/engine_base.hpp>
 #include <lorentz/flight.hpp>
-#include "src/engines/reduction/bravais.hpp"
-#include "src/engines/reduction/formulas.hpp"
+#include "src/engines/reduction/one_flight.hpp"
 #include "src/engines/reduction/predicates.hpp"
-#include "src/engines/reduction/stable_meeting.hpp"
 
 namespace lorentz {
 
@@ -18,13 +13,12 @@ inline double flushed(double a) {
   return std::fabs(a) < kTinyComponent ? 0 : a;
 }
 
-#define LORENTZ_INLINE inline
-#define LORENTZ_NOINLINE [[gnu::noinline]]
-#define LORENTZ_RARE [[gnu::noinline]]
-#include "src/engines/reduction/offset-inl.hpp"
-#undef LORENTZ_RARE
-#undef LORENTZ_NOINLINE
-#undef LORENTZ_INLINE
+template <int D>
+inline bool same(const Wide (&a)[D], const Wide* b) {
+  for (int i = 0; i < D; ++i)
+    if (a[i].hi != b[i].hi || a[i].lo != b[i].lo) return false;
+  return true;
+}
 
 /// The symmetry of the unit lattices of balls that brings a velocity into the first octant,
 /// v_0 >= v_1 >= v_2 >= 0.

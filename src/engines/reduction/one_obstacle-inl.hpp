@@ -1,4 +1,4 @@
-// A single ball on the line of flight. Included by one_obstacle.hpp and by the batch engine.
+// A single ball on the line of flight.
 
 /// A ball with its centre at d relative to x: s = v . d and slack = (r |v|)^2 - |v x d|^2, in binary64. The
 /// earliest entry is at s - s_rho.

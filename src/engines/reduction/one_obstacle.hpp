@@ -4,13 +4,9 @@
 #include <algorithm>
 
 #include "src/engines/reduction/found.hpp"
-#include "src/engines/reduction/stable_meeting.hpp"
+#include "src/engines/reduction/one_flight.hpp"
 
 namespace lorentz {
-
-#define LORENTZ_INLINE inline
-#include "src/engines/reduction/one_obstacle-inl.hpp"
-#undef LORENTZ_INLINE
 
 enum class Look { met, missed, behind, doubtful };
 

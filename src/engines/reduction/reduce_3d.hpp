@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "src/engines/reduction/basis_3d.hpp"
+#include "src/engines/reduction/one_flight.hpp"
 
 namespace lorentz {
 
@@ -110,5 +110,19 @@ class GreedyReduction {
   double limit_ = kRunningCoefficient;
   bool fresh_ = true;  // the coordinates are those of the coefficients, not sums of rounded ones
 };
+
+/// Reduces the basis to short vectors, then once more from exact coefficients. False if this does not
+/// succeed.
+template <class Arch, class Frame>
+bool reduce_basis(const Frame& frame, Basis3& basis, bool) {
+  GreedyReduction reduction(basis);
+  bool done = false;
+  for (int round = 0; round < kMaxReductionRounds && !done; ++round) {
+    done = reduction.run() && reduction.is_accurate(frame.inverse_r);
+    for (Arm3& arm : basis.b) frame.template recompute<Arch>(arm, basis.length);
+    reduction.refresh();
+  }
+  return done && reduction.largest() < kMaxCoefficient / 2;
+}
 
 }  // namespace lorentz

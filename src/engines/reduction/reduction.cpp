@@ -59,20 +59,12 @@ std::optional<std::string> Reduction::beyond(const Scene& scene) {
 }
 
 const char* Reduction::model() const {
-  const bool ellipsoids = model_->scene.ellipsoids;
-  switch (model_of(model_->scene)) {
-    case SceneModel::unit:
-      return ellipsoids ? "unit, ellipsoid" : "unit";
-    case SceneModel::one_atom:
-      return ellipsoids ? "one atom, ellipsoid" : "one atom";
-    case SceneModel::several:
-      return ellipsoids ? "several atoms, ellipsoids" : "several atoms";
-    case SceneModel::sparse:
-      return ellipsoids ? "rows and layers, ellipsoids" : "rows and layers";
-    case SceneModel::mixed:
-      return ellipsoids ? "mixed, ellipsoids" : "mixed";
-  }
-  return "";
+  constexpr const char* kNames[][2] = {{"unit", "unit, ellipsoid"},  // in the order of SceneModel
+                                       {"one atom", "one atom, ellipsoid"},
+                                       {"several atoms", "several atoms, ellipsoids"},
+                                       {"rows and layers", "rows and layers, ellipsoids"},
+                                       {"mixed", "mixed, ellipsoids"}};
+  return kNames[static_cast<int>(model_of(model_->scene))][model_->scene.ellipsoids];
 }
 
 // A search that ends at a limit may meet, beyond the first hit, an obstacle that it cannot decide. A search

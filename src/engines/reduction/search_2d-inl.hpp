@@ -1,5 +1,4 @@
-// The rows of a 2D lattice along a prepared direction, as a start sees them. The text of search_2d.hpp, and of
-// the batch engine.
+// The rows of a 2D lattice along a prepared direction, as a start sees them.
 
 /// Heights and positions are counted from the ball of the home cell; but among tiny balls from the lattice
 /// point nearest to the start in the coordinates of R and L, since the home cell's are so large that their
@@ -179,7 +178,7 @@ class RowsOf2 {
     if constexpr (kBall)
       return slack;
     else
-      return to_.slack_scale() * slack;
+      return to_.shape.slack_scale * slack;
   }
 
   LORENTZ_INLINE DD height_of_home() const {

@@ -1,18 +1,14 @@
-// The search for the first ball along a prepared direction, in 2D (direction_2d.hpp says how). Private to the
+// The search for the first ball along a prepared direction, in 2D (direction_2d-inl.hpp says how). Private to the
 // reduction engine.
 #pragma once
 
 #include <algorithm>
 
-#include "src/engines/reduction/direction_2d.hpp"
 #include "src/engines/reduction/found.hpp"
-#include "src/engines/reduction/stable_meeting.hpp"
+#include "src/engines/reduction/one_flight.hpp"
+#include "src/engines/reduction/predicates.hpp"
 
 namespace lorentz {
-
-#define LORENTZ_INLINE inline
-#include "src/engines/reduction/search_2d-inl.hpp"
-#undef LORENTZ_INLINE
 
 /// The search for one start.
 template <class Arch, bool kUnit, bool kBall>
@@ -28,35 +24,27 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
   Found<2> found;
 
   /// `from`: coefficients of the ball that is being left, or null. Balls that are entered after s_limit may
-  /// be ignored.
+  /// be ignored. `never`: nothing is entered before s_limit; or the rows are exactly parallel to the line, and
+  /// all were passed.
   Outcome run(const Wide* from, double s_limit) {
     from_ = from;
     s_limit_ = s_limit;
-    if (!to_.usable || !this->set_anchor(true)) return give_up();
+    if (!to_.usable || !this->set_anchor(true)) return found.give_up();
     const double nu = this->row_beside_start(), reach = this->reach_of_rows();
-    if (!(std::fabs(nu) + reach < kMaxCoefficient)) return give_up();
+    if (!(std::fabs(nu) + reach < kMaxCoefficient)) return found.give_up();
     const double slope = this->slope_of_rows();
     double n = std::ceil(nu - reach);
     for (int row = 0; row < kMaxRows; ++row, ++n) {
       double last = nu + reach;
       if (to_.rises) last += std::min(found.s, s_limit) * slope;
-      if (!(n <= last)) return outcome();
-      if (!look_in_row(n)) return give_up();
-      if (found.any() && this->are_in_order()) return outcome();
+      if (!(n <= last)) return found.outcome();
+      if (!look_in_row(n)) return found.give_up();
+      if (found.any() && this->are_in_order()) return found.outcome();
     }
-    return give_up();
+    return found.give_up();
   }
 
  private:
-  // `never`: nothing is entered before s_limit; or the rows are exactly parallel to the line, and all were
-  // passed.
-  Outcome outcome() const { return found.any() ? Outcome::hit : Outcome::never; }
-
-  Outcome give_up() {
-    found.stage = Stage::undecided;
-    return Outcome::undecided;
-  }
-
   // Takes the first ball of row n that is met ahead, if it comes before the best so far. False: undecided.
   bool look_in_row(double n) {
     double unsure;

@@ -1,10 +1,10 @@
-// The search for the first ball along a prepared direction, in 3D (direction_3d.hpp says how): window by
+// The search for the first ball along a prepared direction, in 3D (direction_3d-inl.hpp says how): window by
 // window, and in each window plane by plane. Private to the reduction engine.
 #pragma once
 
 #include <algorithm>
 
-#include "src/engines/reduction/planes_3d.hpp"
+#include "src/engines/reduction/thin_section_3d.hpp"
 
 namespace lorentz {
 
@@ -14,7 +14,6 @@ class Search3 {
   Window3<Arch, kUnit, kBall> window_;
   Candidates3<Arch, kUnit, kBall> candidates_;
   Lines3<Arch, kUnit, kBall> lines_;
-  Planes3<Arch, kUnit, kBall> planes_;
 
  public:
   Search3(const Bravais& lattice, const Direction3<kUnit, kBall>& direction,
@@ -22,7 +21,6 @@ class Search3 {
       : window_(lattice, direction, offset),
         candidates_(window_),
         lines_(window_, candidates_),
-        planes_(window_, candidates_, lines_),
         found(candidates_.found) {}
   Search3(const Search3&) = delete;
   Search3& operator=(const Search3&) = delete;
@@ -35,25 +33,20 @@ class Search3 {
     candidates_.from = from;
     candidates_.s_limit = s_limit;
     for (int window = 0; window < kMaxWindows; ++window) {
-      if (!window_.basis->usable || !window_.set_anchor()) return give_up();
-      planes_.none_met = true;
-      if (!scan_window()) return give_up();
+      if (!window_.basis->usable || !window_.set_anchor()) return found.give_up();
+      none_met_ = true;
+      if (!scan_window()) return found.give_up();
       if (found.any()) return Outcome::hit;
-      window_.advance(planes_.none_met, kappa_);
+      window_.advance(none_met_, kappa_);
       if (window_.begin > s_limit || window_.begin > 2 * period()) return Outcome::never;
-      if (!(window_.begin < kFarthest)) return give_up();
-      if (window >= 1) window_.lengthen(kLonger);
+      if (!(window_.begin < kFarthest)) return found.give_up();
+      if (window >= 1) window_.lengthen(kLonger, true);
     }
-    return give_up();
+    return found.give_up();
   }
 
  private:
-  Outcome give_up() {
-    found.stage = Stage::undecided;
-    return Outcome::undecided;
-  }
-
-  // Scans the planes k b_2 + (b_0, b_1) that meet the window.
+  // Scans the planes k b_2 + (b_0, b_1) that meet the window. False, here and below: undecided.
   bool scan_window() {
     double low, high;
     kappa_ = window_.plane_of(window_.anchor_point);
@@ -61,8 +54,24 @@ class Search3 {
     if (!are_countable(low, high)) return false;
     for (double k = std::ceil(low); k <= high; ++k) {
       const Point3 point = window_.anchor_point.step(k, window_.basis->b[2]);
-      if (!planes_.scan(point, kappa_ + k)) return false;
+      if (!scan_plane(point, kappa_ + k)) return false;
     }
+    return true;
+  }
+
+  // Scans the lines of the plane of this point that meet the flight's cylinder.
+  bool scan_plane(const Point3& point, double kappa) {
+    typename Window3<Arch, kUnit, kBall>::Section section;
+    if (!window_.set_section(point, kappa, candidates_.end(), section)) return true;
+    none_met_ = false;
+    const double low = section.low, high = section.high, z_first = section.z_first, z_last = section.z_last;
+    if (!are_countable(low, high)) return false;
+    if (high - low > kManyLines)
+      return ThinSection3<Arch, kUnit, kBall>(window_, candidates_, lines_)
+          .scan(point, z_first, z_last, kappa, section.xi_error);
+    const Basis3& basis = *window_.basis;
+    for (double k = low; k <= high; ++k)
+      if (!lines_.scan(point.step(k, basis.b[1]), basis.b[0], z_first, z_last)) return false;
     return true;
   }
 
@@ -76,7 +85,8 @@ class Search3 {
     return Found<3>::kNothing;
   }
 
-  double kappa_ = 0;  // of the anchor's plane
+  double kappa_ = 0;      // of the anchor's plane
+  bool none_met_ = true;  // of the window's planes
 };
 
 }  // namespace lorentz

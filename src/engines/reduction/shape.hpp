@@ -30,8 +30,8 @@ struct Shape {
   double metric_size = 0, cofactor_size = 0;    ///< at least |G|, |C| (2-norms)
   double metric_error = 0, cofactor_error = 0;  ///< |computed - exact| at most, in the 2-norm
   double inverse_height_scale = 1;              ///< 2D: 1 / |C|
-  double along_error = 0;                       ///< 2D: 16 c u |N| / r, c the condition (direction_2d.hpp)
-  double condition = 1;  ///< at least |N| |N^-1|: the longest semiaxis of the ellipsoid over the shortest
+  double along_error = 0;  ///< 2D: 16 c u |N| / r, c the condition (direction_2d-inl.hpp)
+  double condition = 1;    ///< at least |N| |N^-1|: the longest semiaxis of the ellipsoid over the shortest
 
   friend bool operator==(const Shape& a, const Shape& b) {
     return a.semiaxes[0] == b.semiaxes[0] && a.semiaxes[1] == b.semiaxes[1] && a.semiaxes[2] == b.semiaxes[2];

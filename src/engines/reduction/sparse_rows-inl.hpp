@@ -1,5 +1,4 @@
-// Which obstacles of a row, and which rows of a plane, a line can meet. Included by sparse_rows.hpp and by
-// the batch engine.
+// Which obstacles of a row, and which rows of a plane, a line can meet.
 //
 // All vectors are seen in a frame in which the obstacles are balls of radius r. Seen along v, the row d + n b
 // has the heights v x d + n c across the line, where c = v x b. The line passes the row at

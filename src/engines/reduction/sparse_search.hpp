@@ -7,7 +7,6 @@
 
 #include "src/engines/reduction/atom_direction.hpp"
 #include "src/engines/reduction/one_obstacle.hpp"
-#include "src/engines/reduction/sparse_rows.hpp"
 
 namespace lorentz {
 
@@ -18,11 +17,10 @@ struct SparseDirection {
     Vec v;
     double v2, s_rho;
   } direction;
-  Octant octant;
 
   template <class Arch>
   SparseDirection(Arch, const Bravais& lattice, const Vec& v) {
-    octant.turn<false>(v, direction.v);
+    for (int k = 0; k < 3; ++k) direction.v[k] = flushed(v[k]);
     direction.v2 = speed_squared(direction.v[0], direction.v[1], direction.v[2]);
     direction.s_rho = width_of(lattice.radius, direction.v2);
   }
@@ -34,7 +32,7 @@ struct SparseDirection {
   }
 };
 
-/// Like Search2 and Search3. Candidates are found roughly, in binary64 (sparse_rows.hpp), and each is decided
+/// Like Search2 and Search3. Candidates are found roughly, in binary64 (sparse_rows-inl.hpp), and each is decided
 /// as a single obstacle. Obstacles of one atom do not overlap, so they are entered in the order of s.
 template <int D, bool kBall>
 class SparseSearch {
@@ -47,11 +45,7 @@ class SparseSearch {
 
   Outcome run(const Wide* from, double) {
     from_ = from;
-    if (!scan()) {
-      found.stage = Stage::undecided;
-      return Outcome::undecided;
-    }
-    return found.any() ? Outcome::hit : Outcome::never;
+    return scan() ? found.outcome() : found.give_up();
   }
 
  private:
@@ -98,7 +92,7 @@ class SparseSearch {
     return error * std::sqrt(lattice_.shape.metric_size);
   }
 
-  // Sets the vectors for sparse_rows.hpp: velocity, start, the row that is followed, and the step to the next
+  // Sets the vectors for sparse_rows-inl.hpp: velocity, start, the row that is followed, and the step to the next
   // row.
   void see() {
     const auto image = [&](const auto& a, double(&there)[D]) {

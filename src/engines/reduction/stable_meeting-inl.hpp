@@ -1,6 +1,5 @@
 // One obstacle and the line, in double-double: along, across, and the time of entry. This is the second stage
-// of every decision about an obstacle, and gives the time. Included by stable_meeting.hpp and by the batch
-// engine.
+// of every decision about an obstacle, and gives the time.
 
 /// G a, by rows.
 template <class Arch, int D>

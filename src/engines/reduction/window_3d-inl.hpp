@@ -1,5 +1,4 @@
-// A stretch of the flight in 3D, and the planes, lines and points of the lattice that are in it. Included by
-// window_3d.hpp and by the batch engine.
+// A stretch of the flight in 3D, and the planes, lines and points of the lattice that are in it.
 
 /// A lattice point relative to the anchor. `size` and `extent` are those of the terms from which p and z were
 /// summed.

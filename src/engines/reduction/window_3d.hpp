@@ -2,15 +2,9 @@
 // that numbers are small; for one flight. Private to the reduction engine.
 #pragma once
 
-#include "src/engines/reduction/direction_3d.hpp"
+#include "src/engines/reduction/reduce_3d.hpp"
 
 namespace lorentz {
-
-#define LORENTZ_INLINE inline
-#include "src/engines/reduction/window_3d-inl.hpp"
-#undef LORENTZ_INLINE
-
-using Point3 = PointOf3<SplitProduct>;
 
 /// Can one count from low to high by ones?
 inline bool are_countable(double low, double high) {
@@ -23,7 +17,7 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall> {
   using typename Base::DD;
 
  public:
-  using Base::anchor_point, Base::basis, Base::begin, Base::to;
+  using Base::anchor_point, Base::basis, Base::begin, Base::lengthen, Base::to;
 
   const Offset<SplitProduct, 3>& offset;
   Wide anchor[3];  ///< from the home cell, in the short basis
@@ -42,9 +36,6 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall> {
     }
     return this->set_errors(n);
   }
-
-  /// Makes the window longer from here on, with a basis that suits its length.
-  void lengthen(double factor) { Base::lengthen(factor, true); }
 
   /// The same point, with its coordinates recomputed from the integers.
   Point3 recomputed(const Point3& point) const {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <variant>
 
 #include <lorentz/trajectory_batch.hpp>
 #include "src/trajectory/motion.hpp"
@@ -7,35 +6,30 @@
 namespace lorentz {
 
 struct Particles::Inside {
-  using Motions = std::variant<Motion<double>, Motion<Wide>>;
   template <class T>
   using Column = std::array<T, kTogether>;
 
   const Batch& engine;
   Precision precision;
-  Motions motion;
+  AnyMotion motion;
   Column<Inquiry> asked;
   std::array<Column<double>, 3> x, v;
-  Column<double> max_time, time;
+  Column<double> max_time;
   Column<std::int32_t> from_lattice, from_atom, lattice, atom;
   std::array<Column<std::int64_t>, 3> from_cell, cell;
   Column<Outcome> outcome;
 
   Inside(const Batch& with, const Scene& scene, Precision in)
-      : engine(with),
-        precision(in),
-        motion(in == Precision::binary64 ? Motions(std::in_place_index<0>, scene)
-                                         : Motions(std::in_place_index<1>, scene)) {}
-
-  const Places& places() const {
-    return std::visit([](const auto& one) -> const Places& { return one.places(); }, motion);
-  }
+      : engine(with), precision(in), motion(scene, in) {}
 
   void ask(const Particle& particle, std::size_t k, double until);
   void fly(std::size_t count, bool limited);
-  template <class Motion>
-  Stop meet(const Motion& motion, Particle& particle, std::size_t k, double until,
-            Collision& collision) const;
+  Flight flight(std::size_t k) const {
+    return {.outcome = outcome[k],
+            .lattice = lattice[k],
+            .atom = atom[k],
+            .cell = {cell[0][k], cell[1][k], cell[2][k]}};
+  }
 };
 
 void Particles::Inside::ask(const Particle& particle, std::size_t k, double until) {
@@ -64,26 +58,6 @@ void Particles::Inside::fly(std::size_t count, bool limited) {
   engine.fly(queries, flights);
 }
 
-template <class Motion>
-Stop Particles::Inside::meet(const Motion& motion, Particle& particle, std::size_t k, double until,
-                             Collision& collision) const {
-  switch (outcome[k]) {
-    case Outcome::hit:
-      return motion.meet(particle, asked[k], {lattice[k], atom[k], {cell[0][k], cell[1][k], cell[2][k]}},
-                         until, collision);
-    case Outcome::never:
-      return motion.fly_on(particle, until, Stop::never);
-    case Outcome::later:
-      return motion.fly_on(particle, until, Stop::later);
-    case Outcome::inside:
-      return Stop::inside;
-    case Outcome::undecided:
-      return Stop::undecided;
-    default:
-      return Stop::error;
-  }
-}
-
 Particles::Particles(const Batch& engine, const Scene& scene, Precision precision)
     : inside_(std::make_unique<Inside>(engine, scene, precision)), collisions_(kTogether) {}
 Particles::~Particles() = default;
@@ -91,11 +65,11 @@ Particles::Particles(Particles&&) noexcept = default;
 Particles& Particles::operator=(Particles&&) noexcept = default;
 
 void Particles::add(const Query& start) {
-  add(inside_->places().at(start, inside_->precision));
+  add(inside_->motion.places().at(start, inside_->precision));
 }
 
 void Particles::add(const Particle& particle) {
-  inside_->places().check(particle);
+  inside_->motion.places().check(particle);
   going_.push_back(particles_.size());
   particles_.push_back(particle);
   stops_.push_back(Stop::none);
@@ -120,7 +94,7 @@ std::size_t Particles::fly(std::size_t begin, double until) {
         inside.fly(count, until < HUGE_VAL);
         for (std::size_t k = 0; k < count; ++k) {
           const std::size_t i = going_[begin + k];
-          stops_[i] = inside.meet(motion, particles_[i], k, until, collisions_[k]);
+          stops_[i] = motion.end(particles_[i], inside.asked[k], inside.flight(k), until, collisions_[k]);
         }
       },
       inside.motion);

@@ -1,0 +1,149 @@
+// lorentz lyapunov, diffusion: how fast neighbouring particles separate, and how far particles get.
+#include <chrono>
+
+#include "cli/app.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/output.hpp"
+#include "cli/progress.hpp"
+#include "cli/scan.hpp"
+#include "report/query_text.hpp"
+#include "runs/piece_store.hpp"
+#include "statistics/chaos/diffusion.hpp"
+#include "statistics/chaos/lyapunov.hpp"
+
+namespace lorentz::cli {
+namespace {
+
+struct ChaosOptions : ScanOptions {
+  std::uint64_t jobs = 1;
+  std::optional<std::string> store;
+};
+
+struct LyapunovOptions : ChaosOptions {
+  std::uint64_t collisions = 1'000'000;
+  bool spectrum = false;
+};
+
+struct DiffusionOptions : ChaosOptions {
+  std::uint64_t count = 100'000;
+  std::string from = "uniform";
+  std::optional<double> time;
+};
+
+// The options that both commands have, and a command's own.
+std::vector<Option> chaos_rows(ChaosOptions& options, const std::string& rows_of_csv,
+                               const std::vector<Option>& own) {
+  return joined(joined(scan_rows(options, rows_of_csv),
+                       {
+                           {"--jobs", Whole{&options.jobs, 1, 1024}, "N", "threads; the result is the same"},
+                           {"--store", &options.store, "FILE",
+                            "where parts that are done are kept, and gone on from", kOutput},
+                       }),
+                own);
+}
+
+// Calls `run(work)` with threads, progress, Ctrl-C, and the store of this kind and plan, if requested.
+// Reports how long it took.
+template <class Run>
+void with_work(const ChaosOptions& options, const std::string& kind, const runs::Plan& plan, const Run& run) {
+  const auto jobs = static_cast<unsigned>(options.jobs);
+  runs::PieceStore store(options.store, kind, plan);
+  if (store.size() > 0) say("{}: {} of {} parts are done", *options.store, store.size(), chaos::kGroups);
+  const Interrupt interrupt;
+  const auto start = std::chrono::steady_clock::now();
+  {
+    Progress progress("flying, part", chaos::kGroups, 1);
+    chaos::Work work{jobs, &Interrupt::came(), [&](std::uint64_t done) { progress.at(done); }};
+    if (store.is_file())
+      work.kept = {[&](const runs::ReadPiece& read) { store.each(read); },
+                   [&](const std::string& piece) { store.add({piece}); }};
+    run(work);
+  }
+  say("{:.2f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  if (Interrupt::came())
+    say("{}; {}", Interrupt::what(),
+        store.is_file() ? "the same command goes on" : "without --store nothing is kept to go on with");
+}
+
+std::optional<ScanFinding> found_at(const ScanPlace& place, const LyapunovOptions& options) {
+  const chaos::LyapunovPlan plan{place.scene, options.seed, options.collisions, options.spectrum};
+  const runs::Plan words{{"collisions", std::to_string(plan.collisions)},
+                         {"spectrum", plan.whole_spectrum ? "whole" : "above zero"},
+                         {"seed", std::to_string(plan.seed)},
+                         {"scene", report::scene_line(plan.scene)}};
+  chaos::Lyapunov found;
+  with_work(options, "lyapunov", words,
+            [&](const chaos::Work& work) { found = chaos::lyapunov_of(plan, work); });
+  if (found.collisions == 0) {
+    say("no part was done: there is nothing to report");
+    return std::nullopt;
+  }
+  const chaos::LyapunovReport report(place.name, plan, std::move(found));
+  return ScanFinding{options.json ? report.json() : report.table(), report.csv(), report.found.is_whole};
+}
+
+std::optional<ScanFinding> found_at(const ScanPlace& place, const DiffusionOptions& options) {
+  const chaos::DiffusionPlan plan{place.scene, starts::ensemble_named(options.from, "--from"), options.seed,
+                                  options.count, options.time.value_or(100)};
+  const runs::Plan words{{"count", std::to_string(plan.count)},
+                         {"time", fmt::format("{}", plan.time)},
+                         {"starts", options.from},
+                         {"seed", std::to_string(plan.seed)},
+                         {"scene", report::scene_line(plan.scene)}};
+  chaos::Diffusion found;
+  with_work(options, "diffusion", words,
+            [&](const chaos::Work& work) { found = chaos::diffusion_of(plan, work); });
+  const chaos::DiffusionReport report(place.name, plan, std::move(found));
+  if (!report.has_content()) {
+    say("{}: there is nothing to report",
+        report.found.is_whole ? "no particle got beyond its first obstacle" : "no part was done");
+    return std::nullopt;
+  }
+  return ScanFinding{options.json ? report.json() : report.table(), report.csv(), report.found.is_whole};
+}
+
+template <class Options>
+int act(const Options& options) {
+  if (options.store && options.is_of_several())
+    throw InputError("--store: parts are kept of one scene at one radius; run several one by one");
+  return scan(options, "means of trajectories are taken",
+              [&](const ScanPlace& place) { return found_at(place, options); });
+}
+
+}  // namespace
+
+Command lyapunov_command() {
+  auto options = std::make_shared<LyapunovOptions>();
+  return {"lyapunov", "Lyapunov exponents, with standard errors, and theory beside them.",
+          chaos_rows(*options, "the exponents, a row each",
+                     {
+                         {"--collisions", Whole{&options->collisions, 1, std::uint64_t{1} << 52}, "N",
+                          "how many are counted, about: of 4096 particles together, at least one each"},
+                         {"--spectrum", &options->spectrum, "", "the exponents below zero, too"},
+                     }),
+
+          "docs/chaos.md: what is measured, how, and what theory knows.\n"
+          "Examples:\n  lorentz lyapunov --scene square --radius 0.2 --collisions 1e7 --jobs 2\n"
+          "  lorentz lyapunov --scene square,triangular --radius 0.1,0.2,0.3 --csv exponents.csv",
+          [options] { return act(*options); }};
+}
+
+Command diffusion_command() {
+  auto options = std::make_shared<DiffusionOptions>();
+  return {"diffusion", "Mean squared displacements of many particles, and theory beside them.",
+          chaos_rows(
+              *options, "the displacements, a row each",
+              {
+                  {"--count", Whole{&options->count, 1, std::uint64_t{1} << 52}, "N", "how many particles"},
+                  {"--time,--max-time", Positive{&options->time}, "T",
+                   "until when they are followed, at speed 1 [100]"},
+                  {"--from,--start", &options->from, "uniform|surface",
+                   "uniform: anywhere outside the obstacles; surface: off an obstacle (cosine law)"},
+              }),
+
+          "docs/chaos.md: what is measured, how, and what theory knows.\n"
+          "Example:\n  lorentz diffusion --scene triangular --radius 0.45 --count 1e5 --time 50 --jobs 2",
+          [options] { return act(*options); }};
+}
+
+}  // namespace lorentz::cli

@@ -1,0 +1,73 @@
+#include "question/external_answerer.hpp"
+
+#include <fmt/format.h>
+
+#include "question/engines.hpp"
+#include "src/problem/safe_text.hpp"
+
+namespace lorentz::question {
+namespace {
+
+constexpr std::size_t kMostOfScene = 2000;  // bytes of a scene line in a message
+
+}  // namespace
+
+void ExternalAnswerer::try_again() {
+  if (!given_up_ || is_hopeless()) return;
+  given_up_ = false;
+  failures_in_row_ = 0;
+}
+
+void ExternalAnswerer::tell(const std::string& what) const {
+  if (options_.listener.message) options_.listener.message(name_ + ": " + what);
+}
+
+void ExternalAnswerer::complain(const std::string& what) {
+  failed_ = true;
+  if (++complaints_ <= kMostComplaints) tell(what);
+}
+
+void ExternalAnswerer::complain(const std::string& what, const Scene& scene, std::string line) {
+  std::string stream;
+  if (complaints_ < kMostComplaints && told_scene_ != scene) {
+    append_scene_line(stream, scene);
+    if (stream.size() > kMostOfScene) stream = shortened(stream, kMostOfScene) + '\n';
+    told_scene_ = scene;
+  }
+  line.pop_back();  // the line end
+  complain(fmt::format("{}:\n{}{}", what, stream, line));
+}
+
+void ExternalAnswerer::finish_complaints() const {
+  if (complaints_ > kMostComplaints) tell(fmt::format("{} more failures", complaints_ - kMostComplaints));
+}
+
+void ExternalAnswerer::note_answer() {
+  failures_in_row_ = 0;
+  ever_answered_ = true;
+}
+
+bool ExternalAnswerer::note_failure() {
+  if (++failures_in_row_ < kMostFailuresInRow) return false;
+  tell(fmt::format("is given up after {} failures in a row without an answer", kMostFailuresInRow));
+  return given_up_ = true;
+}
+
+void ExternalAnswerer::allow_one_more_start() {
+  if (!given_up_ || !ever_answered_) return;
+  given_up_ = false;
+  failures_in_row_ = kMostFailuresInRow - 1;
+}
+
+Reply ExternalAnswerer::not_asked() const {
+  return {error(fmt::format("was given up after {} failures in a row; this query was not asked",
+                            kMostFailuresInRow)),
+          Origin::not_asked};
+}
+
+void ExternalAnswerer::complete(Answer& answer, const Query& query, const Scene& scene) const {
+  if (options_.request.max_time) answer = limited(std::move(answer), *options_.request.max_time);
+  if (options_.request.detail) add_detail(query, scene, answer);
+}
+
+}  // namespace lorentz::question
