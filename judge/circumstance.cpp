@@ -15,10 +15,12 @@ using question::smallest_semiaxis;
 
 namespace {
 
+// kNone if no lattice repeats.
 double shortest_vector(const Scene& scene) {
-  double shortest = length(scene.lattices[0].vectors[0]);
+  double shortest = Features::kNone;
   for (const Lattice& lattice : scene.lattices)
-    for (int i = 0; i < scene.dimension; ++i) shortest = std::min(shortest, length(lattice.vectors[i]));
+    for (int i = 0; i < lattice.rank(scene.dimension); ++i)
+      shortest = std::fmin(shortest, length(lattice.vectors[i]));
   return shortest;
 }
 

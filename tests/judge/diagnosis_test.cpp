@@ -230,6 +230,12 @@ TEST_CASE("Features are those of the whole scene, in lengths of its shortest vec
   const Features plain = of(unit_scene(3, 0.25), {{0.5, 0, 0}, {1, 0, 0.5}, ObstacleId{}}).first;
   CHECK((plain.in_space && plain.zero_component && plain.leaving));
   CHECK_FALSE((plain.several_lattices || plain.several_atoms || plain.other_cell));
+  // A row has one vector, and a single disc has none.
+  const Query downwards{{0, 3, 0}, {0, -1, 0}, {}};
+  const Features row = of({2, {Lattice{{{{2, 0, 0}}}, {Atom{{0, 0, 0}, 0.5, {}}}, 1}}}, downwards).first;
+  CHECK((row.radius == 0.25 && row.start == 1.5 && row.flight == 1.25));
+  const Features disc_alone = of({2, {Lattice{{}, {Atom{{0, 0, 0}, 0.5, {}}}, 2}}}, downwards).first;
+  CHECK((std::isnan(disc_alone.radius) && std::isnan(disc_alone.start) && std::isnan(disc_alone.flight)));
 }
 
 TEST_CASE("False hits from afar are told by the distance in radii", "[judge][circumstance]") {
