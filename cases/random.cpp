@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include <lorentz/geometry.hpp>
+
 namespace lorentz::cases {
 namespace {
 
@@ -33,6 +35,10 @@ Vec Random::direction(int dimension) {
     for (double& component : v) component /= length;
     return v;
   }
+}
+
+Vec Random::vector(int dimension, double length) {
+  return scaled(direction(dimension), length);
 }
 
 std::int64_t Random::integer(std::int64_t low, std::int64_t high) {

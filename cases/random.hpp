@@ -39,7 +39,8 @@ class Random {
     return block_[taken_++];
   }
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }  ///< [0, 1), a multiple of 2^-53
-  Vec direction(int dimension);  ///< isotropic, of unit length up to rounding
+  Vec direction(int dimension);              ///< isotropic, of unit length up to rounding
+  Vec vector(int dimension, double length);  ///< isotropic
 
   std::uint64_t below(std::uint64_t n) { return bits() % n; }
   bool one_in(std::uint64_t n) { return below(n) == 0; }

@@ -93,8 +93,9 @@ void make_lattice(Source& source, Case& made) {
   set_radius(made.scene, drawn_radius(source.scene, source.precision, half, false, made.tags));
   Random& random = source.random;
   const double height = lattice.atoms[0].radius / (2 * half);  // the edge, in distances of rows
-  made.query.x = sum(scaled(cartesian(lattice, g), random.between(-2, 2)),
-                     scaled(cartesian(lattice, {-u[1], u[0], 0}), height * random.sign()));
+  const double across = height * random.sign(), along = random.between(-2, 2);
+  made.query.x =
+      sum(scaled(cartesian(lattice, g), along), scaled(cartesian(lattice, {-u[1], u[0], 0}), across));
   set_corridor_direction(source, cartesian(lattice, g), 2, made);
   move_off_edge(source, false, 2, made);
 }

@@ -66,7 +66,8 @@ void make_drift(Source& source, Case& made) {
   const Vec a = cartesian(lattice, g1), b = cartesian(lattice, g2), across = cross(a, b);
   const Vec normal = scaled(across, (across[2] < 0 ? -1 : 1) / length(across));
   const double side = random.sign();
-  made.query.v = sum(scaled(a, random.between(-1, 1)), scaled(b, random.between(0.1, 1)));
+  const double v_b = random.between(0.1, 1), v_a = random.between(-1, 1);
+  made.query.v = sum(scaled(a, v_a), scaled(b, v_b));
   if (layers && !random.one_in(3)) {
     made.tags.push_back("by-bits");
     made.query.v = drawn_layers.velocity(random, source.precision,
@@ -79,7 +80,8 @@ void make_drift(Source& source, Case& made) {
     made.tags.push_back("by-rounding");
   }
   const double out = r + (half - r) * random.octave(source.is_wide() ? -20 : -16, random.one_in(2) ? 0 : -8);
-  made.query.x = plus(sum(scaled(a, random.uniform()), scaled(b, random.uniform())), side * out, normal);
+  const double x_b = random.uniform(), x_a = random.uniform();
+  made.query.x = plus(sum(scaled(a, x_a), scaled(b, x_b)), side * out, normal);
 }
 
 }  // namespace

@@ -85,8 +85,8 @@ Vec solid_direction(Random& random, NumberFormat precision, const Lattice& latti
     jitter(random, v, 3, 3, precision);
     return v;
   }
-  const Vec in_plane = sum(scaled(cartesian(lattice, g1), random.between(-1, 1)),
-                           scaled(cartesian(lattice, g2), random.between(0.1, 1)));
+  const double along_2 = random.between(0.1, 1), along_1 = random.between(-1, 1);
+  const Vec in_plane = sum(scaled(cartesian(lattice, g1), along_1), scaled(cartesian(lattice, g2), along_2));
   const double slope = random.octave(-52 + missing_bits(precision), -8) * random.sign();
   return sum(in_plane, scaled(cartesian(lattice, next), slope));
 }
@@ -103,8 +103,8 @@ void make_solid(Source& source, Case& made) {
   if (random.one_in(2)) {  // in the middle of a channel
     const double off =
         random.one_in(2) ? 0 : random.octave(-50 + missing_bits(source.precision), -10) * random.sign();
-    made.query.x = sum(sum(scaled(cartesian(lattice, g1), random.uniform()),
-                           scaled(cartesian(lattice, g2), random.uniform())),
+    const double along_2 = random.uniform(), along_1 = random.uniform();
+    made.query.x = sum(sum(scaled(cartesian(lattice, g1), along_1), scaled(cartesian(lattice, g2), along_2)),
                        scaled(cartesian(lattice, next), 0.5 + off));
   } else {
     made.query.x = free_point(random, made.scene);

@@ -50,7 +50,8 @@ void make_nearly_parallel(Source& source, Case& made) {
   const std::int64_t j = random.integer(1, std::int64_t{1} << random.integer(0, is_wide ? 21 : 9));
   const Vec w = sum(b0, b1), v = exactly ? w : nearly_parallel_to(W0, W1, j, source.precision);
   // The start is in the middle between two rows along w; in space it is near their plane, or no plane is met.
-  const Vec x = sum(scaled(b0, 0.5 + random.between(-0.05, 0.05)), scaled(w, random.between(-1, 1)));
+  const double along = random.between(-1, 1), middle = 0.5 + random.between(-0.05, 0.05);
+  const Vec x = sum(scaled(b0, middle), scaled(w, along));
   made.query = symmetry(Query{sum(x, Vec{0, 0, dimension == 3 ? r * random.between(-0.9, 0.9) : 0}), v, {}});
 }
 

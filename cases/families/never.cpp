@@ -54,9 +54,9 @@ void plane(Source& source, Case& made) {
   made.scene = unit_scene(3, r);
   const auto [g1, g2] = across_of(n);
   const Vec u = to_vec(bezout(n));
-  made.query.x =
-      sum(sum(scaled(to_vec(g1), random.between(-2, 2)), scaled(to_vec(g2), random.between(-2, 2))),
-          scaled(u, within(random, source.precision, r * size, 1 - r * size)));
+  const double upwards = within(random, source.precision, r * size, 1 - r * size);
+  const double along_2 = random.between(-2, 2), along_1 = random.between(-2, 2);
+  made.query.x = sum(sum(scaled(to_vec(g1), along_1), scaled(to_vec(g2), along_2)), scaled(u, upwards));
   const std::int64_t most = random.one_in(2) ? 5 : std::int64_t{1} << (source.is_wide() ? 30 : 12);
   const double a = random.whole(-most, most), b = random.whole(1, most);
   made.query.v = sum(scaled(to_vec(g1), a), scaled(to_vec(g2), b));
@@ -66,7 +66,7 @@ void cylinder(Source& source, Case& made) {
   Random &drawn = source.scene, &random = source.random;
   const double r = drawn.between(0.5, 0.7), room = std::sqrt(0.5) - r;
   made.scene = unit_scene(3, r);
-  const Vec off = scaled(random.direction(2), room * (random.one_in(4) ? 0.999 : random.uniform()));
+  const Vec off = random.vector(2, room * (random.one_in(4) ? 0.999 : random.uniform()));
   made.query = {{random.between(-2, 2), 0.5 + off[0], 0.5 + off[1]}, {1, 0, 0}, {}};
 }
 
@@ -117,7 +117,8 @@ void make_never(Source& source, Case& made) {
   make(source, made);
   Random& random = source.random;
   Vec& v = made.query.v;
-  v = scaled(v, std::ldexp(random.sign(), random.exponent(-6, 6)));
+  const int exponent = random.exponent(-6, 6);
+  v = scaled(v, std::ldexp(random.sign(), exponent));
   if (tagged(made.tags, random.one_in(4), "neighbour")) {
     const int i = random.axis(made.scene.dimension);
     const std::int64_t ulps = random.integer(1, 3);

@@ -25,7 +25,7 @@ namespace {
 // A start near the hole between obstacles, at most `room` away from it, or anywhere in the cell.
 Vec drawn_start(Random& random, const Scene& scene, const Vec& hole, double room) {
   if (random.one_in(8)) return point_in_cell(random, scene);
-  Vec x = sum(hole, scaled(random.direction(scene.dimension), room * random.uniform()));
+  Vec x = sum(hole, random.vector(scene.dimension, room * random.uniform()));
   for (int i = 0; i < scene.dimension; ++i) x = plus(x, random.whole(-2, 2), scene.lattices[0].vectors[i]);
   return x;
 }

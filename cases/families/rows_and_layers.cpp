@@ -46,8 +46,7 @@ Vec along(Random& random, NumberFormat precision, const Lattice& lattice, int di
   for (int i = 0; i < lattice.rank(dimension); ++i) v = plus(v, random.whole(-5, 5), lattice.vectors[i]);
   if (v == Vec{}) v = lattice.vectors[0];
   if (random.one_in(2)) return v;
-  return sum(
-      v, scaled(random.direction(dimension), length(v) * random.octave(-50 + missing_bits(precision), -4)));
+  return sum(v, random.vector(dimension, length(v) * random.octave(-50 + missing_bits(precision), -4)));
 }
 
 void make_case(Source& source, Case& made) {
@@ -68,7 +67,7 @@ void make_case(Source& source, Case& made) {
   if (way == "away") v = random.direction(dimension);
   if (way == "along") {
     v = along(random, source.precision, lattice, dimension);
-    x = sum(target, scaled(random.direction(dimension), reach * random.between(1, 3)));
+    x = sum(target, random.vector(dimension, reach * random.between(1, 3)));
   }
   if (way == "leaving") {
     made.query.from = obstacle(cell, static_cast<int>(&atom - lattice.atoms.data()));
@@ -76,7 +75,7 @@ void make_case(Source& source, Case& made) {
     v = random.one_in(2) ? along(random, source.precision, lattice, dimension) : random.direction(dimension);
   }
   if (way == "edge") {
-    x = sum(x, scaled(random.direction(dimension), reach * random.between(0.1, 0.9)));
+    x = sum(x, random.vector(dimension, reach * random.between(0.1, 0.9)));
     move_to_edge([&] { return drawn_off_edge(random, source.precision); }, made.scene, oracle_of(made.scene),
                  made.query, source.precision);
   }

@@ -28,8 +28,8 @@ void set_query(Source& source, Case& made) {
   const std::uint64_t kind = random.below(3);
   if (kind == 1) {
     made.tags.push_back("near-rational");
-    query.v = cartesian(made.scene.lattices[random.below(made.scene.lattices.size())],
-                        drawn_primitive(random, dimension, 4));
+    const IntVec along = drawn_primitive(random, dimension, 4);
+    query.v = cartesian(made.scene.lattices[random.below(made.scene.lattices.size())], along);
     query.v = scaled(query.v, random.octave(-1, 1));
     return jitter(random, query.v, dimension, 3, source.precision);
   }
@@ -86,7 +86,10 @@ void make_superposition(Source& source, Case& made) {
   Lattice other = lattices[0];
   const std::string_view kind =
       drawn_tag(drawn, made.tags, {"turned", "three-lattices", "incommensurate", "shifted"});
-  if (kind == "turned") other = turned(dimension, drawn.one_in(2), drawn.axis(3), r);
+  if (kind == "turned") {
+    const int axis = drawn.axis(3);
+    other = turned(dimension, drawn.one_in(2), axis, r);
+  }
   if (kind == "three-lattices") {
     other = turned(dimension, false, 1, r);
     lattices.push_back(turned(dimension, true, 0, r));

@@ -51,7 +51,8 @@ Ray aimed(Random& random, int dimension, double far, double beside) {
 }
 
 Ray plain(Random& random, int dimension, double w) {
-  Ray ray = aimed(random, dimension, w * random.between(1.5, 10), w * random.between(0, 2));
+  const double beside = w * random.between(0, 2);
+  Ray ray = aimed(random, dimension, w * random.between(1.5, 10), beside);
   ray.tags = {"plain"};
   return ray;
 }
@@ -113,15 +114,16 @@ Ray at_surface(Random& random, const RayRange& range, int dimension, const Touch
 }
 
 Ray from_inside(Random& random, const RayRange& range, int dimension, double w) {
-  return {scaled(random.direction(dimension),
-                 w * (random.one_in(2) ? random.uniform() : 1 - random.octave(1 - range.bits, -2))),
+  return {random.vector(dimension,
+                        w * (random.one_in(2) ? random.uniform() : 1 - random.octave(1 - range.bits, -2))),
           random.direction(dimension),
           true,
           {"inside"}};
 }
 
 Ray far_origin(Random& random, const RayRange& range, int dimension, double w) {
-  Ray ray = aimed(random, dimension, w * random.octave(10, range.farthest), w * random.between(0, 1.5));
+  const double beside = w * random.between(0, 1.5);
+  Ray ray = aimed(random, dimension, w * random.octave(10, range.farthest), beside);
   ray.tags = {"far-origin"};
   return ray;
 }

@@ -58,7 +58,7 @@ void leave_obstacle(Random& random, Case& made) {
   const Vec n = random.direction(dimension);
   const Vec arm = atom.is_ball() ? scaled(n, atom.radius) : image(atom.semiaxes, n);
   made.query.x = sum(atom.position, arm);
-  made.query.v = sum(scaled(arm, 1 / length(arm)), scaled(random.direction(dimension), random.uniform()));
+  made.query.v = sum(scaled(arm, 1 / length(arm)), random.vector(dimension, random.uniform()));
   made.query.from = ObstacleId{lattice, which, {}};
 }
 

@@ -58,9 +58,10 @@ void make_slender(Source& source, Case& made) {
   const Vec& along = atom.semiaxes[0];
   made.query.v = random.one_in(2) ? along : scaled(along, random.between(0.5, 2) / length(along));
   if (tagged(made.tags, random.one_in(2), "leaning", "lengthwise"))
-    made.query.v = sum(made.query.v, scaled(random.direction(dimension),
-                                            length(made.query.v) *
-                                                random.octave(-40 + missing_bits(source.precision) / 2, -4)));
+    made.query.v =
+        sum(made.query.v,
+            random.vector(dimension, length(made.query.v) *
+                                         random.octave(-40 + missing_bits(source.precision) / 2, -4)));
   made.query.x = tagged(made.tags, random.one_in(3), "anywhere", "at-its-edge")
                      ? free_point(random, made.scene)
                      : beside(random, source.precision, atom);

@@ -19,7 +19,8 @@ namespace lorentz::cases {
 namespace {
 
 double dyadic(Random& random, int low, int high) {  // eighths of a power of two: few bits
-  return std::ldexp(random.whole(8, 15), random.exponent(low, high) - 3);
+  const int exponent = random.exponent(low, high) - 3;
+  return std::ldexp(random.whole(8, 15), exponent);
 }
 
 // A start at a multiple of 2^-40 (in binary32 2^-20) along the line behind the origin, so that it is exact.
