@@ -1,7 +1,7 @@
 // Flights drawn in a scene: starts that lie in no obstacle, hard directions, lines past an obstacle's edge.
 //
-// drawn_off_edge uses std::exp2, which libraries round differently. Its bits, and those of the families' grazing
-// flights in crystals, superpositions and ellipsoids, are the same only where std::exp2 is the same.
+// drawn_off_edge uses std::exp2, which libraries round differently. Its bits, and those of the families'
+// grazing flights in crystals, superpositions and ellipsoids, are the same only where std::exp2 is the same.
 #pragma once
 
 #include <functional>
@@ -31,9 +31,9 @@ Query free_flight(Random& random, const Scene& scene);
 /// A direction of integers from -4 to 4, each nonzero component moved by up to 3 ulps.
 Vec near_integer_direction(Random& random, int dimension, NumberFormat precision);
 
-/// Moves the start across the line, so that the line passes the obstacle that is hit first at `off_edge` of the
-/// obstacle's size beyond its edge; if that is below 0, it meets the obstacle. Asks for `off_edge` only if
-/// something was hit. False if nothing was, or if the start is then in an obstacle.
+/// Moves the start across the line, so that the line passes the obstacle that is hit first at `off_edge` of
+/// the obstacle's size beyond its edge; if that is below 0, it meets the obstacle. Asks for `off_edge` only
+/// if something was hit. False if nothing was, or if the start is then in an obstacle.
 bool move_to_edge(const std::function<double()>& off_edge, const Scene& scene, const oracle::Oracle& oracle,
                   Query& query, NumberFormat precision = NumberFormat::binary64);
 

@@ -40,11 +40,12 @@ class Random {
   }
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }  ///< [0, 1), a multiple of 2^-53
   Vec direction(int dimension);              ///< isotropic, of unit length up to rounding
-  Vec vector(int dimension, double length);  ///< isotropic
+  Vec vector(int dimension, double length);  ///< isotropic, of this length
 
   std::uint64_t below(std::uint64_t n) { return bits() % n; }
   bool one_in(std::uint64_t n) { return below(n) == 0; }
   std::int64_t integer(std::int64_t low, std::int64_t high);  ///< low to high, both included
+  // The same as an int and as a binary64; and one of the axes.
   int exponent(std::int64_t low, std::int64_t high) { return static_cast<int>(integer(low, high)); }
   double whole(std::int64_t low, std::int64_t high) { return static_cast<double>(integer(low, high)); }
   int axis(int dimension) { return static_cast<int>(below(static_cast<std::uint64_t>(dimension))); }

@@ -117,8 +117,8 @@ Vec Symmetry::operator()(const Vec& a) const {
 
 Query Symmetry::operator()(const Query& query) const {
   Query image{(*this)(query.x), (*this)(query.v), query.from};
-  for (int i = 0; image.from && i < 3; ++i)
-    image.from->cell[i] = Integer(sign_[i] * query.from->cell[from_[i]].int64());
+  if (!query.from) return image;
+  for (int i = 0; i < 3; ++i) image.from->cell[i] = Integer(sign_[i] * query.from->cell[from_[i]].int64());
   return image;
 }
 

@@ -1,4 +1,4 @@
-// The scenes that cases begin with, and changes of them.
+// The scenes that cases begin with, and changes of them; frames and symmetries.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace lorentz::cases {
 
-/// The lattices that families draw on: those of the catalogue (data/scenes/), repeated here so that a case needs
-/// no file.
+/// The lattices that families draw on: those of the catalogue (data/scenes/), repeated here so that a case
+/// needs no file.
 struct Crystal {
   std::string_view name;
   Scene scene;  ///< obstacles as in the catalogue: in most lattices about 4/5 of touching size

@@ -6,10 +6,11 @@
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
+#include "cli/completion.hpp"
 #include "cli/file_options.hpp"
+#include "cli/manual.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
-#include "cli/services.hpp"
 #include "files/signals.hpp"
 #include "src/exchange/nearest_name.hpp"
 

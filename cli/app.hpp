@@ -1,4 +1,5 @@
-// The program `lorentz`: one file per subcommand. Each declares its command here.
+// The program `lorentz`: a file for each subcommand, or for a few that belong together. Each declares its
+// command here.
 #pragma once
 
 #include <string>

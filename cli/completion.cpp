@@ -1,4 +1,4 @@
-#include "cli/services.hpp"
+#include "cli/completion.hpp"
 
 #include <fmt/format.h>
 

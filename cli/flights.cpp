@@ -141,7 +141,7 @@ void fly(FlightsReport& task, const flights::FlightBounds& bounds, const Flights
 
 // Flies and reports each task in turn, and writes the files with the results of all. After an interrupt,
 // tasks without results are left out.
-int fly_all(std::vector<FlightsReport> tasks, const flights::FlightBounds& bounds,
+int fly_all(std::vector<FlightsReport>&& tasks, const flights::FlightBounds& bounds,
             const FlightsOptions& options, flights::Ranks* ranks) {
   const PictureSize size = picture_size(options.size);
   const flights::PictureStyle style{options.title, size.width, size.height.value_or(size.width * 3 / 4)};
@@ -170,16 +170,16 @@ int fly_all(std::vector<FlightsReport> tasks, const flights::FlightBounds& bound
 
 int act(const FlightsOptions& options) {
   if (options.html && !report::has_page()) report::page("");  // throws with the reason
-  const std::vector<FlightsReport> tasks = tasks_of(options);
+  std::vector<FlightsReport> tasks = tasks_of(options);
   flights::FlightBounds bounds = bounds_of(options);
   const Interrupt interrupt;
   bounds.stop = &Interrupt::came();
   const std::unique_ptr<flights::Ranks> ranks = runs::join<flights::Ranks>("--jobs, or --shard and --add");
-  if (!ranks) return fly_all(tasks, bounds, options, nullptr);
+  if (!ranks) return fly_all(std::move(tasks), bounds, options, nullptr);
   try {
     bounds.shard += bounds.shards * static_cast<std::uint64_t>(ranks->rank());
     bounds.shards *= static_cast<std::uint64_t>(ranks->size());
-    if (ranks->rank() == 0) return fly_all(tasks, bounds, options, ranks.get());
+    if (ranks->rank() == 0) return fly_all(std::move(tasks), bounds, options, ranks.get());
     for (const FlightsReport& task : tasks) fly_share(task.plan, bounds, *ranks);
     return kDone;
   } catch (const std::exception& error) {  // so that no rank waits for one that has ended

@@ -174,7 +174,7 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan,
   const Interrupt interrupt;
   fuzz::Bounds bounds = bounds_of(options);
   bounds.stop = &Interrupt::came();
-  FailureLedger ledger(options.files, options.files.known());
+  FailureLedger ledger(options.files, options.files.baseline_text());
   Store store(options.store.value_or(":memory:"), Store::Access::write, say_left_out);
   auto [report, campaign, unshrunk] = opened(store, plan, options);
   bool failed = false;

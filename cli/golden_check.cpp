@@ -122,7 +122,7 @@ std::string describe(const Judged& judged, const std::string& engine, const std:
 class EngineCheck {
  public:
   EngineCheck(const EngineInfo& engine, const CheckOptions& options, const AnswererOptions& asking)
-      : engine_(engine.name), options_(options), ledger_(options.files, options.files.known()) {
+      : engine_(engine.name), options_(options), ledger_(options.files, options.files.baseline_text()) {
     for (std::uint64_t job = 0; job < (engine.is_own() ? options.jobs : 1); ++job)
       answerers_.push_back(engine.answerer(asking));
   }

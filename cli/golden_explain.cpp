@@ -109,7 +109,9 @@ int act(const ExplainOptions& options) {
                                  json_quoted(options.id), *ids.begin()));
   golden::Reader reader(place);
   golden::ReadRecord read;
-  while (reader.next(read) && !read.record.id.starts_with(options.id)) continue;
+  do
+    if (!reader.next(read)) throw FileError(place + ": the record is gone; the set was changed meanwhile");
+  while (!read.record.id.starts_with(options.id));
   if (options.files.any() && !read.query)
     throw InputError(
         fmt::format("{}: the record is not a valid query, so there is nothing to draw", read.record.id));

@@ -73,8 +73,7 @@ std::vector<std::string> tags_in_line(const GivenQuery& given, const std::string
 
 void add_tag(const std::string& tag, golden::SetQuestion& question, golden::Header& header) {
   if (std::ranges::find(question.tags, tag) == question.tags.end()) question.tags.push_back(tag);
-  if (std::ranges::none_of(header.tags, [&](const auto& known) { return known.first == tag; }))
-    header.tags.emplace_back(tag, "given by the key tags of a query");
+  if (!header.explains(tag)) header.tags.emplace_back(tag, "given by the key tags of a query");
 }
 
 }  // namespace

@@ -167,8 +167,7 @@ std::string golden_set_of(const JudgeReport& report) {
     if (!question.is_query()) continue;
     const std::string tag(judge::name_of(finding.cause()));
     const Scene& scene = question.place->scene();
-    if (std::ranges::none_of(given.header.tags, [&](const auto& known) { return known.first == tag; }))
-      given.header.tags.emplace_back(tag, finding.summary());
+    if (!given.header.explains(tag)) given.header.tags.emplace_back(tag, finding.summary());
     given.add({scene, golden::question_of(question.query, scene), question.query, {tag}});
   }
   return made_set(given).text;

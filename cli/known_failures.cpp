@@ -65,7 +65,7 @@ std::set<RecordKey> records_in(const std::string& text, const std::string& name)
 
 }  // namespace
 
-std::optional<std::string> FailureFiles::known() const {
+std::optional<std::string> FailureFiles::baseline_text() const {
   return baseline ? std::optional(text_of_file(*baseline)) : std::nullopt;
 }
 
@@ -108,9 +108,9 @@ std::optional<std::string> failure_of(const oracle::Judgement& judgement, bool t
   }
 }
 
-FailureLedger::FailureLedger(const FailureFiles& files, const std::optional<std::string>& known)
+FailureLedger::FailureLedger(const FailureFiles& files, const std::optional<std::string>& baseline)
     : makes_junit_(files.junit.has_value()),
-      known_(known ? std::optional(records_in(*known, *files.baseline)) : std::nullopt),
+      known_(baseline ? std::optional(records_in(*baseline, *files.baseline)) : std::nullopt),
       baseline_file_(files.write_baseline),
       junit_file_(files.junit) {}
 

@@ -21,9 +21,9 @@ using RecordKey = std::pair<std::string, std::string>;
 struct FailureFiles {
   std::optional<std::string> baseline, write_baseline, junit;
 
-  /// The text of the baseline: lines "SET ID", optionally followed by further text. # begins a comment. Throws
-  /// FileError.
-  std::optional<std::string> known() const;
+  /// The text of the baseline, if one is given: lines "SET ID", optionally followed by further text. # begins
+  /// a comment. Throws FileError.
+  std::optional<std::string> baseline_text() const;
 
   /// The rows of help. `baseline_help` replaces the usual text for --baseline.
   Option baseline_row(const std::string& baseline_help = "");
@@ -42,9 +42,9 @@ std::optional<std::string> failure_of(const oracle::Judgement& judgement, bool t
 /// JUnit with a suite for each set and a case for each question.
 class FailureLedger {
  public:
-  /// `known`: the text of the baseline, if there is one. Opens the requested files. Throws FileError, and
-  /// InputError with the number of a bad line.
-  FailureLedger(const FailureFiles& files, const std::optional<std::string>& known);
+  /// `baseline`: what files.baseline names, as files.baseline_text() has it, or nothing. Opens the requested
+  /// files. Throws FileError, and InputError with the number of a bad line.
+  FailureLedger(const FailureFiles& files, const std::optional<std::string>& baseline);
 
   /// Records a question that was asked, and returns whether its failure is new. A known failure that did not
   /// happen is stale. Blanks in the set's name become hyphens.

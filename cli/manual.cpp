@@ -1,4 +1,4 @@
-#include "cli/services.hpp"
+#include "cli/manual.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -37,10 +37,14 @@ class Progress {
   std::size_t total() const { return total_; }
 
   /// Reports that `done` of the total are done. Draws several times a second once the work has taken long
-  /// enough, with a note beside the bar; `note` is called when the bar is drawn.
-  template <class Note = std::string (*)()>
-  void at(
-      std::size_t done, const Note& note = [] { return std::string(); }) {
+  /// enough.
+  void at(std::size_t done) {
+    at(done, [] { return std::string(); });
+  }
+
+  /// The same with a note beside the bar; `note` is called when the bar is drawn.
+  template <class Note>
+  void at(std::size_t done, const Note& note) {
     if (!shown_ || done % stride_ != 0) return;
     const auto now = Clock::now();
     if (now < next_) return;

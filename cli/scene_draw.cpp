@@ -1,7 +1,10 @@
 // lorentz scene draw: the picture of a scene, with flights and open channels.
 #include "cli/app.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include <lorentz/exchange.hpp>
@@ -32,15 +35,24 @@ struct SceneDrawOptions {
   bool no_legend = false;
 };
 
-// No program opens a file x.png that contains an SVG. Overwriting a file that is not an SVG would lose other
-// data; an empty file does not count.
+// Whether the file exists and is not an SVG, so that overwriting it would lose other data. An empty file does
+// not count.
+bool is_other_than_svg(const std::string& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return false;
+  if (!std::ifstream(file)) throw FileError(file + ": " + std::strerror(errno));
+  const std::string start = beginning_of(file);
+  return start.empty() ? std::filesystem::file_size(file) > 0
+                       : start[0] != '<' || start.find("<svg") == std::string::npos;
+}
+
+// No program opens a file x.png that contains an SVG.
 void refuse_other_formats(const std::string& file) {
   const std::string extension = std::filesystem::path(file).extension();
   for (const char* other : {".png", ".jpg", ".jpeg", ".gif", ".pdf", ".eps", ".ps"})
     if (extension == other)
       throw InputError(file + ": pictures are drawn as SVG; name the file so, and convert it (rsvg-convert)");
-  const std::string start = file == "-" ? "" : beginning_of(file);
-  if (!start.empty() && (start[0] != '<' || start.find("<svg") == std::string::npos))
+  if (file != "-" && is_other_than_svg(file))
     throw InputError(file + ": is not an SVG, and is left as it is; remove it, or name another file");
 }
 

@@ -1,5 +1,5 @@
 // A file that is written beside its place and moved there when it is whole. If the program is killed, the old
-// file stays, and any signal that can be caught leaves nothing beside it.
+// file stays, and any signal that can be caught leaves nothing beside it. And the text of a whole file.
 #pragma once
 
 #include <cstdio>

@@ -23,6 +23,7 @@ Symptom examine_digests(const std::vector<Digest>& found, const std::vector<Dige
 const char* name_of(Use use) {
   constexpr const char* kNames[] = {"the binary64 engines, paths and starts", "exact answers", "certificates",
                                     "certified trajectories"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(Use::itineraries) + 1);
   return kNames[static_cast<int>(use)];
 }
 

@@ -79,9 +79,12 @@ Batch make_batch(const Order& order, std::uint64_t number) {
 class BatchQueue {
  public:
   BatchQueue(const Order& order, std::uint64_t first) : order_(order), next_(first), wanted_(first) {
-    for (std::uint64_t i = 0; i < order.jobs; ++i) threads_.emplace_back([this] { work(); });
+    for (std::uint64_t i = 0; i < order.jobs; ++i)
+      threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
   }
-  ~BatchQueue() { stop_.request_stop(); }
+  ~BatchQueue() {
+    for (std::jthread& thread : threads_) thread.request_stop();
+  }
   BatchQueue(const BatchQueue&) = delete;
   BatchQueue& operator=(const BatchQueue&) = delete;
 
@@ -97,10 +100,10 @@ class BatchQueue {
   }
 
  private:
-  void work() {
+  void work(const std::stop_token& stop) {
     for (std::unique_lock lock(mutex_);;) {
-      changed_.wait(lock, stop_.get_token(), [&] { return failure_ || next_ < wanted_ + 4 * order_.jobs; });
-      if (stop_.stop_requested() || failure_) return;
+      changed_.wait(lock, stop, [&] { return failure_ || next_ < wanted_ + 4 * order_.jobs; });
+      if (stop.stop_requested() || failure_) return;
       const std::uint64_t number = next_++;
       lock.unlock();
       try {
@@ -121,7 +124,6 @@ class BatchQueue {
   std::exception_ptr failure_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::stop_source stop_;
   std::vector<std::jthread> threads_;
 };
 
@@ -144,11 +146,19 @@ void count(RecordCounts& counts, const MadeRecord& made) {
   ++counts.records;
   counts.needing_judge += needs_judge(made.record);
   counts.walked += made.walked;
-  const Outcome outcome = made.record.expect.outcome;
-  ++(outcome == Outcome::hit      ? counts.hits
-     : outcome == Outcome::inside ? counts.insides
-     : outcome == Outcome::never  ? counts.nevers
-                                  : counts.errors);
+  switch (made.record.expect.outcome) {
+    case Outcome::hit:
+      ++counts.hits;
+      break;
+    case Outcome::inside:
+      ++counts.insides;
+      break;
+    case Outcome::never:
+      ++counts.nevers;
+      break;
+    default:
+      ++counts.errors;
+  }
 }
 
 // Makes the missing batches. `write` gets the text of one batch at a time; `state` then includes that batch.

@@ -45,6 +45,10 @@ void add_certificate(json::Members& object, const oracle::Certificate& certifica
                }));
 }
 
+bool Header::explains(const std::string& tag) const {
+  return std::ranges::any_of(tags, [&](const auto& known) { return known.first == tag; });
+}
+
 bool needs_judge(const Record& record) {
   return std::ranges::find(record.tags, kNeedsJudge) != record.tags.end();
 }

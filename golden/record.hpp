@@ -35,6 +35,8 @@ struct Header {
   std::vector<std::pair<std::string, std::string>> tags = {};  ///< each with the weakness that it targets
   /// The format of all numbers of its scenes and queries, and of the ulps of margins and conditions.
   NumberFormat precision = NumberFormat::binary64;
+
+  bool explains(const std::string& tag) const;
 };
 
 struct Record {

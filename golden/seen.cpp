@@ -9,6 +9,7 @@
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/geometry.hpp>
+#include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::golden {
 namespace {
@@ -18,15 +19,6 @@ constexpr int kSmall = 8;
 
 bool is_hard(const std::optional<oracle::HardestDecision>& decision) {
   return decision && decision->margin < oracle::kLargestMargin;
-}
-
-// Infinite if no lattice repeats.
-double shortest_vector(const Scene& scene) {
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const Lattice& lattice : scene.lattices)
-    for (int i = 0; i < lattice.rank(scene.dimension); ++i)
-      shortest = std::min(shortest, length(lattice.vectors[i]));
-  return shortest;
 }
 
 double smallest_radius(const Scene& scene) {

@@ -1,28 +1,20 @@
-// Features of questions, and what distinguishes the questions on which an engine fails.
+#include "judge/circumstance.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "judge/findings.hpp"
 #include "question/radii.hpp"
 #include "src/exchange/exchange_number.hpp"
+#include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::judge {
 
 using question::smallest_semiaxis;
 
 namespace {
-
-// kNone if no lattice repeats.
-double shortest_vector(const Scene& scene) {
-  double shortest = Features::kNone;
-  for (const Lattice& lattice : scene.lattices)
-    for (int i = 0; i < lattice.rank(scene.dimension); ++i)
-      shortest = std::fmin(shortest, length(lattice.vectors[i]));
-  return shortest;
-}
 
 double smallest_radius(const Scene& scene) {
   double smallest = std::numeric_limits<double>::infinity();
@@ -37,7 +29,7 @@ double as_double(const Integer& number) {
   return *nearest_decimal(number.decimal());
 }
 
-// The largest number in the cells that a question is about; kNone if there are none, as for `never`.
+// The largest number in the cells that a question is about; kNone if it is about no cell, as for `never`.
 double largest_number(const Question& question) {
   double largest = Features::kNone;
   const auto see = [&](const ObstacleId& obstacle) {
@@ -73,7 +65,9 @@ void measure_from(const Question& question, const ObstacleId& obstacle, Features
 Features features_of(const Question& question, const std::optional<ObstacleId>& in_question) {
   const Scene& scene = question.place->scene();
   const Query& query = question.query;
-  const double unit = shortest_vector(scene);
+  const bool repeats = std::ranges::any_of(
+      scene.lattices, [&](const Lattice& lattice) { return lattice.rank(scene.dimension) > 0; });
+  const double unit = repeats ? shortest_vector(scene) : Features::kNone;
   Features its;
   its.in_space = scene.dimension == 3;
   for (int i = 0; i < scene.dimension; ++i) its.zero_component |= query.v[i] == 0;
@@ -123,7 +117,8 @@ std::vector<Predicate> plain_predicates() {
 }
 
 // A limit on a quantity: the least power of ten above all failing questions, the greatest power of ten that
-// they reach, or the greatest power of two, for lengths in radii, if it is far, because nothing cancels nearby.
+// they reach, or the greatest power of two, for lengths in radii, if it is far, because nothing cancels
+// nearby.
 enum class LimitSide { below, from, from_afar };
 struct Limit {
   double Features::*quantity;

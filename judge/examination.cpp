@@ -147,11 +147,14 @@ Judgement Examination::judgement_of(const Question& question, const Reply& reply
 
 std::optional<Example> Examination::departing(const Question& question, const Reply& reply,
                                               const Judgement& judgement) const {
-  if (!reply.was_asked()) return std::nullopt;
   auto diagnosis = diagnosis_of(question, reply.answer, judgement);
   if (!diagnosis) return std::nullopt;
   if (reply.origin == Origin::bad_line) diagnosis->cause = Cause::bad_line;
   return Example{question, reply.answer, judgement, *diagnosis, last_words_};
+}
+
+std::optional<Example> Examination::departing(const Question& question, const Reply& reply) const {
+  return reply.was_asked() ? departing(question, reply, judgement_of(question, reply)) : std::nullopt;
 }
 
 void Examination::take(const Question& question, const Reply& reply, ExaminedRow& row) {
@@ -191,14 +194,14 @@ std::optional<Example> Examination::example_of(const Question& question) {
   answerer_->try_again();
   ask({question});
   if (replies_.empty()) return std::nullopt;
-  return departing(question, replies_[0], judgement_of(question, replies_[0]));
+  return departing(question, replies_[0]);
 }
 
 Examination::Repeated Examination::repeat(const Question& question, std::size_t copies, Diagnosis like) {
   ask(std::vector<Question>(copies, question));
   Repeated repeated{{}, replies_.size() == copies};
   for (std::size_t i = 0; i < replies_.size() && !repeated.failed; ++i) {
-    const auto example = departing(question, replies_[i], judgement_of(question, replies_[i]));
+    const auto example = departing(question, replies_[i]);
     if (example && example->diagnosis.cause == like.cause && example->diagnosis.severity == like.severity)
       repeated.failed = i + 1;
   }

@@ -28,7 +28,8 @@ using Look = std::function<void(const Question&, const Answer& given)>;
 /// Sees the judgement on each answer of all rows.
 using OnJudged = std::function<void(const std::string& row, const Question&, const oracle::Judgement&)>;
 
-/// What makes a question hard: the measures by which an engine's answers are counted.
+/// What makes a question hard: the measures by which an engine's answers are counted, in the order of `sizes`
+/// in Examination::take. The first is that of the page's `calls`.
 inline constexpr std::array kMeasures{
     "radii by which the line enters or misses the obstacle in question",
     "radii from the start to the obstacle in question", "length of the flight, in lattice vectors",
@@ -123,6 +124,7 @@ class Examination {
   oracle::Judgement judgement_of(const Question& question, const Reply& reply) const;
   std::optional<Example> departing(const Question& question, const Reply& reply,
                                    const oracle::Judgement& judgement) const;
+  std::optional<Example> departing(const Question& question, const Reply& reply) const;
 
   const double ulps_;
   const Claim claim_;

@@ -28,7 +28,7 @@ class FreePaths {
   void add(const Question& question, const Answer& given);
 
   std::size_t flights() const { return given_.size(); }
-  /// The mean over the flights that hit something; 0 if there are none.
+  /// The mean over the flights that hit something; 0 if no flight does.
   double mean() const { return mean_of(given_); }
   double exact_mean() const { return mean_of(exact_); }
 
@@ -50,7 +50,8 @@ struct FlownScene {
   FreePaths paths;
 
   std::string name() const;
-  /// "square, r = 0.1: 2000 flights, mean 4.68 (exact 4.68, theory 4.6858)", and how far P(tau > t) is off.
+  /// "square, r = 0.1: 2000 flights, mean 4.68 (exact 4.68; of infinitely many 4.686)", and how far P(tau >
+  /// t) is off.
   std::string text() const;
   report::FreePathCurve curve(const std::string& engine) const;
 };

@@ -326,6 +326,8 @@ std::string JudgeReport::text() const {
 }
 
 std::string JudgeReport::json() const {
+  constexpr std::size_t kOthers[] = {1, 2, 3, 4};  // measures besides `calls`
+  static_assert(std::size(kOthers) + 1 == kMeasures.size());
   const question::Tally t = total();
   std::vector<report::FreePathCurve> paths;
   for (const FlownScene& scene : flown) paths.push_back(scene.curve(engine.name));
@@ -352,9 +354,8 @@ std::string JudgeReport::json() const {
     page.add("findings", json::objects(findings, [&](json::Members& one, const Finding& finding) {
                add_finding(one, finding, *this);
              }));
-    page.add("calls", curves[0], "curves",
-             json::objects(std::span(kMeasures).subspan(1), [this](json::Members& one, const auto& measure) {
-               one.add("by", measure, "decades", curves[&measure - kMeasures.data()]);
+    page.add("calls", curves[0], "curves", json::objects(kOthers, [this](json::Members& one, std::size_t i) {
+               one.add("by", kMeasures[i], "decades", curves[i]);
              }));
     page.add("free_paths", paths);
   });

@@ -169,9 +169,9 @@ bool can_be_drawn(const Scene& scene, const Query& query, const Answer& exact) {
          !flaw_of(Query{query.x, query.v, exact.obstacle}, scene);
 }
 
-// The exponent of the unit of length in which a scene has ordinary size; 0 in most cases. Scenes whose lengths
-// are near the ends of binary64's range are drawn in another unit, so that squares and cubes of lengths stay in
-// range.
+// The exponent of the unit of length in which a scene has ordinary size; 0 in most cases. Scenes whose
+// lengths are near the ends of binary64's range are drawn in another unit, so that squares and cubes of
+// lengths stay in range.
 int length_exponent(const Scene& scene) {
   double largest = 0;
   const auto see = [&](const Vec& vector) {

@@ -1,4 +1,4 @@
-// The viewpoint of a case, sections of obstacles, and those that stand out.
+// The viewpoint of a case, sections of obstacles, and the obstacles that stand out.
 #include <algorithm>
 #include <cmath>
 

@@ -230,10 +230,10 @@ Drawing Picture2D::draw() {
   Legend about = legend_;  // with everything that may be added
   about.hits = about.goes_on = !lines_.empty();
   for (std::size_t i = 0; i < options_.ways.size(); ++i) about.ways.push_back(i);
-  // As large as the page allows, in its middle.
+  // The picture is as large as the page allows, in its middle.
   const Page page(scene_, options_, about, kTallest);
   window_.scale = std::min(page.width / window_.box.width(), page.height / window_.box.height());
-  window_.left += (page.width - window_.width()) / 2;
+  window_.left = kMargin + (page.width - window_.width()) / 2;
   window_.top = page.top;
   const Point low = window_({window_.box.low[0], window_.box.high[1], 0});
   svg_.raw(

@@ -15,12 +15,14 @@ using oracle::Verdict;
 
 const char* decision_name(DecisionKind kind) {
   constexpr const char* kNames[] = {"containing", "meeting", "order"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(DecisionKind::order) + 1);
   return kNames[static_cast<int>(kind)];
 }
 
 const char* verdict_name(Verdict verdict) {
   constexpr const char* kNames[] = {"agree",       "ill-posed", "wrong",  "undecided",
                                     "unsupported", "error",     "missing"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(Verdict::missing) + 1);
   return kNames[static_cast<int>(verdict)];
 }
 

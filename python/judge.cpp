@@ -49,10 +49,6 @@ class FunctionAnswerer final : public question::Answerer {
     queries_.push_back(query);
     if (queries_.size() == kGathered) drain();
   }
-  void ask_text(const Id& id, const std::string& text) override {
-    drain();
-    Answerer::ask_text(id, text);
-  }
   void drain() override {
     if (queries_.empty()) return;
     std::vector<Answer> answers = run_.stop ? std::vector<Answer>() : answered();
@@ -62,7 +58,6 @@ class FunctionAnswerer final : public question::Answerer {
     for (std::size_t i = 0; i < answers.size(); ++i)
       deliver({std::move(answers[i]), i < asked ? question::Origin::engine : question::Origin::not_asked});
   }
-  void finish() override { drain(); }
 
  private:
   void enter(const Scene& scene) override {

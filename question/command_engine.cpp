@@ -356,8 +356,10 @@ class CommandEngine final : public ExternalAnswerer {
       return take_no_answer("gave an answer with an id that no query has, " + shortened(id, 40));
     if (number < first_number_) return take_unasked(number);
     if (run.nameless && number > first_number_) settle_nameless();
-    for (; number > first_number_; --run.outstanding)
+    while (number > first_number_) {
+      --run.outstanding;
       pass_over(run, "gave no answer to this query before that to a later one");
+    }
     if (run.nameless) tell(fmt::format("says of the scene: {}", printable(run.nameless->message)));
     run.nameless.reset();
     const std::string flaw = flaw_of_answer(answer, components);

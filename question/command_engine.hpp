@@ -9,6 +9,8 @@
 
 namespace lorentz::question {
 
+/// Each query gets one answer, in order: an `error` if the program gives none. A program that dies or falls
+/// silent is started again for the queries after the one at fault.
 std::unique_ptr<Answerer> command_engine(std::string command, const AnswererOptions& options);
 
 }  // namespace lorentz::question

@@ -8,6 +8,8 @@
 namespace lorentz::question {
 namespace {
 
+constexpr std::size_t kMostComplaints = 20;
+constexpr int kMostFailuresInRow = 5;
 constexpr std::size_t kMostOfScene = 2000;  // bytes of a scene line in a message
 
 }  // namespace

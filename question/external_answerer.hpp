@@ -10,13 +10,10 @@
 
 namespace lorentz::question {
 
-/// Reports the first kMostComplaints failures, each with a stream that reproduces it, and how many more there
-/// were. After kMostFailuresInRow failures without an answer in between the engine is given up.
+/// Reports the first 20 failures, each with a stream that reproduces it, and how many more there were. After
+/// 5 failures without an answer in between the engine is given up.
 class ExternalAnswerer : public Answerer {
  public:
-  static constexpr std::size_t kMostComplaints = 20;
-  static constexpr int kMostFailuresInRow = 5;
-
   bool failed() const final { return failed_; }
   bool given_up() const final { return given_up_; }
   bool is_hopeless() const final { return given_up_ && !ever_answered_; }

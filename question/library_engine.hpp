@@ -9,6 +9,8 @@
 
 namespace lorentz::question {
 
+/// Each query gets one answer, in order: an `error` if the library gives none. After a crash or a timeout the
+/// process is started again.
 std::unique_ptr<Answerer> library_engine(std::string file, const AnswererOptions& options);
 
 }  // namespace lorentz::question

@@ -9,7 +9,8 @@ namespace lorentz::question {
 
 struct RaceOptions {
   int rounds = 5;
-  AnswererOptions answerer = {};         ///< the listener also gets the progress
+  /// For engines outside this program; the listener also gets the progress. A race times one thread.
+  AnswererOptions answerer = {};
   std::vector<std::size_t> counts = {};  ///< how many questions each engine is asked; empty: all
   /// For each engine an answerer that runs already; race() does not end it. A new one is made if the list is
   /// empty or the pointer null.

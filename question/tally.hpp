@@ -41,7 +41,7 @@ struct Tally {
 
   void count(const oracle::Judgement& judgement);
   void add(const Tally& other);  ///< adds counts and errors, but not name and speed
-  double mean_ulp() const;       ///< 0 if there are none, like max_ulp()
+  double mean_ulp() const;       ///< 0 without errors, like max_ulp()
   double max_ulp() const;
 };
 

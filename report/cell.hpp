@@ -25,7 +25,7 @@ struct Histogram {
   std::size_t exact = 0;              ///< errors of zero
   int first = 0;                      ///< counts[i] errors are in [2^(first + i), 2^(first + i + 1))
   std::vector<std::size_t> counts;    ///< neither the first nor the last is zero
-  double mean = 0, p99 = 0, max = 0;  ///< of all errors, including zeros; 0 if there are none
+  double mean = 0, p99 = 0, max = 0;  ///< of all errors, including zeros; 0 without errors
 
   friend bool operator==(const Histogram&, const Histogram&) = default;
 };

@@ -1,4 +1,4 @@
-// The finished pieces of a run, in one file (--store).
+// The finished pieces of a run, each with its check, in one file (--store).
 #pragma once
 
 #include <cstdint>

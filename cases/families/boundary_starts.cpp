@@ -26,7 +26,6 @@ IntVec circle_point(Random& random, std::int64_t w) {
   }
 }
 
-// Rows and columns of a quaternion's rotation matrix have the length of its norm.
 IntVec sphere_point(Random& random, const std::array<std::int64_t, 4>& quaternion) {
   const auto rows = std::apply(rotation_of, quaternion);
   const std::uint64_t i = random.below(6);
@@ -71,7 +70,8 @@ void set_start(Source& source, const Vec& centre, const Vec& n, int dimension, b
   made.query.x = sum(centre, n);
   const bool off = random.one_in(2);
   tagged(made.tags, exact && !off, "on-surface", "near-surface");
-  for (int i = 0; off && i < dimension; ++i)
+  if (!off) return;
+  for (int i = 0; i < dimension; ++i)
     if (random.one_in(2)) made.query.x[i] = moved(made.query.x[i], random.integer(-4, 4), source.precision);
 }
 

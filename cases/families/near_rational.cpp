@@ -50,10 +50,13 @@ Vec flat_direction(Random& random, NumberFormat precision, const Lattice& lattic
     const double drift = random.octave(-52 + missing, -8) * random.sign();
     return plus(cartesian(lattice, g), drift, cartesian(lattice, next));
   }
-  const bool golden_mean = kind == "golden";
-  Vec v = golden_mean ? cartesian(lattice, golden(random, precision))
-                      : scaled(cartesian(lattice, g), random.whole(1, 99));
-  jitter(random, v, 2, golden_mean ? 2 : 3, precision);
+  if (kind == "golden") {
+    Vec v = cartesian(lattice, golden(random, precision));
+    jitter(random, v, 2, 2, precision);
+    return v;
+  }
+  Vec v = scaled(cartesian(lattice, g), random.whole(1, 99));
+  jitter(random, v, 2, 3, precision);
   return v;
 }
 

@@ -106,11 +106,16 @@ void make_published(Source& source, Case& made) {
   const bool in_space = kind == "late-sphere" || (kind == "along-axis" && drawn.one_in(2));
   made.scene = unit_scene(in_space ? 3 : 2, r);
   Query& query = made.query;
-  if (kind == "skipped-disc") query = skipped_disc(random, source.precision, r);
-  if (kind == "endless-channel") query = endless_channel(random, r);
-  if (kind == "slow-drift") query = {{0, random.between(0.26, 0.45)}, {1, r * random.between(2.1, 3)}, {}};
-  if (kind == "late-sphere") query = late_sphere(random, made.scene);
-  if (kind == "along-axis") query = along_axis(random, made.scene);
+  if (kind == "skipped-disc")
+    query = skipped_disc(random, source.precision, r);
+  else if (kind == "endless-channel")
+    query = endless_channel(random, r);
+  else if (kind == "slow-drift")
+    query = {{0, random.between(0.26, 0.45)}, {1, r * random.between(2.1, 3)}, {}};
+  else if (kind == "late-sphere")
+    query = late_sphere(random, made.scene);
+  else
+    query = along_axis(random, made.scene);
   query = Symmetry(random, made.scene.dimension)(query);
 }
 

@@ -38,16 +38,18 @@ void make_large(Source& source, Case& made) {
   double r = 0.5, period = 1;  // of the second vector
   const std::string_view size =
       drawn_tag(drawn, made.tags, {"touching", "overlapping", "pocket", "covering", "elongated"});
-  if (size == "touching")
+  if (size == "touching") {
     r = drawn.one_in(2) ? moved(0.5, drawn.integer(-3, 3), source.precision)
                         : 0.5 * (1 + drawn.octave(is_wide ? -40 : -20, -4) * drawn.sign());
-  if (size == "overlapping") r = drawn.between(0.5, dimension == 2 ? 0.6 : std::sqrt(0.5));
-  if (size == "pocket") r = covering * (1 - drawn.octave(-20, -3));
-  if (size == "covering")
+  } else if (size == "overlapping") {
+    r = drawn.between(0.5, dimension == 2 ? 0.6 : std::sqrt(0.5));
+  } else if (size == "pocket") {
+    r = covering * (1 - drawn.octave(-20, -3));
+  } else if (size == "covering") {
     r = drawn.one_in(2) ? moved(covering, drawn.integer(-4, 4), source.precision)
         : is_wide       ? covering * (1 - drawn.octave(-41, -30))
                         : covering * (1 - drawn.octave(-20, -14));
-  if (size == "elongated") {
+  } else {
     r = dimension == 2 ? drawn.octave(1, 5) * 1.5 : drawn.octave(0, 2);
     period = 2 * r * (1 + drawn.octave(-12, 0));
   }

@@ -31,7 +31,7 @@ Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
   const Lattice whole = scene.lattices[0];
   scene.lattices[0] = cut(whole, dimension, rank);
   if (tagged(tags, drawn.one_in(2), "mixed")) {
-    Lattice other = cut(whole, dimension, drawn.exponent(0, dimension));
+    Lattice other = cut(whole, dimension, static_cast<int>(drawn.integer(0, dimension)));
     for (Atom& atom : other.atoms)
       for (int i = 0; i < dimension; ++i)
         atom.position[i] += drawn.between(0.3, 0.7) * length(whole.vectors[i]);
@@ -64,17 +64,16 @@ void make_case(Source& source, Case& made) {
   made.query = {plus(target, -reach * random.octave(1, 12), direction), direction, {}};
   Vec &x = made.query.x, &v = made.query.v;
   const std::string_view way = drawn_tag(random, made.tags, {"aimed", "away", "along", "leaving", "edge"});
-  if (way == "away") v = random.direction(dimension);
-  if (way == "along") {
+  if (way == "away") {
+    v = random.direction(dimension);
+  } else if (way == "along") {
     v = along(random, source.precision, lattice, dimension);
     x = sum(target, random.vector(dimension, reach * random.between(1, 3)));
-  }
-  if (way == "leaving") {
+  } else if (way == "leaving") {
     made.query.from = obstacle(cell, static_cast<int>(&atom - lattice.atoms.data()));
     x = plus(target, reach, direction);
     v = random.one_in(2) ? along(random, source.precision, lattice, dimension) : random.direction(dimension);
-  }
-  if (way == "edge") {
+  } else if (way == "edge") {
     x = sum(x, random.vector(dimension, reach * random.between(0.1, 0.9)));
     move_to_edge([&] { return drawn_off_edge(random, source.precision); }, made.scene, oracle_of(made.scene),
                  made.query, source.precision);

@@ -67,7 +67,7 @@ void make_scale(Source& source, Case& made) {
   set_velocity(source, dimension, made);
   if (tagged(made.tags, drawn.one_in(2), "scaled-scene")) {
     const std::int64_t most = source.is_wide() ? 300 : 80;
-    const double factor = std::ldexp(1, drawn.exponent(-most, most));  // times which a number is exact
+    const double factor = std::ldexp(1, drawn.exponent(-most, most));  // products with it are exact
     scale_places(made.scene, factor);
     scale_obstacles(made.scene, factor);
     made.query.x = scaled(made.query.x, factor);

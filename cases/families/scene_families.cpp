@@ -33,7 +33,8 @@ void set_query(Source& source, Case& made) {
     query.v = scaled(query.v, random.octave(-1, 1));
     return jitter(random, query.v, dimension, 3, source.precision);
   }
-  for (int tries = 0; kind == 2 && tries < 4; ++tries) {
+  const int most_tries = kind == 2 ? 4 : 0;
+  for (int tries = 0; tries < most_tries; ++tries) {
     Query moved = query;
     const auto off_edge = [&] { return drawn_off_edge(random, source.precision); };
     if (move_to_edge(off_edge, made.scene, oracle_of(made.scene), moved, source.precision)) {
@@ -89,17 +90,14 @@ void make_superposition(Source& source, Case& made) {
   if (kind == "turned") {
     const int axis = drawn.axis(3);
     other = turned(dimension, drawn.one_in(2), axis, r);
-  }
-  if (kind == "three-lattices") {
+  } else if (kind == "three-lattices") {
     other = turned(dimension, false, 1, r);
     lattices.push_back(turned(dimension, true, 0, r));
-  }
-  if (kind == "incommensurate") {
+  } else if (kind == "incommensurate") {
     const double spacing = drawn.between(0.6, 1.7);
     for (Vec& vector : other.vectors) vector = scaled(vector, spacing);
     other.atoms[0].radius = r * drawn.between(0.3, 3);
-  }
-  if (kind == "shifted") {
+  } else {
     for (int i = 0; i < dimension; ++i) other.atoms[0].position[i] = drawn.uniform();
     if (drawn.one_in(2)) other.vectors[0] = scaled(other.vectors[0], 1.5);
   }

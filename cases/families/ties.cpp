@@ -103,7 +103,7 @@ void make_twice(Source& source, int dimension, Case& made) {
 // Neighbours that overlap, entered where they meet: along the middle line between two rows.
 void make_neighbours(Source& source, int dimension, Case& made) {
   Random &drawn = source.scene, &random = source.random;
-  made.tags.push_back("overlapping-neighbours");
+  made.tags.emplace_back("overlapping-neighbours");
   made.scene = unit_scene(dimension, drawn.between(0.5, 0.55));
   Vec x{-0.5 + std::ldexp(random.whole(-1000, 1000), -17), 0.5, 0};
   if (dimension == 3) x[2] = random.one_in(2) ? 0.0 : std::ldexp(random.whole(-1000, 1000), -14);

@@ -16,8 +16,9 @@ namespace {
 
 constexpr double kLimit = 200;  // time limit for engines that go from cell to cell
 
-// A hash of numbers in their order, of 64 bits, which shows whether two computers computed the same ones. If a stream is given, the hash also writes the numbers to it, one per
-// line, so that the numbers of two computers can be compared one by one.
+// A hash of numbers in their order, of 64 bits, which shows whether two computers computed the same ones. If
+// a stream is given, the hash also writes the numbers to it, one per line, so that the numbers of two
+// computers can be compared one by one.
 class Hash {
  public:
   explicit Hash(std::ostream* trace = nullptr) : trace_(trace) {}

@@ -5,8 +5,8 @@
 namespace lorentz::fitness {
 namespace {
 
-// `fast`: reduction, with and without FMA, and batch, which give the same bits. `published`: 0 in a scene that
-// is not for it.
+// `fast`: reduction, with and without FMA, and batch, which give the same bits. `published`: 0 in a scene
+// that is not for it.
 constexpr struct {
   const char* family;
   std::uint64_t fast, classical, published = 0;

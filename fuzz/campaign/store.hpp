@@ -83,6 +83,8 @@ class Store {
 class StoreJournal final : public Journal {
  public:
   StoreJournal(Store& store, std::int64_t campaign) : store_(store), campaign_(campaign) {}
+  StoreJournal(const StoreJournal&) = delete;
+  StoreJournal& operator=(const StoreJournal&) = delete;
   ~StoreJournal() override;
   void record(const cases::Target& target, const TargetTally& tally,
               const std::vector<Finding>& kept) override;

@@ -29,7 +29,7 @@ struct Done {
   std::optional<StintResult> result = {};
   std::optional<Finding> shrunk = {};
   double seconds = 0;
-  bool answerer_failed = false;  ///< the engine broke by now, and was started again
+  bool answerer_failed = false;  ///< the engine has broken at least once so far, and was started again
 };
 
 /// Called by any thread.

@@ -59,6 +59,7 @@ Examined Examiner::judge_exact(const Question& question, Reply& reply) {
   // By Verdict. Right answers may still be slow, or their times wrong.
   constexpr Kind kKindOf[] = {Kind::fine,        Kind::fine,  Kind::wrong, Kind::undecided,
                               Kind::unsupported, Kind::error, Kind::error};
+  static_assert(std::size(kKindOf) == static_cast<std::size_t>(oracle::Verdict::missing) + 1);
   const oracle::Judgement judgement = question::judgement_of(question, reply.answer, ulps_);
   const bool says = reply.answer.outcome != Outcome::undecided && reply.answer.outcome != Outcome::error;
   Examined one;

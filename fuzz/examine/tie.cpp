@@ -5,8 +5,8 @@
 namespace lorentz::fuzz {
 namespace {
 
-// Does x lie in the open obstacle? With d = x - p - U n and the semiaxes A, d in units of A is adj(A) d / det(A); x is inside if its length is
-// below 1.
+// Does x lie in the open obstacle? With d = x - p - U n and the semiaxes A, d in units of A is adj(A) d /
+// det(A); x is inside if its length is below 1.
 bool contains(const Scene& scene, const ObstacleId& obstacle, const Vec& x) {
   const Lattice& lattice = scene.lattices[obstacle.lattice];
   const Atom& atom = lattice.atoms[obstacle.atom];

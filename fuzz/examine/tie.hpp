@@ -10,7 +10,8 @@
 namespace lorentz::fuzz {
 
 /// Whether an answer differs from the exact one only by the choice among obstacles that it may name: the
-/// outcome is the same, and the time is the same to the bit. Decided exactly. The scene must have no flaw; its judge is given.
+/// outcome is the same, and the time is the same to the bit. Decided exactly. The scene must have no flaw;
+/// the judge must be that scene's.
 bool is_tie(const Scene& scene, const oracle::Judge& judge, const Query& query, const Answer& exact,
             const Answer& other);
 

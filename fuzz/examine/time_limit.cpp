@@ -56,15 +56,25 @@ LimitAt drawn_limit(Random& random, const Answer& exact) {
 double limit_of(LimitAt limit, const Answer& exact) {
   const double time = exact.outcome == Outcome::hit ? *exact.time : kSomeTime;
   const double share = std::ldexp(1, -limit.bits);
-  const double by_side[] = {kInfinity,
-                            time,
-                            std::nextafter(time, -kInfinity),
-                            std::nextafter(time, kInfinity),
-                            time / 2,
-                            2 * time,
-                            time * (1 - share),
-                            time * (1 + share)};
-  return by_side[limit.place];
+  switch (limit.place) {
+    case LimitAt::none:
+      return kInfinity;
+    case LimitAt::time:
+      return time;
+    case LimitAt::below:
+      return std::nextafter(time, -kInfinity);
+    case LimitAt::above:
+      return std::nextafter(time, kInfinity);
+    case LimitAt::half:
+      return time / 2;
+    case LimitAt::twice:
+      return 2 * time;
+    case LimitAt::before:
+      return time * (1 - share);
+    case LimitAt::after:
+      break;
+  }
+  return time * (1 + share);
 }
 
 }  // namespace lorentz::fuzz

@@ -1,6 +1,6 @@
-// How the harnesses of JSON texts change their inputs: half of the time by whole numbers, members and lines, so
-// that the text usually stays JSON. Where every bit counts, random changes of bytes give nothing but syntax
-// errors.
+// How the harnesses of JSON texts change their inputs: half of the time by whole numbers, members and lines,
+// so that the text usually stays JSON. Where every bit counts, random changes of bytes give nothing but
+// syntax errors.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -60,8 +60,8 @@ NumberParts::NumberParts(std::string_view text) {
   add_item(open.front(), text.size());
 }
 
-/// Makes one change. A number is moved a little, gets another sign or size, or is replaced by another number of
-/// the text; a member, an element or a line is left out, doubled, or put in place of another.
+/// Makes one change. A number is moved a little, gets another sign or size, or is replaced by another number
+/// of the text; a member, an element or a line is left out, doubled, or put in place of another.
 class Editor {
  public:
   Editor(std::string_view text, std::minstd_rand& random) : text_(text), parts_(text), random_(random) {}

@@ -37,8 +37,8 @@ struct SameBits {
   bool operator()(const Scene& a, const Scene& b) const {
     return a.dimension == b.dimension && (*this)(a.lattices, b.lattices);
   }
-  /// Compares what an answer's line says: for `never` that is neither an obstacle nor a time, whatever else was
-  /// read.
+  /// Compares what an answer's line says: for `never` that is neither an obstacle nor a time, whatever else
+  /// was read.
   bool operator()(const Answer& a, const Answer& b) const {
     if (a.outcome != b.outcome) return false;
     if (a.outcome == Outcome::error) return a.message == b.message && a.unsupported == b.unsupported;

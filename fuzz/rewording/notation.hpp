@@ -20,7 +20,9 @@ struct Misreading {
 
 /// Reads a line of a query stream; a scene's line is read without a scene.
 using ReadLine = std::function<StreamItem(const std::string& line, const Scene* scene)>;
-StreamItem read_line(const std::string& line, const Scene* scene);  ///< as this program does
+
+/// A ReadLine by this program's own reader.
+StreamItem read_line(const std::string& line, const Scene* scene);
 
 /// Writes the scene and the query as lines of a query stream, in a drawn notation: digits, order and escapes
 /// of keys, blanks, line ends. Nothing if both are read back as they are, by this program's reader or another

@@ -63,7 +63,7 @@ Periods::Periods(const Scene& scene) {
         const Z shared = gcd(entry, fractions.back().second);
         multiple = lcm(multiple, Z(fractions.back().second / shared));
       }
-    if (oracle::bit_length(multiple) > kMostBits) return;
+    if (oracle::bit_length(multiple) > kMostBitsOfMultiple) return;
   }
   for (auto& [numerator, denominator] : fractions) {
     for (IntegerVec& column : numerator)

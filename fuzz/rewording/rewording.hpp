@@ -22,16 +22,17 @@ struct Reworded {
   bool rounded = false;  ///< its start is the old one moved, rounded to binary64: another question
 };
 
-/// The vectors after which every lattice of a scene repeats: all multiples of `multiple` of lattice 0's vectors,
-/// if `multiple` is at most kMostBits long. For each lattice l a matrix P with U_l P k = multiple U_0 k. A lattice
-/// of fewer vectors than dimensions has its own if it is the only one; otherwise the scene has none.
+/// The vectors after which every lattice of a scene repeats: all multiples of `multiple` of lattice 0's
+/// vectors, if `multiple` is at most kMostBitsOfMultiple long. For each lattice l a matrix P with U_l P k =
+/// multiple U_0 k. A lattice of fewer vectors than dimensions has its own if it is the only one; otherwise
+/// the scene has none.
 struct Periods {
-  static constexpr long kMostBits = 20;
+  static constexpr long kMostBitsOfMultiple = 20;
 
   explicit Periods(const Scene& scene);
 
   Z multiple = 1;
-  std::vector<IntegerMatrix> in_cells;  ///< empty: none
+  std::vector<IntegerMatrix> in_cells;  ///< empty if the scene has no periods
 };
 
 /// Other words for one scene: a chain of a few steps, each drawn as mild or as hard as the numbers allow.

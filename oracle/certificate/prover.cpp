@@ -132,8 +132,7 @@ class Writer {
 
   void add(const SeenAtom<D>& seen, const Z& low, const std::optional<Z>& high, const Basis<D>& basis) {
     const auto end = [&](const Z& s, bool upwards) {
-      return end_of(s, upwards, seen.rho_above, seen.view.velocity.v2,
-                    query_.length_exponent - query_.velocity_exponent);
+      return end_of(s, upwards, seen.rho_above, seen.view.velocity.v2, query_.time_exponent());
     };
     certificate_.windows.push_back({seen.lattice, seen.atom, end(low, false),
                                     high ? end(*high, true) : WindowEnd(HUGE_VAL),

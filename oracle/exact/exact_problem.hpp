@@ -81,7 +81,9 @@ ZVec<D> operator*(const Z& factor, const ZVec<D>& a) {
 
 template <std::size_t D>
 ZVec<D> operator-(const ZVec<D>& a, const ZVec<D>& b) {
-  return a + Z(-1) * b;
+  ZVec<D> difference;
+  for (std::size_t i = 0; i < D; ++i) difference[i] = a[i] - b[i];
+  return difference;
 }
 
 /// The shortest integer vector parallel to a, which is not 0.
@@ -209,7 +211,7 @@ IntegerScene<D> in_integers(const AnyScene& scene, const Number& number) {
   return result;
 }
 
-/// The unit is so small that `other`, a length, is an integer, too.
+/// The scene in integers, in a unit so small that `other`, a length, is an integer, too.
 template <std::size_t D>
 IntegerScene<D> integer_scene(const Scene& scene, double other = 0);
 

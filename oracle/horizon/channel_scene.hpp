@@ -37,7 +37,7 @@ struct ObstacleLattice {
   Z period(const ZVec<D>& normal) const;
   /// After a change of the vectors: sets the cofactors and the volume.
   void set_cofactors();
-  /// After a change of the obstacles.
+  /// After a change of the obstacles: puts the largest first.
   void sort_obstacles();
 };
 

@@ -52,14 +52,14 @@ ZVec<D> miller_indices(const ObstacleLattice<D>& lattice, const ZVec<D>& normal)
   return primitive(lattice.given * normal);
 }
 
-// Makes the first component that is not 0 positive.
+// The sign that makes the first component that is not 0 positive.
 template <std::size_t D>
 int sign_of_name(const ZVec<D>& name) {
   return name < ZVec<D>{} ? -1 : 1;
 }
 
 Channel named(const ObstacleLattice<2>& lattice, const Slab<2>& slab, long exponent) {
-  const ZVec<2> k = miller_indices(lattice, slab.normal), across{k[1], -k[0]};
+  const ZVec<2> k = miller_indices(lattice, slab.normal), across{k[1], -k[0]};  // at a right angle to k
   const ZVec<2> g = sign_of_name(across) * across;
   Channel channel;
   channel.indices = to_cell(g);

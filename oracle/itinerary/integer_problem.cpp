@@ -95,7 +95,7 @@ IntegerProblem<D>::IntegerProblem(const RationalScene& rational_scene, const Sta
     unit = lcm(unit, ratio_of(number).denominator);
     return Z();
   };
-  in_integers<D>(rational_scene, see);
+  in_integers<D>(rational_scene, see);  // for what `see` does
   for (std::size_t i = 0; i < D; ++i) {
     see(start.x[i]);
     if (!start.v[i].root) see(start.v[i].shift);

@@ -7,6 +7,7 @@ namespace lorentz::oracle {
 
 std::string_view name_of(JourneyEnd end) {
   constexpr std::string_view kNames[] = {"collisions", "time", "never", "inside", "undecided"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(JourneyEnd::undecided) + 1);
   return kNames[static_cast<std::size_t>(end)];
 }
 

@@ -245,8 +245,7 @@ class Sight {
   }
 
   static Ball time_of(const ExactQuery<D>& query, const ExactEntry<D>& entry) {
-    return scaled((Ball(entry.s) - sqrt(Ball(entry.d))) / Ball(entry.v2),
-                  query.length_exponent - query.velocity_exponent);
+    return scaled((Ball(entry.s) - sqrt(Ball(entry.d))) / Ball(entry.v2), query.time_exponent());
   }
 
   static ObstacleId obstacle_of(const ExactEntry<D>& entry) {

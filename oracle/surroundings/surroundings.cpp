@@ -58,8 +58,7 @@ class SightLine {
 
   // The time without the distance beyond it.
   Real mark_of(const PlaceOnLine& place) const {
-    if (!place.obstacle)
-      return times_power_of_two(Real(place.time), query_.velocity_exponent - query_.length_exponent);
+    if (!place.obstacle) return times_power_of_two(Real(place.time), -query_.time_exponent());
     const ExactEntry<D> entry = query_.meeting(scene_, *place.obstacle);
     const Real s = real(entry.s);
     return (entry.d > 0 ? s - sqrt(real(entry.d)) : s) / real(entry.v2);

@@ -24,7 +24,6 @@
 #include <vector>
 
 #include <lorentz/errors.hpp>
-#include <lorentz/geometry.hpp>
 #include <lorentz/pimpl.hpp>
 
 namespace lorentz::oracle {
@@ -302,6 +301,12 @@ double rounded(const Root& time) {
   return value(up ? high : low);
 }
 
+std::array<Vec, 3> columns_of(const Atom& atom) {
+  std::array<Vec, 3> columns{};
+  std::copy(atom.semiaxes.begin(), atom.semiaxes.end(), columns.begin());
+  return columns;
+}
+
 // Decides exactly whether the first `count` vectors are linearly dependent. (In the plane the third
 // components are zero.)
 bool are_dependent(const std::array<Vec, 3>& vectors, int count) {
@@ -319,7 +324,7 @@ Walk::Walk(Scene scene, std::int64_t max_cells) : scene_(std::move(scene)), max_
   for (const Lattice& lattice : scene_.lattices) {
     bool dependent = are_dependent(lattice.vectors, lattice.rank(scene_.dimension));
     for (const Atom& atom : lattice.atoms)
-      dependent |= !atom.is_ball() && are_dependent(semiaxes_of(atom, scene_.dimension), scene_.dimension);
+      dependent |= !atom.is_ball() && are_dependent(columns_of(atom), scene_.dimension);
     if (dependent) throw InputError("scene: vectors of a lattice, or semiaxes, are linearly dependent");
   }
 }

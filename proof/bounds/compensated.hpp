@@ -1,5 +1,5 @@
-// The claims of compensated sums: their high parts lose nothing (lemma 1 of docs/bounds.md), so that they err by
-// what their low parts do, and by the last rounding.
+// The claims of compensated sums: their high parts lose nothing (lemma 1 of docs/bounds.md), so that they err
+// by what their low parts do, and by the last rounding.
 #pragma once
 
 #include "proof/bounds/common.hpp"

@@ -1,5 +1,5 @@
-// What is claimed of one formula: its inputs, what it is over the real numbers (written by hand), and the sizes
-// that its error is relative to.
+// What is claimed of one formula: its inputs, what it is over the real numbers (written by hand), and the
+// sizes that its error is relative to.
 #pragma once
 
 #include <cmath>

@@ -142,8 +142,8 @@ inline FormulaClaim velocity_in_shape() {
                   term("exact_N0 * v0") + term("exact_N1 * v1"));
 }
 
-/// The width of the most slender ellipse that is done: |w|^2 errs by twice what w does, and by 2 of its own; the
-/// scale is a cofactor's inverse.
+/// The width of the most slender ellipse that is done: |w|^2 errs by twice what w does, and by 2 of its own;
+/// the scale is a cofactor's inverse.
 inline FormulaClaim width_of_ellipse() {
   Inputs in;
   const Symbol r = in.number("r"), w2 = in.rounded("w2", 2 * 3.001 * kMaxCondition + 2.001),

@@ -1,5 +1,5 @@
-// write FOLDER: what is claimed of the formulas of the reduction engine. FOLDER/Formulas.v for Coq, FOLDER/NAME.g for
-// Gappa, and the constants in FOLDER/constants.tsv.
+// write FOLDER: what is claimed of the formulas of the reduction engine. FOLDER/Formulas.v for Coq,
+// FOLDER/NAME.g for Gappa, and the constants in FOLDER/constants.tsv.
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -37,7 +37,8 @@ void write_theorem(std::ostream& out, const FormulaClaim& of) {
       << of.size << ").\nProof. bound. Qed.\n";
 }
 
-// The constant is as large as that; its own evaluation rounds less than sixteen times, each downwards at worst.
+// The constant is as large as that; its own evaluation rounds less than sixteen times, each downwards at
+// worst.
 void write_comparison(std::ostream& out, const FormulaClaim& of) {
   const std::string needed = Inputs::decimal(of.claimed()) + " * " + Inputs::decimal(of.times) + " + " +
                              Inputs::decimal(of.plus),

@@ -49,6 +49,7 @@ class Reported:
     report: dict[str, Any]
 
 
+@dataclass(frozen=True, repr=False)
 class Lyapunov(Reported):
     """Lyapunov exponents in nats, the largest first. ``report`` is that of `lorentz lyapunov --json`, without
     the scene."""
@@ -76,6 +77,7 @@ class Lyapunov(Reported):
         return f"Lyapunov({told} a collision)"
 
 
+@dataclass(frozen=True, repr=False)
 class Diffusion(Reported):
     """Mean squared displacements. ``report`` is that of `lorentz diffusion --json` without the scene."""
 
@@ -113,6 +115,7 @@ class Diffusion(Reported):
         return Estimate(self.report["D"], self.report["D_error"])
 
 
+@dataclass(frozen=True, repr=False)
 class Survival(Reported):
     """How many collisions of trajectories are right. ``report`` is the report of `lorentz survival --json`
     without the scene."""

@@ -180,7 +180,8 @@ void examine_into(report::Cell& cell, Answerer& answerer, const BenchGroup& grou
   cell.worst = errors.worst(group, cell.engine);
 }
 
-// Measures the times of the engines with these numbers, and of their cells. True if one of them failed.
+// Times the engines with these numbers in plan.engines, and writes the times into their cells. True if one of
+// them failed.
 bool race(const BenchPlan& plan, const std::vector<Question>& questions,
           const std::vector<std::size_t>& numbers, const std::vector<std::size_t>& counts,
           std::vector<report::Cell>& cells) {

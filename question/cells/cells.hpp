@@ -22,8 +22,8 @@ struct BenchGroup {
 struct BenchPlan {
   std::vector<EngineInfo> engines;
   std::uint64_t count = 0, seed = 0;
-  Claim claim = {};  ///< all are judged by it; scenes and queries are rounded to its precision
-  AnswererOptions answerer = {};
+  Claim claim = {};               ///< all are judged by it; scenes and queries are rounded to its precision
+  AnswererOptions answerer = {};  ///< for engines outside this program
 };
 
 /// Fewer queries than this say nothing.

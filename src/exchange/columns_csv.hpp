@@ -65,7 +65,7 @@ class CsvAnswerReader final : public AnswerReader {
   CsvTable table_;
 };
 
-/// All columns that queries and answers can have, in the order in which they are written.
+/// All columns that queries and answers can have.
 std::vector<std::string> csv_query_columns(int dimension);
 std::vector<std::string> csv_answer_columns(int dimension);
 

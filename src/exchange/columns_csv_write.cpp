@@ -46,8 +46,14 @@ void append_time(std::string& out, double time) {
 }  // namespace
 
 void append_csv_query_names(std::string& out, int dimension, bool with_from) {
-  for (const std::string& name : csv_query_columns(dimension))
-    if (name.starts_with("from_") ? with_from : name != "max_time" && name != "id") out += name + ',';
+  const auto append = [&](const std::string& name) {
+    for (int k = 1; k <= dimension; ++k) out += name + std::to_string(k) + ',';
+  };
+  append("x"), append("v");
+  if (with_from) {
+    out += "from_lattice,from_atom,";
+    append("from_cell");
+  }
   out.back() = '\n';
 }
 

@@ -132,7 +132,7 @@ std::string not_json(const LineReader::Line& line, const std::string& why) {
   if (const std::string_view word = no_number_in(line.text); !word.empty())
     return "not JSON: " + std::string(word) +
            " is not a number there (Python's json writes it; a time beyond binary64 is \"inf\", in quotes, "
-           "and what is not known is \"outcome\":\"undecided\")";
+           "and an engine that does not know answers undecided)";
   return "not JSON: " + why;
 }
 

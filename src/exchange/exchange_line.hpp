@@ -42,6 +42,8 @@ struct LineFields {
 
   /// Reads the value of a key that the line may have, or passes over it.
   void read(std::string_view key, json::Value value, Id& id, const OnUnknownKey& on_unknown_key);
+  /// Tells of what a scene's line holds besides, and is passed over.
+  void report_beside_scene(const OnUnknownKey&) const {}
 };
 
 /// Why a line is not JSON, with what its writer may have meant.
@@ -94,7 +96,8 @@ struct ExchangeReader::Impl {
     json_line.close();
   }
 
-  /// Reads the line of a scene, or of what its Fields, derived from LineFields, are of. Throws if it is bad.
+  /// Reads a line that holds a scene, or else a query or a start. Fields, derived from LineFields, reads its
+  /// members and sets the item (kName, read, set, x, v). Throws if the line is bad.
   template <class Fields, class AScene, class Item>
   void read_fields(const LineReader::Line& line, const AScene* scene, Item& item) {
     Fields fields;

@@ -22,11 +22,12 @@ struct Notation {
 constexpr Notation kDecimal{std::chars_format::general, "", "0123456789"};
 constexpr Notation kHexadecimal{std::chars_format::hex, "0x", "0123456789abcdefABCDEF"};
 
-// std::strtod rounds correctly, too, and knows the large from the small, however long the number is and
-// however its digits and its exponent make up for each other. But it takes a point for the locale's only.
+// strtod rounds correctly, too, and knows the large from the small, however long the number is and however
+// its digits and its exponent make up for each other. It expects the decimal point of a locale: here that of
+// C.
 double nearest_of_long(const std::string& text) {
-  static const locale_t point = newlocale(LC_ALL_MASK, "C", nullptr);
-  return strtod_l(text.c_str(), nullptr, point);
+  static const locale_t c_locale = newlocale(LC_ALL_MASK, "C", nullptr);
+  return strtod_l(text.c_str(), nullptr, c_locale);
 }
 
 // std::from_chars rounds correctly, but reports "out of range" both for numbers that are too large and for

@@ -1,5 +1,5 @@
 // Text to binary64: the nearest one, ties to even, however many digits. All numbers of all inputs are
-// converted here, from their own text. Private to the exchange formats.
+// converted here, from their own text. Private to this repository.
 #pragma once
 
 #include <optional>

@@ -54,8 +54,6 @@ struct StartFields : LineFields {
       LineFields::read(key, value, id, on_unknown_key);
   }
 
-  void report_beside_scene(const OnUnknownKey&) const {}
-
   void set(StartItem& item, const RationalScene& scene) const {
     if (!x) throw InputError("x is missing");
     if (v.has_value() == direction.has_value())

@@ -3,6 +3,15 @@
 #include <cmath>
 
 namespace lorentz {
+namespace {
+
+Answer with(Outcome outcome) {
+  Answer answer;
+  answer.outcome = outcome;
+  return answer;
+}
+
+}  // namespace
 
 void Answer::clear() {
   outcome = Outcome::undecided;
@@ -16,27 +25,32 @@ void Answer::clear() {
 }
 
 Answer Answer::hit(ObstacleId obstacle, double time) {
-  return {.outcome = Outcome::hit, .obstacle = std::move(obstacle), .time = time};
+  Answer answer = with(Outcome::hit);
+  answer.obstacle = std::move(obstacle);
+  answer.time = time;
+  return answer;
 }
 
 Answer Answer::inside(ObstacleId obstacle) {
-  return {.outcome = Outcome::inside, .obstacle = std::move(obstacle)};
+  Answer answer = with(Outcome::inside);
+  answer.obstacle = std::move(obstacle);
+  return answer;
 }
 
 Answer Answer::never() {
-  return {.outcome = Outcome::never};
+  return with(Outcome::never);
 }
 
 Answer Answer::later() {
-  return {.outcome = Outcome::later};
+  return with(Outcome::later);
 }
 
 Answer Answer::undecided() {
-  return {};
+  return with(Outcome::undecided);
 }
 
 Answer Answer::error(std::string message) {
-  Answer answer{.outcome = Outcome::error};
+  Answer answer = with(Outcome::error);
   answer.message = std::move(message);
   return answer;
 }

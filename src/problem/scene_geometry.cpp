@@ -40,6 +40,14 @@ std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension) {
   return lengths;
 }
 
+double shortest_vector(const Scene& scene) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Lattice& lattice : scene.lattices)
+    for (int i = 0; i < lattice.rank(scene.dimension); ++i)
+      shortest = std::min(shortest, length(lattice.vectors[i]));
+  return shortest;
+}
+
 double cell_volume(const Lattice& lattice, int dimension) {
   const auto& u = lattice.vectors;
   return std::fabs(dimension == 2 ? cross(u[0], u[1])[2] : dot(cross(u[0], u[1]), u[2]));

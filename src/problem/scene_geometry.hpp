@@ -14,6 +14,9 @@ namespace lorentz {
 /// the third is zero.
 std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension);
 
+/// The length of the shortest of all primitive vectors; infinite if no lattice repeats.
+double shortest_vector(const Scene& scene);
+
 double cell_volume(const Lattice& lattice, int dimension);
 double volume_of(const Atom& atom, int dimension);
 double surface_of(const Atom& atom, int dimension);

@@ -37,6 +37,7 @@ struct MeetingEntry {
   bool there;
 
   MeetingEntry(const Point<Real>& w, const Point<Real>& u, Real radius, double slack) {
+    using std::sqrt;
     const Real u2 = inner(u, u), inverse = Real(1) / u2;
     const Point<Real> p = times(inverse, outer(u, outer(w, u)));
     const Real p2 = inner(p, p), square = radius * radius - p2;

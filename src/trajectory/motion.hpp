@@ -55,8 +55,8 @@ class Motion {
   Inquiry asked(const Particle& particle) const;
 
   /// Ends the flight as the engine says: makes the collision with the obstacle, whose cell is in the frame in
-  /// which the query was asked; or, if nothing is met until then, moves the particle to its position at the
-  /// time `until`.
+  /// which the query was asked; or, if nothing is met before the time `until`, moves the particle to its
+  /// position then. If `until` is infinite, the particle stays, and the result is `never` or `later`.
   Stop end(Particle& particle, const Inquiry& asked, const Flight& flight, double until,
            Collision& collision) const;
 

@@ -35,7 +35,8 @@ bool has(const Scene& scene, const ObstacleId& obstacle) {
   return lattice < scene.lattices.size() && atom < scene.lattices[lattice].atoms.size();
 }
 
-// The answer as a flight, an error if there is no such obstacle; false if its cell is beyond 64 bits.
+// Sets the flight to the answer, or to an error if there is no such obstacle; false if its cell is beyond 64
+// bits.
 bool set(const Answer& answer, const Scene& scene, Flight& flight) {
   flight.outcome = answer.outcome;
   if (answer.outcome != Outcome::hit) return true;
@@ -111,6 +112,7 @@ Vec Trajectory::place() const {
 const char* name_of(Stop stop) {
   constexpr const char* kNames[] = {"none",   "collisions", "time",   "condition", "never", "later",
                                     "inside", "undecided",  "missed", "overflow",  "error"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(Stop::error) + 1);
   return kNames[static_cast<int>(stop)];
 }
 

@@ -1,4 +1,4 @@
-// A run of flights: its plan, and its state: which of its blocks are done, and their tally. A run is resumed
+// A run of flights: its plan, and its state, which is the finished blocks and their tally. A run is resumed
 // from this state in JSON, and the shards of one run are added up from it.
 #pragma once
 

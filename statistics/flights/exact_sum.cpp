@@ -69,8 +69,8 @@ double ExactSum::value() const {
   // Lower digits only break ties.
   if (std::any_of(&sum.digits_[0], &sum.digits_[low], [](std::int64_t digit) { return digit != 0; }))
     head |= 1;
-  // The conversion rounds, to nearest. The scaling does not: a sum is a multiple of 2^-1074, so that one below
-  // the normal numbers has less than 53 bits.
+  // The conversion rounds, to nearest. The scaling does not: a sum is a multiple of 2^-1074, so that one
+  // below the normal numbers has fewer than 53 bits.
   const double rounded = std::ldexp(static_cast<double>(head), kDigitBits * static_cast<int>(low) + kLowest);
   return negative ? -rounded : rounded;
 }

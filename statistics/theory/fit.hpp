@@ -1,5 +1,6 @@
-// Tests whether counted free paths follow a law, and measures the power with which they fall, and the constant
-// of a tail that is approached slowly. The input is only counts in bins, because 10^9 paths cannot be stored.
+// Tests whether counted free paths follow a law, and measures the power with which they fall, and the
+// constant of a tail that is approached slowly. The input is only counts in bins, because 10^9 paths cannot
+// be stored.
 //
 // Bins: the edges e_0 < e_1 < .. < e_n, and n + 2 counts of paths: below e_0, in [e_0, e_1), .., and from e_n
 // on. The last count includes endless paths. Functions throw std::invalid_argument for bad bins.

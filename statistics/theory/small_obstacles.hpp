@@ -1,5 +1,5 @@
-// Scenes with a known limit law: one ball per cell, or 2D lattices with one obstacle per cell each. Private to
-// statistics.
+// Scenes with a known limit law: one ball per cell, or 2D lattices with one obstacle per cell each. Private
+// to statistics.
 #pragma once
 
 #include <optional>

@@ -355,6 +355,12 @@ TEST_CASE("scene draw -o: whole or not at all, and over nothing but a picture", 
   CHECK(refused.status == 2);
   CHECK(contains(refused.err, "queries.ndjson: is not an SVG, and is left as it is"));
   CHECK(folder.read("queries.ndjson") == kScene + kGood);
+  // A file of blanks holds something, too. One that cannot be read (by others than root) may.
+  const auto blanks = folder.write("blanks", "\n \n");
+  CHECK(folder.lorentz("scene draw square -o " + blanks).status == 2);
+  CHECK(folder.read("blanks") == "\n \n");
+  fs::permissions(blanks, fs::perms::owner_write);
+  if (!std::ifstream(blanks)) CHECK(folder.lorentz("scene draw square -o " + blanks).status == 3);
   // An empty file, an older picture, a link to it: its mode stays, and nothing else is left in the folder.
   const auto picture = folder.write("p.svg", "");
   CHECK(folder.lorentz("scene draw square -o " + picture).status == 0);

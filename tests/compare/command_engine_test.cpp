@@ -264,8 +264,8 @@ done
   for (int i = 0; i < kTimes; ++i) ask();
   CHECK(seconds_since(start) < kTimes * 0.5 * 0.8);  // 0.5 s is the while
   CHECK(lines(folder.read("starts")) == 2 + kTimes);
-  // It is given more queries at a time than it holds, and answers while others come: one start each time, also after
-  // runs in which it answered at the end only.
+  // It is given more queries at a time than it holds, and answers while others come: one start each time,
+  // also after runs in which it answered at the end only.
   for (const int count : {1, 1, 5001, 5001, 5001})
     CHECK(asked(*program, lorentz::unit_scene(2, 0.25), count).size() == static_cast<std::size_t>(count));
   CHECK(lines(folder.read("starts")) == 2 + kTimes + 5);

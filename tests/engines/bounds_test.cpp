@@ -227,8 +227,8 @@ TEST_CASE("Radius and insideness: kRho, kInside, kInsideEllipsoid", "[engines][b
   // rho = r sqrt(v.v); the comparison rounds once more, and so does the sum with the spread.
   const Carried rho = width_of(one, speed_squared(one, none, none));
   covers(kRho, rho.error + 2);
-  // |d|^2 - r^2, where the high parts of d are a roundoff off; how the difference is rounded does not change its
-  // sign.
+  // |d|^2 - r^2, where the high parts of d are a roundoff off; how the difference is rounded does not change
+  // its sign.
   const Carried d[3] = {Carried{1, 1}, none, none};
   covers(kInside, std::max(square_of(d).error, (one * one).error));
   struct Entry {
@@ -270,8 +270,8 @@ TEST_CASE("Rows beside a line: kSparse, kSparseOfShape", "[engines][bounds]") {
   covers(kSparse, sum_of_products(one, start, none, none, none, none).error);
   const Carried normal = difference_of_products(high, high, none, none);
   covers(kLayer, sum_of_products(high, normal, none, none, none, none).error);
-  // N a for two vectors, whose norms are at most the condition times those of their images; the norm of N is that
-  // of all its rows.
+  // N a for two vectors, whose norms are at most the condition times those of their images; the norm of N is
+  // that of all its rows.
   const Carried N{1, 1}, image = sum_of_products(N, high, none, none, none, none);
   covers(kSparseOfShape, 2 * image.error);
 }
@@ -301,8 +301,8 @@ Exact exact_dot(const ExactVec& a, const ExactVec& b) {
 
 }  // namespace
 
-// Lines that pass a row at up to a radius, half of them nearly along it, far out; two in three meet a ball, or a
-// row, by less than is computed.
+// Lines that pass a row at up to a radius, half of them nearly along it, far out; two in three meet a ball,
+// or a row, by less than is computed.
 TEST_CASE("Ranges of rows and of balls leave out none that a line meets", "[engines][bounds]") {
   Draw draw(20261125);
   long met = 0, looked_at = 0, met_rows = 0, rows = 0;

@@ -1,5 +1,5 @@
-// Short bases of a 3D lattice as seen along the velocities, in lanes, as in src/engines/reduction/reduce_3d.hpp.
-// Private to the batch engine.
+// Short bases of a 3D lattice as seen along the velocities, in lanes, as in
+// src/engines/reduction/reduce_3d.hpp. Private to the batch engine.
 
 using Arm3 = ArmOf3<LaneFma>;
 using Basis3 = BasisOf3<LaneFma>;

@@ -112,7 +112,7 @@ class Block {
     }
   }
 
-  // In a crystal.
+  // Sets the direction for an atom of a crystal.
   HWY_INLINE void set_direction(std::size_t a, const V (&velocity)[D], typename Search::Direction& to) {
     const Bravais& lattice = scene_.atoms[a];
     if (a > 0) {

@@ -283,8 +283,8 @@ struct Direction2 {
     return sum_of_products(arm.n[0], S[0], arm.n[1], S[1]);
   }
 
-  // Usable arms point forward (but R in the metric of a shape), and their coefficients are small: in the first
-  // octant they grow with each step, and L's is the later one.
+  // Usable arms point forward (but R in the metric of a shape), and their coefficients are small: in the
+  // first octant they grow with each step, and L's is the later one.
   template <class Arch>
   LORENTZ_INLINE void finish(const Bravais& lattice) {
     for (Arm* arm : {&R, &L}) {

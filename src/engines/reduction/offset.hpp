@@ -1,4 +1,5 @@
-// The octant of a velocity, and whether a start lies in a ball. Private to the reduction engine.
+// Offsets from a centre: tiny components, the octant of a velocity, and whether a start lies in a ball.
+// Private to the reduction engine.
 #pragma once
 
 #include <cmath>

@@ -64,6 +64,7 @@ const char* Reduction::model() const {
                                        {"several atoms", "several atoms, ellipsoids"},
                                        {"rows and layers", "rows and layers, ellipsoids"},
                                        {"mixed", "mixed, ellipsoids"}};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(SceneModel::mixed) + 1);
   return kNames[static_cast<int>(model_of(model_->scene))][model_->scene.ellipsoids];
 }
 

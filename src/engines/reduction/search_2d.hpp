@@ -1,5 +1,5 @@
-// The search for the first ball along a prepared direction, in 2D (direction_2d-inl.hpp says how). Private to the
-// reduction engine.
+// The search for the first ball along a prepared direction, in 2D (direction_2d-inl.hpp says how). Private to
+// the reduction engine.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +24,8 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
   Found<2> found;
 
   /// `from`: coefficients of the ball that is being left, or null. Balls that are entered after s_limit may
-  /// be ignored. `never`: nothing is entered before s_limit; or the rows are exactly parallel to the line, and
-  /// all were passed.
+  /// be ignored. `never`: nothing is entered before s_limit; or the rows are exactly parallel to the line,
+  /// and all were passed.
   Outcome run(const Wide* from, double s_limit) {
     from_ = from;
     s_limit_ = s_limit;

@@ -1,5 +1,5 @@
-// The code that both fast engines share, above double-double and the formulas. Included by one_flight.hpp, and
-// by the batch engine once for each set of instructions. Each file needs those before it.
+// The code that both fast engines share, above double-double and the formulas. Included by one_flight.hpp,
+// and by the batch engine once for each set of instructions. Each file needs those before it.
 
 #include "src/engines/reduction/stable_meeting-inl.hpp"
 

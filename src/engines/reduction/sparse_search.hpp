@@ -32,8 +32,8 @@ struct SparseDirection {
   }
 };
 
-/// Like Search2 and Search3. Candidates are found roughly, in binary64 (sparse_rows-inl.hpp), and each is decided
-/// as a single obstacle. Obstacles of one atom do not overlap, so they are entered in the order of s.
+/// Like Search2 and Search3. Candidates are found roughly, in binary64 (sparse_rows-inl.hpp), and each is
+/// decided as a single obstacle. Obstacles of one atom do not overlap, so they are entered in the order of s.
 template <int D, bool kBall>
 class SparseSearch {
  public:
@@ -92,8 +92,8 @@ class SparseSearch {
     return error * std::sqrt(lattice_.shape.metric_size);
   }
 
-  // Sets the vectors for sparse_rows-inl.hpp: velocity, start, the row that is followed, and the step to the next
-  // row.
+  // Sets the vectors for sparse_rows-inl.hpp: velocity, start, the row that is followed, and the step to the
+  // next row.
   void see() {
     const auto image = [&](const auto& a, double(&there)[D]) {
       for (int i = 0; i < D; ++i) {
