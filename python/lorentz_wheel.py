@@ -79,8 +79,10 @@ def build_sdist(sdist_directory, config_settings=None):
 
 
 def sources():
-    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\n")
-    return [path for path in listed if WANTED.match(path) and not UNWANTED.search(path)]
+    git = subprocess.run(["git", "ls-files"], cwd=ROOT, check=False, stdout=subprocess.PIPE, text=True)  # it says why not
+    if git.returncode != 0:
+        sys.exit("lorentz: the archive of sources has what git lists: make it in a clone")
+    return [path for path in git.stdout.split("\n") if WANTED.match(path) and not UNWANTED.search(path)]
 
 
 def install(folder, with_program):

@@ -11,6 +11,11 @@ touch docs/golden.md # of another time
 $first" ]
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+# Without git there is no list of what belongs there: status 1, and no file.
+mkdir "$folder/tree" && cp -r run CMakeLists.txt packaging "$folder/tree"
+! (cd "$folder/tree" && GIT_CEILING_DIRECTORIES="$folder" ./run golden-archive) 2>"$folder/said"
+grep -q "run it in a clone" "$folder/said"
+[ -z "$(ls "$folder/tree/build")" ]
 tar -xzf "$archive" -C "$folder"
 cd "$folder"/lorentz-golden-*
 (cd data/golden && sha256sum --quiet -c SHA256SUMS)
