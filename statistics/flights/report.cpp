@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <lorentz/exchange.hpp>
 #include "files/messages.hpp"
@@ -211,19 +212,24 @@ const Law* law_called(const std::string& name, const FlightsFindings& found) {
   return nullptr;
 }
 
-// The rows of one histogram. `below`: the count below the first edge, which has no row.
+// The rows of one histogram: bin i is from edges[i] to edges[i + 1]. The last edge is infinite, so that its bin
+// has no density.
 void append_rows(std::string& text, const std::string& bins, const FlightsFindings& found,
                  const LawNames& laws, const std::vector<std::uint64_t>& counts,
-                 const std::function<double(int)>& edge, std::uint64_t below) {
+                 const std::vector<double>& edges) {
   const auto n = static_cast<double>(found.total);
-  std::uint64_t longer = found.total - below;
-  for (int i = 0; i < static_cast<int>(counts.size()); ++i) {
-    const std::uint64_t count = counts[static_cast<std::size_t>(i)];
-    longer -= count;
-    if (count == 0) continue;
-    const double low = edge(i), high = edge(i + 1), width = high - low, c = static_cast<double>(count);
-    text += fmt::format("{},{},{},{},{},{},{}", bins, low, high, count, c / n / width,
-                        std::sqrt(c) / n / width, static_cast<double>(longer) / n);
+  std::uint64_t longer = found.total;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    longer -= counts[i];
+    if (counts[i] == 0) continue;
+    const double low = edges[i], high = edges[i + 1], width = high - low, c = static_cast<double>(counts[i]);
+    text += fmt::format("{},{},{},{}", bins, low, high, counts[i]);
+    if (i + 1 == counts.size()) {
+      text += std::string(3 + 2 * laws.size(), ',') + '\n';
+      break;
+    }
+    text +=
+        fmt::format(",{},{},{}", c / n / width, std::sqrt(c) / n / width, static_cast<double>(longer) / n);
     for (const std::string& name : laws) {
       const Law* law = law_called(name, found);
       text +=
@@ -232,6 +238,15 @@ void append_rows(std::string& text, const std::string& bins, const FlightsFindin
     }
     text += '\n';
   }
+}
+
+// 0, the finite edges of a histogram, and infinity.
+template <class Edge>
+std::vector<double> edges_of(int first, int last, const Edge& edge) {
+  std::vector<double> edges{0};
+  for (int i = first; i <= last; ++i) edges.push_back(edge(i));
+  edges.push_back(std::numeric_limits<double>::infinity());
+  return edges;
 }
 
 // The names of the laws of all reports, each once.
@@ -309,13 +324,10 @@ std::string csv_of(const std::vector<FlightsReport>& reports) {
     const Bins& bins = reports[i].account.tally.bins;
     std::string place = one_scene ? "" : csv_field(reports[i].scene_name) + ',';
     if (radii) place += (reports[i].radius ? fmt::format("{}", *reports[i].radius) : "") + ',';
-    append_rows(
-        text, place + "logarithmic", findings[i], laws,
-        {bins.logarithmic.begin() + 1, bins.logarithmic.end()}, [&](int bin) { return bins.log_edge(bin); },
-        bins.logarithmic.front());
-    append_rows(
-        text, place + "linear", findings[i], laws, bins.linear,
-        [&](int bin) { return bins.linear_edge(bin); }, 0);
+    append_rows(text, place + "logarithmic", findings[i], laws, bins.logarithmic,
+                edges_of(0, Bins::kLogarithmic, [&](int bin) { return bins.log_edge(bin); }));
+    append_rows(text, place + "linear", findings[i], laws, bins.linear,
+                edges_of(1, Bins::kLinear, [&](int bin) { return bins.linear_edge(bin); }));
   }
   return text;
 }

@@ -111,6 +111,46 @@ TEST_CASE("Flights: JSON, CSV and a picture", "[flights][flights_command]") {
   CHECK(contains(folder.read("picture.svg"), "<svg"));
 }
 
+// The sum of the counts of the histogram's rows, and the last survival among its rows.
+struct Histogram {
+  std::uint64_t sum = 0;
+  double last_survival = 1;
+  std::string last_row;
+};
+
+static Histogram histogram_in(const std::string& csv, const std::string& bins) {
+  Histogram read;
+  std::istringstream rows(csv);
+  for (std::string row; std::getline(rows, row);) {
+    if (row.compare(0, bins.size() + 1, bins + ',') != 0) continue;
+    std::istringstream cells(row);
+    std::vector<std::string> cell(7);
+    for (std::string& one : cell) std::getline(cells, one, ',');
+    read.sum += std::stoull(cell[3]);
+    if (!cell[6].empty()) read.last_survival = std::stod(cell[6]);
+    read.last_row = row;
+  }
+  return read;
+}
+
+TEST_CASE("Flights: what lies beyond the last edge has no density in the CSV", "[flights][flights_command]") {
+  const Folder folder;
+  const Run run =
+      folder.lorentz("flights --scene square --radius 0.1 --count 1e5 --json --csv " + folder.file("csv"));
+  REQUIRE(run.status == 0);
+  REQUIRE(contains(run.out, "\"hits\":100000,"));
+  const std::string csv = folder.read("csv");
+  const Histogram linear = histogram_in(csv, "linear"), logarithmic = histogram_in(csv, "logarithmic");
+  CHECK(linear.sum == 100000);
+  CHECK(logarithmic.sum == 100000);
+  // As JSON has it: 64 is an edge of both histograms, and the last of the linear one.
+  const std::string pair = run.out.substr(run.out.find("[64,") + 4);
+  const std::uint64_t longer = std::stoull(pair);
+  CHECK(linear.last_survival == static_cast<double>(longer) / 100000);
+  CHECK(linear.last_row == fmt::format("linear,64,inf,{},,,", longer) +
+                               (contains(csv.substr(0, csv.find('\n')), ": density") ? ",," : ""));
+}
+
 TEST_CASE("Flights: several radii, each as alone", "[flights][flights_command]") {
   const Folder folder;
   for (const std::string from : {"uniform", "surface"}) {
