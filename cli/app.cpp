@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <deque>
 #include <filesystem>
+#include <system_error>
 
 #include <lorentz/exchange.hpp>
 #include "cli/completion.hpp"
@@ -181,6 +182,11 @@ int parse_and_act(CLI::App& app, const Command& program, const NumbersGiven& num
     return kFailed;
   } catch (const std::filesystem::filesystem_error& error) {  // its own text is meant for programmers
     say("{}: {}", error.path1().string(), error.code().message());
+    return kFailed;
+  } catch (const std::system_error& error) {
+    const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
+    say("{}{}", error.code().message(),
+        no_thread ? ": no thread could be started; ask for fewer (--jobs 1), or allow more (ulimit -u)" : "");
     return kFailed;
   } catch (const std::exception& error) {
     say_text(error.what(), Lines::kept);

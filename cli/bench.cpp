@@ -69,7 +69,7 @@ runs::Plan words_of(const report::Manifest& manifest, const Claim& claim) {
 
 BenchPlan plan_of(BenchOptions options) {
   BenchPlan plan;
-  plan.engines = engines_named(options.engines);
+  plan.engines = engines_named(options.engines, options.timeout);
   options.claim.ask(plan.engines);
   plan.seed = options.seed;
   plan.count = options.count;

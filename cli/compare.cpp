@@ -270,7 +270,7 @@ void race_all(const CompareOptions& options, const std::vector<Question>& questi
 }
 
 int act(CompareOptions options) {
-  std::vector<EngineInfo> engines = engines_named(options.engines);
+  std::vector<EngineInfo> engines = engines_named(options.engines, options.timeout);
   if (engines.empty() && options.answers.empty()) engines = engines_named({"classical", "published"});
   check(options, engines);
   options.claim.ask(engines);

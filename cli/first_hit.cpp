@@ -101,7 +101,7 @@ int jobs_of(const FirstHitOptions& options, const EngineInfo& engine) {
 }
 
 int act_on_columns(const FirstHitOptions& options, ColumnOrder::Format format) {
-  const EngineInfo engine = engine_named(options.engine);
+  const EngineInfo engine = engine_named(options.engine, options.timeout);
   const std::string option = "--format " + options.format;
   if (!engine.is_own())
     throw InputError(option + ": not with cmd: engines and libraries; leave --format out");
@@ -120,7 +120,7 @@ int act_on_columns(const FirstHitOptions& options, ColumnOrder::Format format) {
 }
 
 int act_on_lines(const FirstHitOptions& options) {
-  const EngineInfo engine = engine_named(options.engine);
+  const EngineInfo engine = engine_named(options.engine, options.timeout);
   AnswererOptions answerer_options{request_of(options, engine)};
   answerer_options.listener = terminal();
   answerer_options.strict = options.strict;

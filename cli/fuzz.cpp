@@ -209,7 +209,7 @@ int act(const FuzzOptions& options) {
   const unsigned jobs = bounds_of(options).jobs;
   const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
   const question::MakeAnswerer make_answerer =
-      fuzz::answerer_maker(question::engine_named(options.engine), {{}, timeout, terminal()});
+      fuzz::answerer_maker(question::engine_named(options.engine, options.timeout), {{}, timeout, terminal()});
   const std::unique_ptr<fuzz::Ranks> ranks =
       runs::join<fuzz::Ranks>("--jobs, or --shard and `lorentz fuzz merge`");
   if (!ranks) return run_campaign(options, plan, make_answerer, nullptr);

@@ -325,7 +325,7 @@ std::string faults_page(const std::string& engine, const std::vector<SetTally>& 
 }
 
 int act(CheckOptions options) {
-  const std::vector<EngineInfo> engines = engines_named(options.engines);
+  const std::vector<EngineInfo> engines = engines_named(options.engines, options.timeout);
   if (engines.empty()) throw InputError("--engine: name one (" + names_for_help() + ")");
   if (const auto option = options.files.first_option(); option && engines.size() > 1)
     throw InputError(*option + ": is of one engine; name one");

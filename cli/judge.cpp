@@ -138,7 +138,7 @@ std::string command_of(const JudgeOptions& o) {
 
 JudgeOrder order_of(JudgeOptions options) {
   JudgeOrder order;
-  order.engine = question::engine_named(options.engine);
+  order.engine = question::engine_named(options.engine, options.timeout);
   order.introduction = options.claim.ask({order.engine}).front();
   order.command = command_of(options);
   order.quick = options.quick;

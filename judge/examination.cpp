@@ -61,8 +61,8 @@ Examination::Start Examination::warm_up() {
     longest = std::max(longest, last = ask({question}));
     if (!answerer_->failed()) continue;
     ExaminedRow row{"first question", "an empty place in the square lattice, before anything else"};
-    if (replies_.empty())
-      replies_.push_back({Answer::error("the engine gave no answer while there was time"), Origin::fault});
+    if (replies_.empty() || !replies_[0].was_asked())
+      replies_ = {{Answer::error("the engine gave no answer while there was time"), Origin::fault}};
     take(question, replies_[0], row);
     rows_.push_back(std::move(row));
     break;
@@ -158,7 +158,10 @@ std::optional<Example> Examination::departing(const Question& question, const Re
 }
 
 void Examination::take(const Question& question, const Reply& reply, ExaminedRow& row) {
-  if (!reply.was_asked()) return leave(*question.place, row);
+  if (!reply.was_asked()) {
+    if (!is_over()) leave(*question.place, row);
+    return;
+  }
   const Judgement judgement = judgement_of(question, reply);
   if (reply.is_fault()) last_fault_ = reply.answer.message;
   const auto example = departing(question, reply, judgement);
@@ -199,7 +202,7 @@ std::optional<Example> Examination::example_of(const Question& question) {
 
 Examination::Repeated Examination::repeat(const Question& question, std::size_t copies, Diagnosis like) {
   ask(std::vector<Question>(copies, question));
-  Repeated repeated{{}, replies_.size() == copies};
+  Repeated repeated{{}, std::ranges::all_of(replies_, &Reply::was_asked)};
   for (std::size_t i = 0; i < replies_.size() && !repeated.failed; ++i) {
     const auto example = departing(question, replies_[i]);
     if (example && example->diagnosis.cause == like.cause && example->diagnosis.severity == like.severity)

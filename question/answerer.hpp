@@ -33,8 +33,8 @@ struct AnswererOptions {
   /// its first answer may take `timeout` plus twice the time of the slowest start so far, but no more than
   /// this.
   double start_timeout = 0;
-  /// Called often during a wait for an external engine. Once it returns true, the wait stops: open queries
-  /// get no answer, and the program is ended.
+  /// Called at least every 0.1 s during a wait for an external engine. Once it returns true, the engine's
+  /// process group is killed, and its open queries, and those asked later, are `not_asked`.
   std::function<bool()> enough = {};
 };
 
@@ -47,7 +47,7 @@ enum class Origin {
   engine,
   bad_line,  ///< a fault: it wrote an invalid line in place of the answer
   fault,     ///< another fault: it died, fell silent, or left the query out
-  not_asked
+  not_asked  ///< or asked, and not waited for
 };
 
 /// An answer, and what else an answerer reports about it.

@@ -9,11 +9,13 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <set>
 
 #include <lorentz/exchange.hpp>
 #include "question/external_answerer.hpp"
+#include "question/library_program.hpp"
 #include "question/process.hpp"
 #include "src/exchange/json_writer.hpp"
 #include "src/problem/safe_text.hpp"
@@ -21,12 +23,13 @@
 namespace lorentz::question {
 namespace {
 
-constexpr std::size_t kWindow = 4096;              // the largest number of queries in flight
-constexpr std::size_t kWrittenAtOnce = 65536;      // queries are written out in pieces of this size
-constexpr std::size_t kAskedBetweenSteps = 256;    // because a step costs a few microseconds
-constexpr double kPatience = 0.5;                  // seconds
-constexpr double kBetweenLooks = 0.1;              // seconds between calls of AnswererOptions::enough
-constexpr std::chrono::milliseconds kGrace{1000};  // to end, once its input or its output is closed
+constexpr std::size_t kWindow = 4096;                 // the largest number of queries in flight
+constexpr std::size_t kWrittenAtOnce = 65536;         // queries are written out in pieces of this size
+constexpr std::size_t kAskedBetweenSteps = 256;       // because a step costs a few microseconds
+constexpr double kPatience = 0.5;                     // seconds
+constexpr double kBetweenLooks = 0.1;                 // seconds between calls of AnswererOptions::enough
+constexpr std::chrono::milliseconds kGrace{1000};     // to end, once its input or its output is closed
+constexpr std::chrono::milliseconds kLastGrace{250};  // the same if it is enough
 constexpr std::size_t kRecent = 64;
 
 std::string shown(std::string_view text) {
@@ -51,19 +54,33 @@ std::uint64_t number_of(const Id& id) {
 // line by line, the query at fault is the first without an answer. If it holds answers back, some of them
 // were lost with it. Then the next start gets only one query, the one after that two, ...; the input of each
 // is closed at once, and the query at fault is the one on which the program fails alone.
+//
+// A library is asked by a program of ours, whose manner is known: it answers all that it has been asked, many
+// queries a call. The query at fault is one on which it fails as the first after a start. So after a failure
+// the next start gets the same queries, one a call.
 class CommandEngine final : public ExternalAnswerer {
  public:
-  CommandEngine(std::string command, const AnswererOptions& options)
-      : ExternalAnswerer("cmd", command, options),
-        command_(std::move(command)),
+  /// Makes the program; `row_by_row`: of a library (library_program).
+  using MakeProgram = std::function<Executable(bool row_by_row)>;
+
+  CommandEngine(MakeProgram program, const std::string& kind, const std::string& name,
+                const AnswererOptions& options)
+      : ExternalAnswerer(kind, name, options),
+        program_(std::move(program)),
+        is_library_(kind == "lib"),
+        manner_(is_library_ ? Manner::line_by_line : Manner::unknown),
         patience_(std::min(kPatience, options.timeout / 4)),
         first_patience_(patience_) {
     reader_.on_unknown_key([this](const std::string& key) { see_unknown_key(key); });
+    if (is_library_) own_time_.emplace();
   }
 
   void ask(const Id& id, const Query& query) override { add({id, query, scene_}); }
 
-  void ask_text(const Id& id, const std::string& question) override { add({id, {}, scene_, question}); }
+  void ask_text(const Id& id, const std::string& question) override {
+    if (is_library_) return Answerer::ask_text(id, question);
+    add({id, {}, scene_, question});
+  }
 
   void drain() override {
     while (!open_.empty()) step(Wait::for_all);
@@ -115,7 +132,7 @@ class CommandEngine final : public ExternalAnswerer {
 
   // One life of the program.
   struct Run {
-    explicit Run(const std::string& command) : process(command) {}
+    explicit Run(const Executable& program) : process(program) {}
 
     Process process;
     LineBuffer lines;
@@ -127,6 +144,7 @@ class CommandEngine final : public ExternalAnswerer {
     std::uint64_t first_of_scene = 0;  // number of the first query after the last scene line
     bool greeting = false;             // it has one query only, to see whether it answers with more to come
     bool ending = false;               // gets no more queries; its input is closed as soon as all is written
+    std::string doing;                 // what a library does, if that is not to answer
     bool told_for_silence = false, stopped_reading = false, at_end = false;
     bool has_ended = false;          // and its processor time is counted
     std::string instead;             // what it wrote where the first outstanding answer should have been
@@ -182,21 +200,21 @@ class CommandEngine final : public ExternalAnswerer {
   }
 
   void start() {
-    run_ = std::make_shared<Run>(command_);
-    run_->greeting = manner_ == Manner::unknown && limit_ == kNoLimit;
+    run_ = std::make_shared<Run>(program_(limit_ != kNoLimit));
+    run_->greeting = (manner_ == Manner::unknown || is_library_) && limit_ == kNoLimit;
+    if (is_library_) run_->doing = "loads";
   }
 
-  // A program that owes nothing gets time to end by itself. Being too slow for the available time is not a
-  // fault, unless it never gave any answer.
+  // A program that owes nothing gets a little time to end by itself. Being too slow for the available time is
+  // not a fault, unless it never gave any answer.
   void abandon() {
     const bool owes = run_ && run_->outstanding > 0;
     if (owes && !ever_answered_)
       complain_of(&open_.front(), fmt::format("gave no answer in {:.3g} s, which was all the time there is",
                                               Seconds(Clock::now() - run_->started).count()));
-    if (run_) end_of(*run_, owes ? kGrace * 0 : kGrace);
+    if (run_) end_of(*run_, owes ? kGrace * 0 : kLastGrace);
     run_.reset();
-    first_number_ += open_.size();
-    open_.clear();
+    while (!open_.empty()) deliver_first(not_awaited());
   }
 
   // Writes queries as text, up to the number that may be given and the size of a piece.
@@ -251,6 +269,7 @@ class CommandEngine final : public ExternalAnswerer {
     run->at_end = result == LineBuffer::Read::end;
     if (result == LineBuffer::Read::nothing) return;
     for (LineReader::Line line; run->lines.next(line);) take_line(line);
+    if (run->lines.is_endless()) return stop_flood();
     if (run->at_end) run_is_over();
   }
 
@@ -320,7 +339,7 @@ class CommandEngine final : public ExternalAnswerer {
     Answer answer;
     std::size_t components = 0;
     try {
-      if (take_own_time(line)) return;
+      if (take_own_time(line) || take_doing(line)) return;
       if (reader_.read_answer_line(line, id, answer, components)) take_answer(id, answer, components);
     } catch (const InputError& error) {
       const std::string what = line.too_long ? "wrote a line that is too long for an answer"
@@ -342,6 +361,14 @@ class CommandEngine final : public ExternalAnswerer {
     return true;
   }
 
+  // `{"library":"prepares"}`
+  bool take_doing(const LineReader::Line& line) {
+    constexpr std::string_view kKey = R"({"library":")", kEnd = R"("})";
+    if (!is_library_ || !line.text.starts_with(kKey) || !line.text.ends_with(kEnd)) return false;
+    run_->doing = line.text.substr(kKey.size(), line.text.size() - kKey.size() - kEnd.size());
+    return true;
+  }
+
   // Takes a line that answers nothing. The next answer shows whether it stands in the place of an answer.
   void take_no_answer(const std::string& what) {
     run_->instead = what;
@@ -350,7 +377,8 @@ class CommandEngine final : public ExternalAnswerer {
 
   void take_answer(const Id& id, Answer& answer, std::size_t components) {
     Run& run = *run_;
-    if (id == "null" && answer.outcome == Outcome::error && run.outstanding > 0) return take_nameless(answer);
+    if (id == "null" && answer.outcome == Outcome::error && run.outstanding > 0)
+      return is_library_ ? take_no_answer(answer.message) : take_nameless(answer);
     const std::uint64_t number = number_of(id);
     if (number == 0 || number >= first_number_ + run.outstanding)
       return take_no_answer("gave an answer with an id that no query has, " + shortened(id, 40));
@@ -362,7 +390,8 @@ class CommandEngine final : public ExternalAnswerer {
     }
     if (run.nameless) tell(fmt::format("says of the scene: {}", printable(run.nameless->message)));
     run.nameless.reset();
-    const std::string flaw = flaw_of_answer(answer, components);
+    const bool is_fault = is_library_ && answer.outcome == Outcome::error && !answer.unsupported;
+    const std::string flaw = is_fault ? answer.message : flaw_of_answer(answer, components);
     if (flaw.empty())
       answer_first(std::move(answer));
     else
@@ -459,7 +488,7 @@ class CommandEngine final : public ExternalAnswerer {
       if (ending.how == Ending::How::still_ran)
         return run_failed("closed its output before this query's answer");
       if (ending.is_good()) return run_failed("ended (exit 0) without an answer to this query");
-      return run_failed(fmt::format("died ({}) on this query", ending.text()));
+      return run_failed(fmt::format("died ({})", ending.text()));
     }
     if (!run->ending)
       complain(fmt::format("ended ({}) before it was told to", ending.text()));
@@ -474,7 +503,10 @@ class CommandEngine final : public ExternalAnswerer {
   // It answered everything. What the run showed is used for the next one.
   void learn_from_run() {
     const Run& run = *run_;
-    if (limit_ != kNoLimit) limit_ = limit_ < kWindow ? 2 * limit_ : kNoLimit;
+    if (!suspicion_.empty())
+      complain(std::exchange(suspicion_, {}) +
+               " where it was asked more than one query, and answers each by itself");
+    if (limit_ != kNoLimit) limit_ = limit_ < kWindow && !is_library_ ? 2 * limit_ : kNoLimit;
     if (!run.told_for_silence || manner_ != Manner::unknown) return;
     // It may only be slow to start. It gets that time once; after that silence counts.
     const double longest = std::max(options_.timeout, options_.start_timeout);
@@ -485,11 +517,18 @@ class CommandEngine final : public ExternalAnswerer {
   }
 
   // It died or fell silent with queries outstanding.
-  void run_failed(const std::string& what) {
+  void run_failed(const std::string& fate) {
     const std::shared_ptr<Run> run = std::move(run_);
     end_of(*run, kGrace * 0);
+    if (run->doing == "releases") return complain(fate + " while it released the scene before");
+    const std::string what = fate + place_of(*run, fate);
     const std::size_t unanswered = run->outstanding;
-    if (manner_ != Manner::line_by_line && unanswered > 1) {
+    if (is_library_ && run->first_answer) {
+      suspicion_ = fate;
+      limit_ = unanswered;
+      return;
+    }
+    if (!is_library_ && manner_ != Manner::line_by_line && unanswered > 1) {
       limit_ = limit_ == kNoLimit ? 1 : unanswered / 2;
       return complain_of(
           &open_.front(),
@@ -497,10 +536,25 @@ class CommandEngine final : public ExternalAnswerer {
                       unanswered - 1));
     }
     pass_over(*run, what);
-    if (limit_ != kNoLimit) limit_ = 1;
+    suspicion_.clear();
+    if (limit_ != kNoLimit) limit_ = is_library_ ? kNoLimit : 1;
     if (!note_failure()) return;
     given_up_in_ = recent_.back().scene;
     give_up();
+  }
+
+  // Where a program failed.
+  static std::string place_of(const Run& run, const std::string& fate) {
+    if (run.doing == "loads") return " while it was loaded";
+    if (run.doing == "prepares") return " while it prepared the scene";
+    return fate.starts_with("died") ? " on this query" : "";
+  }
+
+  void stop_flood() {
+    const std::string what = "wrote a line that has no end and is no answer";
+    if (run_->outstanding > 0) return run_failed(what);
+    complain(what);
+    end_of(*std::exchange(run_, nullptr), kGrace * 0);
   }
 
   // The rest is not asked, up to the next scene: the failures may have been due to this one. The next scene
@@ -520,7 +574,8 @@ class CommandEngine final : public ExternalAnswerer {
     complain(what, *asked->scene, line);
   }
 
-  const std::string command_;
+  const MakeProgram program_;
+  const bool is_library_;
   ExchangeReader reader_;
   std::shared_ptr<const Scene> scene_;
   std::deque<OpenQuery> open_;      // queries without an answer, in order
@@ -528,7 +583,7 @@ class CommandEngine final : public ExternalAnswerer {
   std::deque<OpenQuery> recent_;    // the last ones before, in case it answers one again or late
 
   std::shared_ptr<Run> run_;  // null while there is nothing to ask
-  Manner manner_ = Manner::unknown;
+  Manner manner_;
   const Seconds patience_;        // of silence, before the input of a program of unknown manner is closed
   Seconds first_patience_;        // the same before it answers anything: it may be slow to start
   Seconds slowest_start_{0};      // until a first answer
@@ -536,6 +591,7 @@ class CommandEngine final : public ExternalAnswerer {
   std::string last_words_;        // of former runs
   int silent_runs_ = 0;           // whose last answers came only after the end of their input
   std::size_t limit_ = kNoLimit;  // queries for the next run, during the search for the one at fault
+  std::string suspicion_;         // how a library failed, until it is known on which query
   std::shared_ptr<const Scene> given_up_in_;  // the scene in which it was last given up
 
   std::set<std::string> unknown_keys_;  // that were reported
@@ -543,8 +599,16 @@ class CommandEngine final : public ExternalAnswerer {
 
 }  // namespace
 
-std::unique_ptr<Answerer> command_engine(std::string command, const AnswererOptions& options) {
-  return std::make_unique<CommandEngine>(std::move(command), options);
+std::unique_ptr<Answerer> command_engine(const std::string& command, const AnswererOptions& options) {
+  const auto program = [command](bool) { return shell_command(command); };
+  return std::make_unique<CommandEngine>(program, "cmd", command, options);
+}
+
+std::unique_ptr<Answerer> library_engine(const std::string& file, const AnswererOptions& options) {
+  const auto program = [file, threads = options.jobs](bool row_by_row) {
+    return library_program(file, threads, row_by_row);
+  };
+  return std::make_unique<CommandEngine>(program, "lib", file, options);
 }
 
 }  // namespace lorentz::question

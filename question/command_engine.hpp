@@ -1,5 +1,6 @@
-// `cmd:COMMAND`: an external program as an engine, which reads a query stream and writes an answer stream.
-// docs/command_engines.md says what it is asked and how its faults are treated.
+// `cmd:COMMAND`: an external program as an engine, which reads a query stream and writes an answer stream; and
+// `lib:FILE.so`, a shared library, which a program of ours asks. docs/command_engines.md says what they are
+// asked and how their faults are treated.
 #pragma once
 
 #include <memory>
@@ -11,6 +12,7 @@ namespace lorentz::question {
 
 /// Each query gets one answer, in order: an `error` if the program gives none. A program that dies or falls
 /// silent is started again for the queries after the one at fault.
-std::unique_ptr<Answerer> command_engine(std::string command, const AnswererOptions& options);
+std::unique_ptr<Answerer> command_engine(const std::string& command, const AnswererOptions& options);
+std::unique_ptr<Answerer> library_engine(const std::string& file, const AnswererOptions& options);
 
 }  // namespace lorentz::question

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include <lorentz/certified.hpp>
@@ -13,10 +14,10 @@
 #include <lorentz/walk.hpp>
 #include "question/batch_answerer.hpp"
 #include "question/command_engine.hpp"
-#include "question/library_engine.hpp"
-#include "question/library_process.hpp"
+#include "question/library_program.hpp"
 #include "question/precisions/precisions.hpp"
 #include "src/exchange/nearest_name.hpp"
+#include "src/problem/safe_text.hpp"
 
 namespace lorentz::question {
 
@@ -165,22 +166,41 @@ std::optional<Introduction> read_of(const std::string& name, const Read& read) {
   }
 }
 
-EngineInfo command_named(const std::string& name) {
+EngineInfo command_named(const std::string& name, double seconds) {
   const std::string command = name.substr(kCommand.size());
   if (command.find_first_not_of(" \t\n") == std::string::npos)
     throw InputError("cmd: needs the command that runs the engine behind it");
   EngineInfo engine{name, {}, EngineInfo::Kind::command};
   engine.answerer = [command](const AnswererOptions& options) { return command_engine(command, options); };
-  engine.introduce = [name, command] {
-    return read_of(name, [&] { return introduction_of_command(command); });
+  engine.introduce = [name, command, seconds] {
+    return read_of(name, [&] { return introduction_of_command(command, seconds); });
   };
   return engine;
 }
 
-EngineInfo library_named(const std::string& name) {
+// Loads the library, so that one that cannot be loaded is refused before anything is asked.
+std::string claim_line_of_library(const std::string& name, const std::string& file, double seconds) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw FileError(name + ": there is no such file; lib: is followed by the path of a shared library");
+  const FirstWords said = first_words_of(library_program(file, 1, false), seconds);
+  if (!said.line)
+    throw FileError(
+        fmt::format("{}: {} while it was loaded; mend what it does before its first call", name, said.fate));
+  if (!said.line->starts_with(R"({"id":null,)")) return *said.line;
+  const std::string padded = *said.line + std::string(LineReader::kPadding, ' ');
+  Id id;
+  Answer refusal;
+  std::size_t components = 0;
+  ExchangeReader().read_answer_line({std::string_view(padded).substr(0, said.line->size())}, id, refusal,
+                                    components);
+  throw FileError(fmt::format("{}: {}", name, printable(refusal.message)));
+}
+
+EngineInfo library_named(const std::string& name, double seconds) {
   const std::string file = name.substr(kLibrary.size());
   if (file.empty()) throw InputError("lib: needs the path of a shared library behind it");
-  const std::string claim = claim_line_of_library(file);  // also checks that it can be loaded
+  const std::string claim = claim_line_of_library(name, file, seconds);
   EngineInfo engine{name, {}, EngineInfo::Kind::library};
   engine.answerer = [file](const AnswererOptions& options) { return library_engine(file, options); };
   engine.introduce = [name, claim] { return read_of(name, [&] { return introduction_in(claim); }); };
@@ -189,10 +209,11 @@ EngineInfo library_named(const std::string& name) {
 
 }  // namespace
 
-EngineInfo engine_named(const std::string& name) {
+EngineInfo engine_named(const std::string& name, std::optional<double> timeout) {
+  const double seconds = timeout.value_or(AnswererOptions::kDefaultTimeout);
   if (const EngineInfo* own = own_engine(name)) return *own;
-  if (name.starts_with(kCommand)) return command_named(name);
-  if (name.starts_with(kLibrary)) return library_named(name);
+  if (name.starts_with(kCommand)) return command_named(name, seconds);
+  if (name.starts_with(kLibrary)) return library_named(name, seconds);
   const std::vector<std::string> names = own_names();
   throw InputError(
       fmt::format("no engine is called {}{}; there are {}, cmd:COMMAND for an external program, and "
@@ -212,9 +233,10 @@ std::vector<std::string> names_in(const std::vector<std::string>& arguments) {
   return names;
 }
 
-std::vector<EngineInfo> engines_named(const std::vector<std::string>& arguments) {
+std::vector<EngineInfo> engines_named(const std::vector<std::string>& arguments,
+                                      std::optional<double> timeout) {
   std::vector<EngineInfo> named;
-  for (const std::string& name : names_in(arguments)) named.push_back(engine_named(name));
+  for (const std::string& name : names_in(arguments)) named.push_back(engine_named(name, timeout));
   return named;
 }
 

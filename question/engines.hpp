@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,13 +67,16 @@ std::string names_for_help();
 /// The engine of this program with this name, or null.
 const EngineInfo* own_engine(std::string_view name);
 
-/// An engine of this program, a command, or a library. Throws InputError for an unknown name or an empty
-/// command, FileError for a library that cannot be loaded.
-EngineInfo engine_named(const std::string& name);
+/// An engine of this program, a command, or a library, which is loaded. `timeout`: the seconds that this may
+/// take, and the introduction of either (default: AnswererOptions::kDefaultTimeout; ten seconds for that of a
+/// command). Throws InputError for an unknown name or an empty command, FileError for a library that cannot be
+/// loaded.
+EngineInfo engine_named(const std::string& name, std::optional<double> timeout = {});
 
 /// The engines in arguments like `reduction,published`. Commands and files may contain commas: from `cmd:` or
 /// `lib:` on an argument is taken whole. Throws as engine_named.
-std::vector<EngineInfo> engines_named(const std::vector<std::string>& arguments);
+std::vector<EngineInfo> engines_named(const std::vector<std::string>& arguments,
+                                      std::optional<double> timeout = {});
 
 /// Their names.
 std::vector<std::string> names_of(const std::vector<EngineInfo>& engines);

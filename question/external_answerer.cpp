@@ -9,6 +9,7 @@ namespace lorentz::question {
 namespace {
 
 constexpr std::size_t kMostComplaints = 20;
+constexpr const char* kOthers = "other failures";
 constexpr int kMostFailuresInRow = 5;
 constexpr std::size_t kMostOfScene = 2000;  // bytes of a scene line in a message
 
@@ -24,24 +25,38 @@ void ExternalAnswerer::tell(const std::string& what) const {
   if (options_.listener.message) options_.listener.message(name_ + ": " + what);
 }
 
+bool ExternalAnswerer::is_new(const std::string& what) {
+  std::string kind = what;
+  std::erase_if(kind, [](char c) { return c >= '0' && c <= '9'; });
+  const bool has_room = complaints_.size() < kMostComplaints;
+  Complaint& complaint = complaints_[has_room || complaints_.contains(kind) ? kind : kOthers];
+  if (complaint.what.empty()) complaint.what = has_room ? what : kOthers;
+  return ++complaint.times == 1 && has_room;
+}
+
 void ExternalAnswerer::complain(const std::string& what) {
   failed_ = true;
-  if (++complaints_ <= kMostComplaints) tell(what);
+  if (is_new(what)) tell(what);
 }
 
 void ExternalAnswerer::complain(const std::string& what, const Scene& scene, std::string line) {
+  failed_ = true;
+  if (!is_new(what)) return;
   std::string stream;
-  if (complaints_ < kMostComplaints && told_scene_ != scene) {
+  if (told_scene_ != scene) {
     append_scene_line(stream, scene);
     if (stream.size() > kMostOfScene) stream = shortened(stream, kMostOfScene) + '\n';
     told_scene_ = scene;
   }
   line.pop_back();  // the line end
-  complain(fmt::format("{}:\n{}{}", what, stream, line));
+  tell(fmt::format("{}:\n{}{}", what, stream, line));
 }
 
-void ExternalAnswerer::finish_complaints() const {
-  if (complaints_ > kMostComplaints) tell(fmt::format("{} more failures", complaints_ - kMostComplaints));
+void ExternalAnswerer::finish_complaints() {
+  for (const auto& [kind, complaint] : std::exchange(complaints_, {})) {
+    const std::size_t more = kind == kOthers ? complaint.times : complaint.times - 1;
+    if (more > 0) tell(fmt::format("{} more times: {}", more, complaint.what));
+  }
 }
 
 void ExternalAnswerer::note_answer() {
@@ -51,7 +66,9 @@ void ExternalAnswerer::note_answer() {
 
 bool ExternalAnswerer::note_failure() {
   if (++failures_in_row_ < kMostFailuresInRow) return false;
-  tell(fmt::format("is given up after {} failures in a row without an answer", kMostFailuresInRow));
+  const std::string what =
+      fmt::format("is given up after {} failures in a row without an answer", kMostFailuresInRow);
+  if (is_new(what)) tell(what);
   return given_up_ = true;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -10,8 +11,9 @@
 
 namespace lorentz::question {
 
-/// Reports the first 20 failures, each with a stream that reproduces it, and how many more there were. After
-/// 5 failures without an answer in between the engine is given up.
+/// Reports a failure once, with a stream that reproduces it, and at the end how often it came again; messages
+/// that differ in numbers only are one. At most 20 are reported. After 5 failures without an answer in between
+/// the engine is given up.
 class ExternalAnswerer : public Answerer {
  public:
   bool failed() const final { return failed_; }
@@ -34,7 +36,7 @@ class ExternalAnswerer : public Answerer {
   /// `line`: the query at fault, as in a stream. The scene is reported if it differs from the last time.
   void complain(const std::string& what, const Scene& scene, std::string line);
   /// Must be called after the last failure.
-  void finish_complaints() const;
+  void finish_complaints();
 
   void note_answer();
   /// Notes a query without an answer. True if it was one too many: then the engine is given up.
@@ -44,6 +46,8 @@ class ExternalAnswerer : public Answerer {
 
   Answer error(const std::string& what) const { return Answer::error(kind_ + ' ' + what); }
   Reply not_asked() const;
+  /// For a query that was not waited for, because it was enough.
+  Reply not_awaited() const { return {error("was not waited for: the time was over"), Origin::not_asked}; }
   /// Adds to an answer what is requested and the engine does not give.
   void complete(Answer& answer, const Query& query, const Scene& scene) const;
 
@@ -52,8 +56,15 @@ class ExternalAnswerer : public Answerer {
   std::optional<OwnTime> own_time_;
 
  private:
+  // True the first time.
+  bool is_new(const std::string& what);
+
   const std::string kind_, name_;
-  std::size_t complaints_ = 0;
+  struct Complaint {
+    std::string what;
+    std::size_t times = 0;
+  };
+  std::map<std::string, Complaint> complaints_;  // by the message without its numbers
   std::optional<Scene> told_scene_;
   int failures_in_row_ = 0;
   bool given_up_ = false;

@@ -8,13 +8,13 @@
 #include <cmath>
 
 #include <lorentz/exchange.hpp>
-#include "question/process.hpp"
 #include "src/exchange/exchange_json.hpp"
 
 namespace lorentz::question {
 namespace {
 
-constexpr std::chrono::seconds kToIntroduce{10};
+constexpr double kToIntroduce = 10, kLongest = 1e6;  // seconds
+constexpr std::chrono::milliseconds kToEnd{1000};
 
 // Reads the object that is the line's first member, if that has this key.
 template <class Read>
@@ -70,20 +70,32 @@ std::optional<Introduction> introduction_in(std::string_view line) {
   return is_there ? std::optional(made) : std::nullopt;
 }
 
-std::optional<Introduction> introduction_of_command(const std::string& command) {
-  Process process("{ " + command + "\n} 2>/dev/null");  // its complaints are shown when it is asked queries
+FirstWords first_words_of(const Executable& program, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  Process process(program);
   process.close_input();
   LineBuffer lines;
   LineReader::Line line;
-  const auto until = std::chrono::steady_clock::now() + kToIntroduce;
-  while (!lines.next(line)) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
-    if (left.count() <= 0) return std::nullopt;
-    pollfd output{process.output(), POLLIN, 0};
-    ::poll(&output, 1, static_cast<int>(left.count()));
-    if (lines.read_from(process.output()) == LineBuffer::Read::end && !lines.next(line)) return std::nullopt;
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(std::min(seconds, kLongest)));
+  for (;;) {
+    if (lines.next(line) && line.too_long) return {{}, "wrote a line beyond 1 MiB"};
+    if (line.number > 0) return {std::string(line.text)};
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+    if (left.count() <= 0) return {{}, fmt::format("gave no answer within {:.4g} s", seconds)};
+    pollfd pipes[2] = {{process.output(), POLLIN, 0}, {process.errors(), POLLIN, 0}};
+    ::poll(pipes, 2, static_cast<int>(left.count()));
+    process.pass_on_errors(false);  // its complaints are shown when it is asked queries
+    if (lines.is_endless()) return {{}, "wrote a line without an end"};
+    if (lines.read_from(process.output()) != LineBuffer::Read::end) continue;
+    if (!lines.next(line)) return {{}, fmt::format("died ({})", process.end(kToEnd).text())};
+    return {std::string(line.text)};
   }
-  return introduction_in(line.text);
+}
+
+std::optional<Introduction> introduction_of_command(const std::string& command, double seconds) {
+  const FirstWords said = first_words_of(shell_command(command), std::min(seconds, kToIntroduce));
+  return said.line ? introduction_in(*said.line) : std::nullopt;
 }
 
 std::optional<OwnTime> own_time_in(std::string_view line) {

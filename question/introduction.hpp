@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <lorentz/claim.hpp>
+#include "question/process.hpp"
 
 namespace lorentz::question {
 
@@ -24,9 +25,16 @@ struct Introduction {
 /// InputError for impossible values.
 std::optional<Introduction> introduction_in(std::string_view line);
 
+/// What a program writes first when its input is empty.
+struct FirstWords {
+  std::optional<std::string> line = {};  ///< nothing: it wrote none, or one beyond LineBuffer::kMaxLine
+  std::string fate = {};                 ///< if it wrote none: "died (exit 3)", "gave no answer within 5 s"
+};
+FirstWords first_words_of(const Executable& program, double seconds);
+
 /// The introduction that the program writes when its input is empty. Nothing if it writes none, fails, or
-/// does not end in ten seconds.
-std::optional<Introduction> introduction_of_command(const std::string& command);
+/// takes longer than `seconds`, or than ten seconds.
+std::optional<Introduction> introduction_of_command(const std::string& command, double seconds);
 
 /// The time of an engine's own calls, without pipes and text.
 struct OwnTime {

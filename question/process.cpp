@@ -50,17 +50,17 @@ bool LineBuffer::next(LineReader::Line& line) {
     const void* newline =
         unread > searched_ ? std::memchr(start + searched_, '\n', unread - searched_) : nullptr;
     if (!newline && unread > kMaxLine) {
-      skipping_ = true;
+      skipped_ += unread;
       begin_ = end_;
       searched_ = 0;
       return false;
     }
     searched_ = newline ? 0 : unread;
-    if (!newline && !(at_end_ && (unread > 0 || skipping_))) return false;
+    if (!newline && !(at_end_ && (unread > 0 || skipped_ > 0))) return false;
     const std::size_t length = newline ? static_cast<const char*>(newline) - start : unread;
     begin_ += length + (newline ? 1 : 0);
-    line = {std::string_view(start, skipping_ ? 0 : length), ++number_, skipping_};
-    skipping_ = false;
+    line = {std::string_view(start, skipped_ > 0 ? 0 : length), ++number_, skipped_ > 0};
+    skipped_ = 0;
     searched_ = 0;
     return true;
   }
@@ -155,8 +155,6 @@ struct Undisturbed {
   ~Undisturbed() { pthread_sigmask(SIG_SETMASK, &before, nullptr); }
 };
 
-constexpr int kInherited = 3;
-
 // The new program gets the signal mask `mask`.
 int spawn(const Executable& program, const Pipe& in, const Pipe& out, const Pipe& errors,
           const sigset_t& mask, pid_t& pid) {
@@ -167,7 +165,6 @@ int spawn(const Executable& program, const Pipe& in, const Pipe& out, const Pipe
   posix_spawn_file_actions_adddup2(&actions, in.to_read, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, out.to_write, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, errors.to_write, STDERR_FILENO);
-  if (program.inherited >= 0) posix_spawn_file_actions_adddup2(&actions, program.inherited, kInherited);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
   posix_spawnattr_setsigmask(&attributes, &mask);
   posix_spawnattr_setpgroup(&attributes, 0);
@@ -188,8 +185,18 @@ void kill_programs() {
     if (const pid_t group = slot.load()) kill(-group, SIGKILL);
 }
 
-Process::Process(const std::string& command)
-    : Process(Executable{"cmd:" + command, "/bin/sh", {"sh", "-c", command}}) {}
+Executable shell_command(const std::string& command) {
+  return {"cmd:" + command, "/bin/sh", {"sh", "-c", command}};
+}
+
+FileError cannot_start(const std::string& name) {
+  const int error = errno;
+  const char* const remedy = error == EMFILE ? "; allow more open files (ulimit -n)"
+                             : error == EAGAIN
+                                 ? "; allow more processes (ulimit -u), or ask for fewer (--jobs 1)"
+                                 : "";
+  return FileError(name + ": cannot be started: " + std::strerror(error) + remedy);
+}
 
 Process::Process(const Executable& program) {
   handle_signals_once();
@@ -198,7 +205,7 @@ Process::Process(const Executable& program) {
   const int error = in.is_open() && out.is_open() && errors.is_open()
                         ? spawn(program, in, out, errors, undisturbed.before, pid_)
                         : errno;
-  if (error != 0) throw FileError(program.name + ": cannot be started: " + std::strerror(error));
+  if ((errno = error) != 0) throw cannot_start(program.name);
   replace_group(0, pid_);
   std::swap(input_, in.to_write);
   std::swap(output_, out.to_read);
@@ -212,22 +219,39 @@ Process::~Process() {
   if (errors_ >= 0) close(errors_);
 }
 
-void Process::pass_on_errors() {
+constexpr int kMostErrorPieces = 16;  // of 4096 bytes: what a pipe holds
+
+void Process::pass_on_errors(bool shown) {
   std::array<char, 4096> piece;
   ssize_t count = 0;
-  while (errors_ >= 0 && (count = read(errors_, piece.data(), piece.size())) > 0) {
-    for (ssize_t sent = 0, n = 0; sent < count; sent += n)
+  for (int pieces = 0; errors_ >= 0; ++pieces) {
+    if (pieces == kMostErrorPieces) return;  // a program that never stops must not keep us
+    if ((count = read(errors_, piece.data(), piece.size())) <= 0) break;
+    for (ssize_t sent = 0, n = 0; shown && sent < count; sent += n)
       if ((n = ::write(STDERR_FILENO, piece.data() + sent, static_cast<std::size_t>(count - sent))) <= 0)
         break;
     for (const char c : std::string_view(piece.data(), static_cast<std::size_t>(count))) {
-      if (c != '\n' && line_.size() < kMostWords) line_ += c;
-      if (line_.find_first_not_of(" \t\r\n") != std::string::npos) last_words_ = line_;
-      if (c == '\n') line_.clear();
+      if (c == '\n')
+        end_line();
+      else if (line_.size() < kMostWords)
+        line_ += c;
     }
   }
   if (errors_ < 0 || (count < 0 && (errno == EAGAIN || errno == EINTR))) return;
   close(errors_);
   errors_ = -1;
+}
+
+void Process::end_line() {
+  if (line_.find_first_not_of(" \t\r") != std::string::npos)
+    words_before_ = std::exchange(last_words_, std::exchange(line_, {}));
+  line_.clear();
+}
+
+std::string Process::take_last_words() {
+  end_line();
+  words_before_.clear();
+  return std::exchange(last_words_, {});
 }
 
 void Process::close_input() {
@@ -278,6 +302,13 @@ double seconds_of(pid_t pid, const std::string& stat, pid_t group) {
   return seconds + static_cast<double>(children[0] + children[1]) / tick;
 }
 
+// "Aborted (core dumped)"; some shells name themselves and the command.
+bool is_of_shell(const std::string& words, int status) {
+  if (!WIFEXITED(status) || WEXITSTATUS(status) <= 128) return false;
+  const std::string signal = strsignal(WEXITSTATUS(status) - 128);
+  return words.starts_with(signal) || (words.starts_with("sh: ") && words.find(signal) != std::string::npos);
+}
+
 }  // namespace
 
 double Process::processor_seconds() const {
@@ -316,6 +347,8 @@ Ending Process::end(std::chrono::milliseconds grace) {
   }
   spent_ = std::max(spent_, seconds_of(used.ru_utime) + seconds_of(used.ru_stime));
   pass_on_errors();
+  end_line();
+  if (is_of_shell(last_words_, status)) last_words_ = std::exchange(words_before_, {});
   replace_group(pid_, 0);
   pid_ = -1;
   if (info.si_pid == 0) return {Ending::How::still_ran, 0};

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <lorentz/errors.hpp>
 #include <lorentz/line_reader.hpp>
 
 namespace lorentz::question {
@@ -28,11 +29,15 @@ class LineBuffer {
   /// Gives the next complete line, as LineReader does; after the end also a last line without a line end.
   bool next(LineReader::Line& line);
 
+  /// True if the line that is skipped is so long that it is no mistake in a line.
+  bool is_endless() const { return skipped_ > 16 * kMaxLine; }
+
  private:
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0, searched_ = 0;  // unread: begin_ to end_; searched_: no line end in these
   std::size_t number_ = 0;
-  bool at_end_ = false, skipping_ = false;
+  std::size_t skipped_ = 0;  // of the line that is skipped
+  bool at_end_ = false;
 };
 
 /// How a program ended.
@@ -50,17 +55,19 @@ struct Executable {
   std::string name;  ///< in messages
   std::string file;
   std::vector<std::string> arguments;  ///< the first is the name that the program sees
-  int inherited = -1;                  ///< a descriptor that becomes its number 3; -1: none
 };
+
+/// The command, run by `/bin/sh -c`. (Whether it exists only the shell finds out.)
+Executable shell_command(const std::string& command);
+
+/// Why the program cannot be started, by errno, with the remedy.
+FileError cannot_start(const std::string& name);
 
 /// A program that runs in a process group of its own, with pipes to its standard input and from its standard
 /// output and error. Its standard error is passed on to ours. The group is killed when this object is
 /// destroyed, and when one of the common signals ends this program.
 class Process {
  public:
-  /// Runs the command by `/bin/sh -c`. Throws FileError if no process can be started. (Whether the command
-  /// exists only the shell finds out.)
-  explicit Process(const std::string& command);
   /// Throws FileError if it cannot be started.
   explicit Process(const Executable& program);
   ~Process();
@@ -71,11 +78,13 @@ class Process {
   int output() const { return output_; }  ///< the descriptor to read from, never blocking
   int errors() const { return errors_; }  ///< the same for its standard error; -1 once that has ended
 
-  /// Passes on what it wrote to its standard error, and keeps the last line that is not blank.
-  void pass_on_errors();
+  /// Passes on what it wrote to its standard error, as much as a pipe holds at most, or drops it unless it is
+  /// `shown`, and keeps the last line that is not blank. The line with which the shell reports a signal does
+  /// not count.
+  void pass_on_errors(bool shown = true);
   /// That line, without its end and at most kMostWords bytes of it; empty if there was none since the last
   /// call.
-  std::string take_last_words() { return std::exchange(last_words_, {}); }
+  std::string take_last_words();
   static constexpr std::size_t kMostWords = 300;
 
   /// Processor seconds of its group until now, those of its children to a hundredth; after end(), of the
@@ -91,10 +100,12 @@ class Process {
   Ending end(std::chrono::milliseconds grace);
 
  private:
+  void end_line();
+
   pid_t pid_ = -1;
   int input_ = -1, output_ = -1, errors_ = -1;
-  std::string last_words_, line_;  // line_: the unfinished line
-  double spent_ = 0;               // processor_seconds() at the end
+  std::string line_, last_words_, words_before_;  // the unfinished line; the last two that are not blank
+  double spent_ = 0;                              // processor_seconds() at the end
 };
 
 /// Kills the groups of all running programs. A signal handler may call it.

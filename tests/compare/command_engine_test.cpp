@@ -73,14 +73,19 @@ TEST_CASE("What a program writes to its standard error is passed on, and its las
       folder.lorentz("first-hit --engine 'cmd:echo first >&2; echo \"last one\" >&2; exit 3' " +
                      folder.write("q", stream(1)));
   CHECK(contains(run.err, "first\nlast one\n"));
+  using lorentz::question::shell_command;
   lorentz::question::Process process(
-      "echo first >&2; printf 'last one\\n  \\n' >&2; head -c 400 /dev/zero | tr '\\0' x >&2");
+      shell_command("echo first >&2; printf 'last one\\n  \\n' >&2; head -c 400 /dev/zero | tr '\\0' x >&2"));
   process.end(std::chrono::seconds(60));
   CHECK(process.take_last_words() == std::string(lorentz::question::Process::kMostWords, 'x'));
   CHECK(process.take_last_words().empty());
-  lorentz::question::Process two("echo first >&2; printf 'last one\\n  \\n' >&2");
+  lorentz::question::Process two(shell_command("echo first >&2; printf 'last one\\n  \\n' >&2"));
   two.end(std::chrono::seconds(60));
   CHECK(two.take_last_words() == "last one");
+  // The shell writes another line about a command that a signal ends.
+  lorentz::question::Process aborts(shell_command("sh -c 'echo last one >&2; kill -ABRT $$'; exit $?"));
+  CHECK(aborts.end(std::chrono::seconds(60)).code == 134);
+  CHECK(aborts.take_last_words() == "last one");
 }
 
 TEST_CASE(
@@ -89,7 +94,7 @@ TEST_CASE(
   // 0.2 s by the processor's own clock, in a child of the shell's, which then waits for its input.
   const std::string busy = LORENTZ_PYTHON
       " -I -S -c 'import time\nwhile time.process_time() < 0.2: pass\nprint(flush=True); input()'";
-  lorentz::question::Process process("sleep 0; " + busy + "; true");
+  lorentz::question::Process process(lorentz::question::shell_command("sleep 0; " + busy + "; true"));
   for (lorentz::question::LineBuffer lines;
        lines.read_from(process.output()) == lorentz::question::LineBuffer::Read::nothing;) {
   }
@@ -187,20 +192,22 @@ TEST_CASE("What a program wrote in place of an answer is told of the first that 
   check_all_but_fifth(later.out, no_answer + "\"}");
 }
 
-TEST_CASE("Twenty of many complaints are shown, and the number of the others", "[compare][command_engine]") {
+TEST_CASE("A complaint that comes again is counted, not shown again", "[compare][command_engine]") {
   const Folder folder;
-  for (const int count : {20, 21, 25}) {
+  for (const int count : {1, 2, 25}) {
     const Run run =
         folder.lorentz("first-hit --engine " + silent("stammers") + " " + folder.write("q", stream(count)));
     INFO(count << run.err);
     CHECK(run.status == 3);
-    std::size_t said = 0;
-    for (auto at = run.err.find("again:\n"); at != std::string::npos; at = run.err.find("again:\n", at + 1))
-      ++said;
-    CHECK(said == 20);
-    CHECK(contains(run.err, std::to_string(count - 20) + " more failures\n") == (count > 20));
-    CHECK(contains(run.err, " more failures") == (count > 20));
+    const std::string what = "answered this query again";
+    CHECK(contains(run.err, what + ":\n" + kScene));
+    CHECK(lines(run.err) == (count > 1 ? 4u : 3u));
+    CHECK(contains(run.err, std::to_string(count - 1) + " more times: " + what + "\n") == (count > 1));
   }
+  const Run dies = folder.lorentz("first-hit --engine 'cmd:exit 3' " + folder.write("q", stream()));
+  INFO(dies.err);
+  CHECK(lines(dies.err) == 5);  // with the scene and the query; that it is given up; and the count
+  CHECK(contains(dies.err, "4 more times: died (exit 3) on this query"));
 }
 
 namespace {
@@ -474,6 +481,95 @@ TEST_CASE("A silent program is killed, with all that it started", "[compare][com
                  error_to(5, "cmd was given up after 5 failures in a row; this query was not asked")));
   CHECK(contains(never.err, "is given up after 5 failures in a row"));
   CHECK_FALSE(goes_on_running(pid));
+}
+
+TEST_CASE("A program is not waited for any longer when it is enough, whatever it does",
+          "[compare][command_engine]") {
+  // It answers the first query and then hangs, floods, or goes on to do so behind the shell's back.
+  const std::string first = R"(read -r scene; read -r query; echo '{"id":1,"outcome":"never"}'; )";
+  for (const std::string then :
+       {"exec sleep 1000", "exec yes", "while :; do echo x; done >&2", "tr '\\0' x </dev/zero",
+        "sleep 1000 & wait", "trap '' TERM HUP PIPE; while :; do :; done"}) {
+    lorentz::question::AnswererOptions options;
+    const auto start = std::chrono::steady_clock::now();
+    options.enough = [&] { return seconds_since(start) > 0.5; };
+    const auto program = lorentz::question::engine_named("cmd:" + first + then).answerer(options);
+    std::vector<lorentz::question::Reply> replies;
+    program->on_reply([&](lorentz::question::Reply& reply) { replies.push_back(reply); });
+    program->set_scene(lorentz::unit_scene(2, 0.25));
+    for (int k = 0; k < 5000; ++k) program->ask("null", {{static_cast<double>(k), 0.5, 0}, {1, 1, 0}, {}});
+    program->finish();
+    INFO(then);
+    CHECK(seconds_since(start) < 10);  // 60 is the timeout
+    REQUIRE(replies.size() == 5000);
+    CHECK(replies[0].answer.outcome == lorentz::Outcome::never);
+    for (const std::size_t i : {1, 2, 4999}) {
+      CHECK_FALSE(replies[i].was_asked());
+      CHECK_FALSE(replies[i].is_fault());
+    }
+  }
+}
+
+TEST_CASE("A program that falls silent has its time from its start on", "[compare][command_engine]") {
+  const auto start = std::chrono::steady_clock::now();
+  const Run run = Folder().lorentz("compare --count 3 --timeout 0.5 --engine 'cmd:exec sleep 1000'");
+  CHECK(run.status == 3);
+  CHECK(contains(run.err, "gave no answer within 0.5 s"));
+  CHECK(seconds_since(start) < 9);  // ten is how long it may introduce itself without an option
+}
+
+TEST_CASE("Hostile programs and libraries: every query has a reply, and the end comes",
+          "[compare][command_engine][library_engine]") {
+  const Folder folder;
+  constexpr int kCount = 200;
+  // Runs $FAULT at each query, whose number is $n.
+  const std::string script = folder.write("hostile.sh", R"(eval "$1"
+while read -r line; do
+  case $line in *scene*) continue ;; esac
+  n=$((n + 1))
+  eval "$2"
+  id=${line#*:} && id=${id%%,*}
+  echo "{\"id\":$id,\"outcome\":\"never\"}"
+done
+)");
+  struct Hostile {
+    std::string engine;
+    std::size_t answered;
+  };
+  const auto program = [&](const std::string& first, const std::string& each) {
+    return "'cmd:exec sh " + script + " \"" + first + "\" \"" + each + "\"'";
+  };
+  const std::string at_100 = "test \\$n = 100 && ", library = "lib:" LORENTZ_ODD_LIBRARY;
+  for (const auto& [engine, answered] :
+       std::vector<Hostile>{{program("sleep 1000", ":"), 0},
+                            {program(":", "sleep 1000"), 0},
+                            {program(":", at_100 + "exec sleep 1000"), 198},
+                            {program(":", at_100 + "exec tr 0 x </dev/zero"), 198},
+                            {program(":", at_100 + "exec yes"), 198},
+                            {program(":", at_100 + "kill -9 \\$\\$"), 198},
+                            {program(":", at_100 + "{ sleep 1000 & }"), 200},
+                            {program(":", "echo words >&2"), 200},
+                            {program(":", "sleep 0.002"), 200},
+                            {library + " hangs 0", 199},
+                            {library + " hangs 99", 199},
+                            {library + " floods 99", 199},
+                            {library + " crashes 99", 199},
+                            {library + " hangs-when-loaded", 0},
+                            {library + " hangs-on-scene", 0}}) {
+    const auto blank = engine.starts_with("lib:") ? engine.find(' ') : engine.size();
+    const std::string odd = blank < engine.size() ? engine.substr(blank + 1) : "";
+    const auto start = std::chrono::steady_clock::now();
+    const Run run = folder.run("ODD='" + odd + "' " LORENTZ_PROGRAM " first-hit --timeout 1 --engine " +
+                               engine.substr(0, blank) + " " + folder.write("q", stream(kCount)));
+    INFO(engine << "\n" << run.err.substr(0, 1000));
+    CHECK(run.status == (answered == kCount ? 0 : 3));
+    std::size_t errors = 0;
+    for (auto at = run.out.find("\"error\""); at != std::string::npos; at = run.out.find("\"error\"", at + 1))
+      ++errors;
+    if (odd != "hangs-when-loaded") CHECK(lines(run.out) == kCount);
+    CHECK(lines(run.out) - errors == answered);
+    CHECK(seconds_since(start) < 30);
+  }
 }
 
 TEST_CASE("A program that closes its output is not waited for", "[compare][command_engine]") {

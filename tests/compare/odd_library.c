@@ -33,12 +33,40 @@ static void crash(void) {
   raise(SIGSEGV);
 }
 
+/* Its number is told, so that a test sees whether it lives on. */
 static void hang(void) {
+  FILE* file = getenv("ODD_PID") ? fopen(getenv("ODD_PID"), "w") : NULL;
+  if (file) fprintf(file, "%d\n", (int)getpid()), fclose(file);
   for (;;) sleep(1);
+}
+
+/* More than a pipe holds, and more than anybody reads. */
+static const char* much(void) {
+  const size_t size = 200000000;
+  char* const letters = malloc(size + 1);
+  memset(letters, 'x', size);
+  letters[size] = 0;
+  return letters;
+}
+
+/* Into whatever it has open, other than the standard streams. */
+static void flood(void) {
+  static char letters[65536];
+  int i;
+  memset(letters, 'x', sizeof letters);
+  for (;;)
+    for (i = 3; i < 20; ++i)
+      if (write(i, letters, sizeof letters) < 0) continue;
+}
+
+static void complain(int times) {
+  for (; times > 0; --times) fprintf(stderr, "%0100d\n", 7);
 }
 
 __attribute__((constructor)) static void begin(void) {
   if (is_odd("crashes-when-loaded")) crash();
+  if (is_odd("hangs-when-loaded")) hang();
+  if (is_odd("complains-when-loaded")) complain(2000);
 }
 
 int32_t lorentz_engine_interface(void) {
@@ -46,6 +74,7 @@ int32_t lorentz_engine_interface(void) {
 }
 
 const char* lorentz_engine_claim(void) {
+  if (is_odd("claims-much")) return much();
   return "{\"engine\":{\"name\":\"odd\",\"version\":\"1\",\"precision\":\"binary32\"}}";
 }
 
@@ -79,6 +108,11 @@ lorentz_engine* lorentz_engine_prepare(const lorentz_scene* scene, int32_t threa
     return NULL;
   }
   if (is_odd("unsupported")) return NULL;
+  if (is_odd("refuses-at-length")) {
+    *why = much();
+    return NULL;
+  }
+  if (is_odd("hangs-on-scene")) hang();
   if (is_odd("crashes-on-scene") && scene->radii[0] == 0.25) crash();
   if (is_odd("slow-scene")) usleep(500000);
   if (is_odd("noisy")) printf("%0100d\n", 7), fflush(stdout);
@@ -87,6 +121,7 @@ lorentz_engine* lorentz_engine_prepare(const lorentz_scene* scene, int32_t threa
 }
 
 void lorentz_engine_release(lorentz_engine* engine) {
+  if (is_odd("crashes-when-released")) crash();
   if (is_odd("exits-when-released")) exit(engine->dimension);
 }
 
@@ -95,12 +130,14 @@ static void act(double x) {
   if (is_odd("dies-after-calls") && answered >= at()) exit(6);
   if (is_odd("crashes-always")) crash();
   if (is_odd("hangs-always")) hang();
+  if (is_odd("complains")) complain(1);
   if (x != at()) return;
   if (is_odd("crashes")) crash();
   if (is_odd("aborts")) abort();
   if (is_odd("exits")) exit(3);
   if (is_odd("ends")) exit(0);
   if (is_odd("hangs")) hang();
+  if (is_odd("floods")) flood();
 }
 
 static void answer(const lorentz_queries* queries, int64_t i, const lorentz_answers* answers) {
@@ -139,5 +176,4 @@ void lorentz_engine_answer(lorentz_engine* engine, const lorentz_queries* querie
   if (is_odd("backwards"))
     for (i = 0; i < queries->count; ++i)
       if (queries->x[0][i] == at()) crash();
-  if (is_odd("writes-to-queries")) ((double*)queries->x[0])[0] = 0;
 }

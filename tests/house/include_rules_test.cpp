@@ -91,11 +91,12 @@ const std::vector<Room> kHouse{
      {"src/problem", "src/engines/base"},
      {"src/engines/base", "src/engines/published"},
      {"boost/multiprecision/ big_number.hpp"}},
-    // The process that a foreign library is loaded in: the standard library, and the interface in C.
+    // The process that a foreign library is loaded in: the formats, and the interface in C.
     {"question/library_host",
-     {},
-     {},
-     {"dlfcn.h main.cpp", "fcntl.h main.cpp", "sys/mman.h main.cpp", "unistd.h main.cpp"}},
+     {"src/problem", "src/exchange"},
+     {"src/problem", "src/exchange"},
+     {"dlfcn.h main.cpp", "fcntl.h main.cpp", "poll.h main.cpp", "pthread.h main.cpp", "signal.h main.cpp",
+      "unistd.h main.cpp"}},
     {"question",
      {"src/problem", "src/exchange", "src/engines/base", "src/engines/reduction", "src/engines/batch",
       "oracle", "oracle/margin", "oracle/walk", "oracle/certified", "oracle/certified_batch"},
