@@ -1,10 +1,17 @@
 // lorentz fuzz: runs or resumes a campaign, and reports.
 #include "cli/fuzz.hpp"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
+#include <cstdio>
 #include <limits>
 #include <map>
+#include <mutex>
+#include <thread>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
@@ -28,6 +35,7 @@ using fuzz::Kind;
 using fuzz::Store;
 
 constexpr double kDefaultSecondsALine = 60;
+constexpr double kShareOfStart = 0.5;  // the largest, of the time, for loading an engine
 
 int exit_status(const FuzzReport& report, bool times, bool answerer_failed) {
   if (answerer_failed) return kFailed;
@@ -110,15 +118,18 @@ Opened opened(Store& store, const fuzz::Plan& plan, const FuzzOptions& options) 
 class JournalWithProgress final : public fuzz::Journal {
  public:
   JournalWithProgress(Store& store, std::int64_t campaign, const fuzz::Bounds& bounds, std::size_t targets,
-                      double seconds_a_line)
+                      double seconds_a_line, std::function<void(double silent)> on_end)
       : journal_(store, campaign),
         most_seconds_(bounds.seconds),
         by_time_(bounds.count > kMostCases),
         targets_(targets),
         seconds_a_line_(seconds_a_line),
         next_line_(isatty(STDERR_FILENO) != 1 ? seconds_a_line : std::numeric_limits<double>::infinity()),
-        progress_(by_time_ ? "seconds" : "indices",
-                  by_time_ ? static_cast<std::size_t>(bounds.seconds) : bounds.count * targets, 1) {}
+        on_end_(std::move(on_end)) {
+    progress_.emplace(
+        by_time_ ? "seconds" : "indices",
+        by_time_ ? static_cast<std::size_t>(std::max(bounds.seconds, 0.0)) : bounds.count * targets, 1);
+  }
 
   void record(const cases::Target& target, const fuzz::TargetTally& tally,
               const std::vector<fuzz::Finding>& kept) override {
@@ -126,24 +137,33 @@ class JournalWithProgress final : public fuzz::Journal {
     met = {tally.next, tally.cases, 0};
     for (const auto& [sort, number] : tally.sorts) met.findings += number;
     journal_.record(target, tally, kept);
+    last_record_ = seconds();
   }
 
   void tick() override {
     journal_.tick();
-    const double now = std::chrono::duration<double>(Progress::Clock::now() - start_).count();
+    const double now = seconds();
     std::size_t done = 0;
     for (const auto& [target, met] : met_) done += met.next;
-    progress_.at(by_time_ ? static_cast<std::size_t>(now) : done, [&] { return summary(); });
+    progress_->at(by_time_ ? static_cast<std::size_t>(now) : done, [&] { return summary(); });
     if (now < next_line_) return;
     next_line_ = now + seconds_a_line_;
     const std::string of = std::isfinite(most_seconds_) ? fmt::format(" of {:.0f}", most_seconds_) : "";
     say("{:.0f}{} s: {}", now, of, summary());
   }
 
+  void ended() override {
+    journal_.ended();
+    progress_.reset();  // removes the bar before anything is printed
+    on_end_(seconds() - last_record_);
+  }
+
  private:
   struct Met {
     std::uint64_t next = 0, cases = 0, findings = 0;
   };
+
+  double seconds() const { return std::chrono::duration<double>(Progress::Clock::now() - start_).count(); }
 
   // Like "1234 cases, 5 findings, 7 of 33 targets".
   std::string summary() const {
@@ -162,40 +182,89 @@ class JournalWithProgress final : public fuzz::Journal {
   const bool by_time_;
   const std::size_t targets_;
   const double seconds_a_line_;
-  double next_line_;
-  Progress progress_;
+  double next_line_, last_record_ = 0;
+  const std::function<void(double silent)> on_end_;
+  std::optional<Progress> progress_;
   std::map<std::string_view, Met> met_;  // by target
   Progress::Clock::time_point start_ = Progress::Clock::now();
 };
 
-// Runs the plan with the store and the other processes, and reports.
-int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan,
-                 const question::MakeAnswerer& make_answerer, fuzz::Ranks* ranks) {
-  const Interrupt interrupt;
-  fuzz::Bounds bounds = bounds_of(options);
-  bounds.stop = &Interrupt::came();
-  FailureLedger ledger(options.files, options.files.baseline_text());
-  Store store(options.store.value_or(":memory:"), Store::Access::write, say_left_out);
-  auto [report, campaign, unshrunk] = opened(store, plan, options);
-  bool failed = false;
-  {
-    JournalWithProgress journal(store, campaign, bounds, plan.targets.size(),
-                                options.progress.value_or(kDefaultSecondsALine));
-    failed = fuzz::run(plan, bounds, make_answerer, report.tallies, journal, ranks, unshrunk);
-  }
-  report.findings = findings_of(store, campaign);
-  print(options.json ? report.json() : report.text());
+// Ends the program if this object lives for more than a second: a thread may be at an exact answer of
+// thousands of bits, which nobody waits for once the report is printed.
+class LastResort {
+ public:
+  explicit LastResort(const std::function<void()>& end)
+      : clock_([end](const std::stop_token& in_time) {
+          std::mutex mutex;
+          std::condition_variable_any changed;
+          std::unique_lock lock(mutex);
+          changed.wait_for(lock, in_time, std::chrono::seconds(1), [] { return false; });
+          if (!in_time.stop_requested()) end();
+        }) {}
+
+ private:
+  std::jthread clock_;
+};
+
+// What the end of a campaign left open.
+void say_how_it_ended(const FuzzOptions& options, double silent) {
+  constexpr double kLong = 1;  // seconds
   if (Interrupt::came())
     say("{}; {}", Interrupt::what(),
         options.store ? "this goes on: " + command_of(options)
                       : "without --store nothing is kept to go on with");
-  std::uint64_t cases = 0, indices = 0;
-  for (const fuzz::TargetTally& tally : report.tallies) cases += tally.cases, indices += tally.next;
-  if (cases == 0 && indices > 0 && !plan.scope.is_all()) {
-    say("no case was asked: none of the first indices has a scene for --dimension and --scenes; take a "
-        "larger --count");
+  if (silent >= kLong)
+    say("no answer was judged in the last {:.1f} s: the cases asked then are not counted", silent);
+}
+
+// Says why no case was asked, or none was answered, if that is so.
+std::optional<int> status_of_none(const FuzzReport& report, const fuzz::Plan& plan,
+                                  const fuzz::Bounds& bounds) {
+  std::uint64_t cases = 0;
+  bool is_complete = true;
+  for (const fuzz::TargetTally& tally : report.tallies)
+    cases += tally.cases, is_complete &= tally.next >= bounds.count;
+  if (cases > 0 || (is_complete && plan.scope.is_all())) return std::nullopt;
+  if (is_complete) {
+    say("no case was asked: none of the first {} indices has a scene for --dimension and --scenes; take a "
+        "larger --count",
+        bounds.count);
     return kBadInput;
   }
+  say("no case was judged: the first were still being made or answered at the end{}",
+      Interrupt::came() ? "" : "; take a longer --time");
+  return kFailed;
+}
+
+// Runs the plan with the store and the other processes, and reports.
+int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, fuzz::Bounds bounds,
+                 const question::MakeAnswerer& make_answerer, fuzz::Ranks* ranks) {
+  const Interrupt interrupt;
+  bounds.stop = &Interrupt::came();
+  FailureLedger ledger(options.files, options.files.baseline_text());
+  Store store(options.store.value_or(":memory:"), Store::Access::write, say_left_out);
+  auto [report, campaign, unshrunk] = opened(store, plan, options);
+  std::optional<LastResort> last_resort;
+  const auto on_end = [&, &report = report, campaign = campaign](double silent) {
+    report.findings = findings_of(store, campaign);
+    print(options.json ? report.json() : report.text());
+    say_how_it_ended(options, silent);
+    const int status = exit_status(report, options.times, false);
+    last_resort.emplace([ranks, status] {
+      std::fflush(nullptr);
+      question::kill_programs();
+      if (ranks) ranks->abort(status);
+      std::_Exit(status);
+    });
+  };
+  bool failed = false;
+  {
+    JournalWithProgress journal(store, campaign, bounds, plan.targets.size(),
+                                options.progress.value_or(kDefaultSecondsALine), on_end);
+    failed = fuzz::run(plan, bounds, make_answerer, report.tallies, journal, ranks, unshrunk);
+  }
+  last_resort.reset();
+  if (const auto status = status_of_none(report, plan, bounds)) return *status;
   const int status = exit_status(report, options.times, failed);
   if (Interrupt::came()) return status;
   take_down(report, options.times, ledger);
@@ -204,18 +273,21 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan,
 }
 
 int act(const FuzzOptions& options) {
+  const auto begun = Progress::Clock::now();
   check_files(options);
-  const fuzz::Plan plan = plan_of(options);
-  const unsigned jobs = bounds_of(options).jobs;
+  fuzz::Bounds bounds = bounds_of(options);
   const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
-  const question::MakeAnswerer make_answerer =
-      fuzz::answerer_maker(question::engine_named(options.engine, options.timeout), {{}, timeout, terminal()});
+  const question::EngineInfo engine =
+      question::engine_named(options.engine, std::min(timeout, kShareOfStart * bounds.seconds));
+  const fuzz::Plan plan = plan_of(options, engine);
+  const question::MakeAnswerer make_answerer = fuzz::answerer_maker(engine, {{}, timeout, terminal()});
   const std::unique_ptr<fuzz::Ranks> ranks =
       runs::join<fuzz::Ranks>("--jobs, or --shard and `lorentz fuzz merge`");
-  if (!ranks) return run_campaign(options, plan, make_answerer, nullptr);
+  bounds.seconds -= std::chrono::duration<double>(Progress::Clock::now() - begun).count();
+  if (!ranks) return run_campaign(options, plan, bounds, make_answerer, nullptr);
   try {
-    if (ranks->rank() == 0) return run_campaign(options, plan, make_answerer, ranks.get());
-    ranks->work(plan, jobs, make_answerer);
+    if (ranks->rank() == 0) return run_campaign(options, plan, bounds, make_answerer, ranks.get());
+    ranks->work(plan, bounds.jobs, make_answerer);
     return kDone;
   } catch (const std::exception& error) {  // so that no rank waits for one that has ended
     say("{}", error.what());

@@ -33,7 +33,7 @@ std::vector<Option> rows_of(FuzzOptions& options);
 
 /// The plan, bounds and manifest that the options describe. Each throws InputError with the option's name if
 /// the options are invalid.
-fuzz::Plan plan_of(FuzzOptions options);
+fuzz::Plan plan_of(FuzzOptions options, const question::EngineInfo& engine);
 fuzz::Bounds bounds_of(const FuzzOptions& options);
 fuzz::CampaignManifest manifest_of(const fuzz::Plan& plan, const std::string& engine);
 

@@ -69,9 +69,8 @@ std::vector<const cases::Target*> targets_of(const FuzzOptions& options) {
 
 }  // namespace
 
-fuzz::Plan plan_of(FuzzOptions options) {
+fuzz::Plan plan_of(FuzzOptions options, const question::EngineInfo& engine) {
   fuzz::Plan plan;
-  const question::EngineInfo engine = question::engine_named(options.engine, options.timeout);
   plan.seed = options.seed;
   plan.scope = scope_of(options);
   plan.targets = within(plan.scope, plan.seed, !options.targets.empty(), targets_of(options));

@@ -107,14 +107,14 @@ std::function<void(const std::string&)> clock_of(double seconds) {
 }
 
 // Shows the current row.
-std::function<void(const std::string&)> rows_shown(NumberFormat precision) {
+std::function<void(const std::string&)> rows_shown(const JudgeOrder& order) {
   struct RowBar {
-    explicit RowBar(NumberFormat precision) : bar("judging (rows)", judge::number_of_rows(precision), 1) {}
+    explicit RowBar(std::size_t rows) : bar("judging (rows)", rows, 1) {}
     Progress bar;
     std::string last = {};
     std::size_t begun = 0;
   };
-  return [rows = std::make_shared<RowBar>(precision)](const std::string& row) {
+  return [rows = std::make_shared<RowBar>(judge::number_of_rows(order))](const std::string& row) {
     if (row != rows->last) ++rows->begun, rows->last = row;
     rows->bar.at(rows->begun - 1, [&] { return row; });
   };
@@ -138,12 +138,15 @@ std::string command_of(const JudgeOptions& o) {
 
 JudgeOrder order_of(JudgeOptions options) {
   JudgeOrder order;
-  order.engine = question::engine_named(options.engine, options.timeout);
-  order.introduction = options.claim.ask({order.engine}).front();
-  order.command = command_of(options);
   order.quick = options.quick;
   order.time = options.seconds;
   order.questions = options.questions;
+  constexpr double kShareOfStart = 0.5;  // the largest, of the time, for loading an engine
+  const double timeout = options.timeout.value_or(question::AnswererOptions::kDefaultTimeout);
+  order.engine = question::engine_named(
+      options.engine, order.questions ? timeout : std::min(timeout, kShareOfStart * order.seconds()));
+  order.introduction = options.claim.ask({order.engine}).front();
+  order.command = command_of(options);
   order.seed = options.seed;
   order.jobs = static_cast<unsigned>(options.jobs);
   order.ulps = options.ulps.value_or(oracle::kDefaultUlps);
@@ -186,7 +189,7 @@ int act(const JudgeOptions& options) {
   FailureLedger ledger(options.files, known);
   order.on_judged = ledger_of(options, ledger);
   const Interrupt interrupt;
-  order.on_progress = order.questions ? rows_shown(order.claim.precision) : clock_of(order.seconds());
+  order.on_progress = order.questions ? rows_shown(order) : clock_of(order.seconds());
   const JudgeReport report = judge::judged(order, Interrupt::came());
   order.on_progress = {};  // removes the bar before anything is printed
   print(options.json ? report.json() : report.text());
@@ -195,7 +198,7 @@ int act(const JudgeOptions& options) {
   if (!Interrupt::came()) {
     for (const judge::ExaminedRow& row : report.rows) ledger.end(row.name);
     ledger.finish(options.engine);
-    if (report.is_broken() || report.rows_given_up() > 0) return kFailed;
+    if (report.is_broken() || report.rows_given_up() + report.rows_too_slow() > 0) return kFailed;
     if (ledger.has_baseline()) return ledger.new_failures() > 0 ? kDisagreement : kDone;
     return baseline ? status_against(*baseline, report, options) : exit_status(report, options);
   }
@@ -215,9 +218,11 @@ Command judge_command() {
           {"--quick", &options->quick, "", "20 seconds instead of two minutes, and fewer drawn flights",
            kPlain, "--questions"},
           {"--time", Positive{&options->seconds}, "SECONDS",
-           "about how long the run takes; each part takes its share (default: 124; with --quick 19.5)"},
+           "how long the run takes, the engine's start included; each part takes its share (default: 124; "
+           "with "
+           "--quick 19.5)"},
           {"--questions", Whole{&options->questions, 1, 1'000'000'000}, "N",
-           "asks N questions of each row, whatever the time: every machine asks the same", kToldDefault,
+           "asks N questions of each row, however long that takes: every machine asks the same", kToldDefault,
            "--time"},
           {"--seed", Whole{&options->seed}, "N", "of all that is drawn"},
           {"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads of the campaign; all else is asked on one",
@@ -227,8 +232,10 @@ Command judge_command() {
           options->claim.precision_row(),
           options->claim.time_tolerance_row(),
           {"--timeout", Positive{&options->timeout}, "SECONDS",
-           "how long a cmd: or lib: engine may be silent while it owes answers (default: a tenth of the "
-           "whole time, but at least 2 and at most 60; with --questions 60; for its first answer 60)"},
+           "how long a cmd: or lib: engine may be silent while it owes answers, or is loaded; a longer "
+           "silence is a failure (default: 60 with --questions; else a tenth of the whole time, but at least "
+           "2 "
+           "and at most 60, and 60 for its first answer: one that is silent for longer is too slow to ask)"},
           {"--html", &options->html, "FILE", "write the report there as a page, whole or not at all",
            kOutput},
           {"--golden", &options->golden, "FILE",
@@ -248,7 +255,9 @@ Command judge_command() {
       },
 
       "docs/judge.md says what is asked, and what the verdict means. Exit status 1: an answer is wrong, or "
-      "a valid question was called an error;\n3: a cmd: or lib: engine broke, or was given up in a scene.\n"
+      "a valid question was called an error;\n3: a cmd: or lib: engine broke, or was given up or too slow in "
+      "a "
+      "scene.\n"
       "Example:\n  lorentz judge --quick --engine 'cmd:python3 examples/naive_engine.py'",
       [options] { return act(*options); }};
 }

@@ -18,10 +18,10 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// The number of questions that are asked together. They should take kSecondsAtOnce, because time limits are
-// only checked in between. The number stays small, because an engine that is fast here can take a second per
-// question in the next scene.
-constexpr std::size_t kFewestAtOnce = 4, kMostAtOnce = 32;
+// The number of questions that are asked together: always the same if they are counted, because scenes are
+// left in between. Else they should take kSecondsAtOnce, because time limits are only checked in between. The
+// number stays small, because an engine that is fast here can take a second per question in the next scene.
+constexpr std::size_t kFewestAtOnce = 4, kMostAtOnce = 32, kCountedAtOnce = 16;
 constexpr double kSecondsAtOnce = 0.05;
 
 std::size_t next_number(std::size_t asked, double took) {
@@ -29,6 +29,11 @@ std::size_t next_number(std::size_t asked, double took) {
   const auto most = static_cast<double>(std::min(2 * asked, kMostAtOnce));
   return static_cast<std::size_t>(
       std::clamp(fitting, double{kFewestAtOnce}, std::max(most, double{kFewestAtOnce})));
+}
+
+void set_speed(ExaminedRow& row) {
+  if (row.tally.queries > 0)
+    row.tally.speed.ns_per_query = 1e9 * row.seconds / static_cast<double>(row.tally.queries);
 }
 
 // Number of questions of each row that are examined closely: the features of right answers, and how close the
@@ -75,19 +80,30 @@ double Examination::ask(const std::vector<Question>& questions) {
   replies_.clear();
   answerer_->take_last_words();  // what it wrote about earlier questions is dropped
   const auto start = Clock::now();
-  question::ask_all(question::all_of(questions), *answerer_,
-                    [this](const Question&, Reply& reply) { replies_.push_back(std::move(reply)); });
+  question::ask_all(question::all_of(questions), *answerer_, [this](const Question&, Reply& reply) {
+    has_answered_ |= reply.was_asked() && !reply.is_fault();
+    replies_.push_back(std::move(reply));
+  });
   const double took = seconds_since(start);
   last_words_ = answerer_->take_last_words();
   return took;
 }
 
-void Examination::run(ExaminedRow row, const Source& source, double seconds, const Look& look) {
-  const auto start = Clock::now();
+ExaminedRow& Examination::add(ExaminedRow row) {
+  const auto place = std::ranges::find(rows_, row.name, &ExaminedRow::name);
+  if (place != rows_.end()) return *place;
   row.tally.name = row.name;
+  rows_.push_back(std::move(row));
+  return rows_.back();
+}
+
+void Examination::run(ExaminedRow of, const Source& source, double seconds, const Look& look,
+                      std::size_t most) {
+  const auto start = Clock::now();
+  ExaminedRow& row = add(std::move(of));
+  row.is_exhausted = false;
   answerer_->try_again();
-  double asking = 0;
-  std::size_t at_once = kFewestAtOnce, left = most_.value_or(std::numeric_limits<std::size_t>::max());
+  std::size_t at_once = most_ ? kCountedAtOnce : kFewestAtOnce, left = std::min(most, most_.value_or(most));
   std::vector<Question> questions;
   while (!row.is_exhausted && left > 0 && !is_over() && seconds_since(start) < seconds) {
     questions.clear();
@@ -99,8 +115,8 @@ void Examination::run(ExaminedRow row, const Source& source, double seconds, con
     left -= questions.size();
     if (tell_) tell_(row.name);
     const double took = ask(questions);
-    asking += took;
-    at_once = next_number(questions.size(), took);
+    row.seconds += took;
+    if (!most_) at_once = row.too_slow > 0 ? 1 : next_number(questions.size(), took);
     for (std::size_t i = 0; i < replies_.size(); ++i) {
       if (!most_) questions[i].place->note_time(took / static_cast<double>(replies_.size()));
       take(questions[i], replies_[i], row);
@@ -109,25 +125,21 @@ void Examination::run(ExaminedRow row, const Source& source, double seconds, con
     if (answerer_->given_up() && !questions.empty()) leave(*questions.back().place, row);
     if (answerer_->is_hopeless()) break;
   }
-  if (row.tally.queries > 0)
-    row.tally.speed.ns_per_query = 1e9 * asking / static_cast<double>(row.tally.queries);
-  rows_.push_back(std::move(row));
+  set_speed(row);
 }
 
 void Examination::take_over(const Examination& other) {
-  question::Tally& its = rows_.back().tally;
-  const question::Tally& more = other.rows_.back().tally;
-  const auto time = [](const question::Tally& t) {
-    return t.speed.ns_per_query * static_cast<double>(t.queries);
-  };
-  const double ns = time(its) + time(more);
-  its.add(more);
-  if (const auto theirs = other.rows_.back().max_radii)
-    rows_.back().max_radii = std::max(rows_.back().max_radii.value_or(0), *theirs);
-  rows_.back().nonsense += other.rows_.back().nonsense;
-  rows_.back().scenes_given_up += other.rows_.back().scenes_given_up;
-  if (rows_.back().last_failure.empty()) rows_.back().last_failure = other.rows_.back().last_failure;
-  if (its.queries > 0) its.speed.ns_per_query = ns / static_cast<double>(its.queries);
+  for (const ExaminedRow& more : other.rows_) {
+    ExaminedRow& its = add({.name = more.name, .explanation = more.explanation, .is_hard = more.is_hard});
+    its.tally.add(more.tally);
+    if (more.max_radii) its.max_radii = std::max(its.max_radii.value_or(0), *more.max_radii);
+    its.nonsense += more.nonsense;
+    its.too_slow += more.too_slow;
+    its.seconds += more.seconds;
+    its.scenes_given_up += more.scenes_given_up;
+    if (its.last_failure.empty()) its.last_failure = more.last_failure;
+    set_speed(its);
+  }
   findings_.add(other.findings_);
   for (std::size_t i = 0; i < curves_.size(); ++i) curves_[i].add(other.curves_[i]);
   failed_ |= other.failed();
@@ -166,7 +178,10 @@ void Examination::take(const Question& question, const Reply& reply, ExaminedRow
   if (reply.is_fault()) last_fault_ = reply.answer.message;
   const auto example = departing(question, reply, judgement);
   const bool is_nonsense = example && example->diagnosis.severity == Severity::nonsense;
-  if (is_nonsense)
+  const bool is_slowness = silence_is_slowness_ && has_answered_ && reply.origin == Origin::silent;
+  if (is_slowness)
+    ++row.too_slow, question.place->note_silence();
+  else if (is_nonsense)
     ++row.nonsense;
   else
     row.tally.count(judgement);
@@ -175,7 +190,7 @@ void Examination::take(const Question& question, const Reply& reply, ExaminedRow
   if (example) findings_.add(*example, row.name);
   const auto off = judgement.ulps ? question::radii_off(question, reply.answer) : std::nullopt;
   if (off) row.max_radii = std::max(row.max_radii.value_or(0), *off);
-  if (!question.is_query() || row.tally.queries > kCompared) return;
+  if (!question.is_query() || is_slowness || row.tally.queries > kCompared) return;
   const Features features = features_of(
       question, names_obstacle(question.exact) ? std::optional(question.exact.obstacle) : std::nullopt);
   if (!example && judgement.verdict == Verdict::agree) findings_.add_right(features);

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,8 +51,11 @@ struct ExaminedRow {
   bool is_exhausted = false;                  ///< its source had no more questions that the engine supports
   std::size_t scenes_given_up = 0;  ///< scenes in which an external engine failed until it was given up
   std::string last_failure = {};    ///< in the last of these
+  /// Questions on which an external engine was silent for longer than one may take; not in the tally.
+  std::size_t too_slow = 0;
+  double seconds = 0;  ///< that the answers took
 
-  std::size_t asked() const { return tally.queries + nonsense; }
+  std::size_t asked() const { return tally.queries + nonsense + too_slow; }
 };
 
 class Examination {
@@ -65,8 +69,13 @@ class Examination {
   /// Sets a limit from now on: after `seconds` all is over, and no answer is waited for.
   void limit(double seconds);
 
-  /// From now on each row asks this number of questions, and slow scenes are asked, too.
+  /// From now on each row asks this number of questions, the same ones however long each takes: slow scenes
+  /// are asked, too.
   void ask_exactly(std::size_t questions) { most_ = questions; }
+
+  /// From now on an external engine that has answered before and is silent for too long is too slow for the
+  /// time of this run, which is not a fault: the scene is left.
+  void take_silence_for_slowness() { silence_is_slowness_ = true; }
 
   /// `tell` is called often while rows run, with the name of the row.
   void on_progress(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
@@ -83,11 +92,16 @@ class Examination {
   /// fast. These answers are not counted unless one is missing.
   Start warm_up();
 
-  /// Asks questions for at most `seconds` (later answers only to questions asked before), or until there are
-  /// no more. A scene in which an external engine is given up is left.
-  void run(ExaminedRow row, const Source& source, double seconds, const Look& look = {});
+  /// Adds a row without results, unless there is one of this name.
+  ExaminedRow& add(ExaminedRow row);
 
-  /// Adds the results of the last row of another examination of the same engine to the last row here.
+  /// Asks up to `most` questions for at most `seconds` (later answers only to questions asked before), or
+  /// until there are no more. A scene in which an external engine is given up is left. A row of the same name
+  /// goes on.
+  void run(ExaminedRow row, const Source& source, double seconds, const Look& look = {},
+           std::size_t most = std::numeric_limits<std::size_t>::max());
+
+  /// Adds the results of another examination of the same engine, row by row.
   void take_over(const Examination& other);
 
   /// Asks one question while no row runs, without counting it. Nothing if the answer is not wrong in any way.
@@ -130,6 +144,7 @@ class Examination {
   const Claim claim_;
   const std::atomic<bool>& stop_;
   std::optional<std::size_t> most_;  // questions of a row
+  bool silence_is_slowness_ = false, has_answered_ = false;
   std::optional<Clock::time_point> end_;
   std::function<void(const std::string&)> tell_;
   OnJudged on_judged_;

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "files/scene_file.hpp"
-#include "judge/questions.hpp"
 #include "statistics/theory/laws.hpp"
 
 namespace lorentz::judge {
@@ -106,20 +105,26 @@ report::FreePathCurve FlownScene::curve(const std::string& engine) const {
   return curve;
 }
 
-std::vector<FlownScene> fly_free_paths(Examination& examination, std::uint64_t seed, double seconds) {
-  std::vector<NamedPlace> places;
-  std::vector<FlownScene> flown;
+FreeFlights::FreeFlights(std::uint64_t seed, const Claim& claim) : seed_(seed) {
   for (const auto& [scene, radius] : kWhere) {
-    flown.push_back({scene, radius, {}});
-    places.push_back({flown.back().name(), place_for(read_scene(scene, radius), examination.claim())});
+    flown_.push_back({scene, radius, {}});
+    places_.push_back({flown_.back().name(), place_for(read_scene(scene, radius), claim)});
   }
-  const auto look = [&](const Question& question, const Answer& given) {
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (question.place == places[i].place) flown[i].paths.add(question, given);
+}
+
+Source FreeFlights::source() const {
+  return drawn(places_, starts::Kind::surface, seed_, kFlights);
+}
+
+Look FreeFlights::look() {
+  return [this](const Question& question, const Answer& given) {
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      if (question.place == places_[i].place) flown_[i].paths.add(question, given);
   };
-  examination.run(
-      {"free paths", "from collision to collision: starts on obstacles, by the cosine law", false},
-      drawn(places, starts::Kind::surface, seed, kFlights), seconds, look);
+}
+
+std::vector<FlownScene> FreeFlights::flown() const {
+  std::vector<FlownScene> flown = flown_;
   std::erase_if(flown, [](const FlownScene& scene) { return scene.paths.flights() == 0; });
   return flown;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "judge/examination.hpp"
+#include "judge/questions.hpp"
 #include "report/curves.hpp"
 
 namespace lorentz::judge {
@@ -56,9 +57,23 @@ struct FlownScene {
   report::FreePathCurve curve(const std::string& engine) const;
 };
 
-/// Flies in a few scenes, from collision to collision, for at most `seconds`. Returns the flights of each
-/// scene in which the engine flew.
-std::vector<FlownScene> fly_free_paths(Examination& examination, std::uint64_t seed, double seconds);
+/// Flights from collision to collision, in a few scenes. Source and look refer to this object.
+class FreeFlights {
+ public:
+  FreeFlights(std::uint64_t seed, const Claim& claim);
+  FreeFlights(const FreeFlights&) = delete;
+  FreeFlights& operator=(const FreeFlights&) = delete;
+
+  Source source() const;
+  Look look();
+  /// The flights of each scene in which the engine flew.
+  std::vector<FlownScene> flown() const;
+
+ private:
+  const std::uint64_t seed_;
+  std::vector<NamedPlace> places_;
+  std::vector<FlownScene> flown_;  // in the order of the places
+};
 
 /// Says how far the engine's P(tau > t) is from the exact one in the scene where the distance is largest;
 /// empty if it is exact in all scenes.

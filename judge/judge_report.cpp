@@ -245,17 +245,19 @@ std::vector<std::string> cells_of(const question::Tally& t, std::size_t nonsense
   return cells;
 }
 
-enum class RowState { asked, unsupported, no_time, given_up, other_numbers };
-constexpr const char* kRowStates[] = {"asked", "unsupported", "no time", "given up", "other numbers"};
+enum class RowState { asked, unsupported, no_time, too_slow, given_up, other_numbers };
+constexpr const char* kRowStates[] = {"asked",    "unsupported", "no time",
+                                      "too slow", "given up",    "other numbers"};
 
 RowState state_of(const ExaminedRow& row, const JudgeReport& report) {
   if (row.scenes_given_up > 0) return RowState::given_up;
+  if (row.too_slow > 0) return RowState::too_slow;
   if (row.asked() > 0) return row.tally.unsupported == row.asked() ? RowState::unsupported : RowState::asked;
   // Its scenes had been left before: either all were unsupported, or some were too slow to be asked again.
   const question::Tally all = report.total();
   if (!row.is_exhausted) return RowState::no_time;
   if (all.queries == all.unsupported) return RowState::unsupported;
-  return report.claim.precision == NumberFormat::binary64 ? RowState::no_time : RowState::other_numbers;
+  return report.claim.precision == NumberFormat::binary64 ? RowState::too_slow : RowState::other_numbers;
 }
 
 // A line for each failure: "given up in scenes of: drawn cubic (4), golden ties (20); cmd died (exit 3) .."
@@ -271,7 +273,7 @@ std::string given_up_lines(const JudgeReport& report) {
 }
 
 // "unsupported: drawn ball, golden ties"; nothing if there are no such rows.
-std::string line_of(RowState state, const char* what, const JudgeReport& report) {
+std::string line_of(RowState state, const std::string& what, const JudgeReport& report) {
   std::vector<std::string> names;
   for (const ExaminedRow& row : report.rows)
     if (state_of(row, report) == state) names.push_back(row.name);
@@ -287,6 +289,11 @@ std::string table_of(const JudgeReport& report) {
   table.add(cells_of(total, report.nonsense(), report.max_radii()));
   return table.text() + line_of(RowState::unsupported, "unsupported", report) +
          line_of(RowState::no_time, "not asked, no time", report) +
+         line_of(RowState::too_slow,
+                 fmt::format("too slow to ask (no answer within {:.3g} s, or more than "
+                             "0.1 s each in earlier rows)",
+                             report.timeout),
+                 report) +
          line_of(RowState::other_numbers, "not asked, numbers of another precision", report) +
          given_up_lines(report);
 }
@@ -294,8 +301,9 @@ std::string table_of(const JudgeReport& report) {
 void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& report) {
   const question::Tally& t = row.tally;
   object.add("name", row.name, "explanation", row.explanation, "state",
-             kRowStates[static_cast<int>(state_of(row, report))], "scenes_given_up", row.scenes_given_up,
-             "why", row.scenes_given_up == 0 ? std::nullopt : std::optional(row.last_failure));
+             kRowStates[static_cast<int>(state_of(row, report))], "too_slow", row.too_slow, "scenes_given_up",
+             row.scenes_given_up, "why",
+             row.scenes_given_up == 0 ? std::nullopt : std::optional(row.last_failure));
   object.add("queries", t.queries, "agree", t.agree, "ill_posed", t.ill_posed, "wrong", t.wrong, "wrong_time",
              t.wrong_time, "other_quantity", t.other_quantity, "undecided", t.undecided, "unsupported",
              t.unsupported, "error", t.error, "missing", t.missing, "nonsense", row.nonsense);

@@ -55,6 +55,8 @@ struct JudgeReport : JudgeTerms {
   std::size_t nonsense() const;
   /// Rows in which an external engine was given up.
   std::size_t rows_given_up() const;
+  /// Rows in which it was silent for longer than one may take.
+  std::size_t rows_too_slow() const;
   /// The largest radii_off of all right obstacles.
   std::optional<double> max_radii() const;
   /// True if more than one answer in a hundred is missing.

@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <future>
 
 #include <fmt/format.h>
 
-#include "files/scene_file.hpp"
-#include "golden/find_sets.hpp"
-#include "golden/reader.hpp"
-#include "judge/free_paths.hpp"
-#include "judge/questions.hpp"
+#include <lorentz/geometry.hpp>
+#include "judge/plan.hpp"
 #include "judge/simplest.hpp"
 #include "question/race.hpp"
+#include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::judge {
 
@@ -21,60 +18,13 @@ using starts::Kind;
 
 namespace {
 
-// The longest duration of each part, in seconds, and the number of flights that are drawn.
-struct TimePlan {
-  double drawn, hard, paths, golden, campaign, speed, simplest;
-  std::size_t count;
-  std::optional<std::size_t> questions = {};  // per row, instead of a time
-  double seconds() const { return drawn + hard + paths + golden + campaign + speed + simplest; }
-  /// The same plan, scaled to another total time.
-  TimePlan lasting(double other) const {
-    const double k = other / seconds();
-    return {k * drawn, k * hard, k * paths, k * golden, k * campaign, k * speed, k * simplest, count};
-  }
-  /// `number` questions per row, however long they take. Only the measurement of speed keeps its time.
-  TimePlan asking(std::size_t number) const {
-    constexpr double kEver = 1e7;  // seconds
-    return {kEver, kEver, kEver, kEver, kEver, speed, kEver, number, number};
-  }
-};
-constexpr TimePlan kWhole{15, 8, 3, 24, 58, 4, 12, 4000}, kQuick{4, 2.5, 1, 3.5, 4.5, 1, 3, 500};
-
-// The scenes of the catalogue that are examined, and their radii; scenes without radii keep their own sizes.
-struct Scenery {
-  const char* scene;
-  std::vector<double> radii;
-};
-const std::vector<Scenery> kSceneries{{"square", {0.3, 0.1, 0.01, 0.001, 1e-6}},
-                                      {"cubic", {0.3, 0.1, 0.01, 0.001}},
-                                      {"triangular", {0.1, 0.001}},
-                                      {"oblique", {}},
-                                      {"honeycomb", {}},
-                                      {"fcc", {}},
-                                      {"hcp", {}},
-                                      {"diamond", {}},
-                                      {"superposition-pi-5", {}},
-                                      {"overlapping", {}},
-                                      {"ellipse", {}},
-                                      {"ellipsoid", {}},
-                                      {"ball", {}}};
-
-std::vector<NamedPlace> places_of(const Scenery& scenery, const Claim& claim) {
-  if (scenery.radii.empty()) return {{scenery.scene, place_for(read_scene(scenery.scene, {}), claim)}};
-  std::vector<NamedPlace> places;
-  for (const double radius : scenery.radii)
-    places.push_back({fmt::format("{}, r = {:g}", scenery.scene, radius),
-                      place_for(read_scene(scenery.scene, radius), claim)});
-  return places;
-}
-
 using JudgingClock = std::chrono::steady_clock;
 
 // A stretch of time.
 class Countdown {
  public:
-  explicit Countdown(double seconds)
-      : end_(JudgingClock::now() +
+  explicit Countdown(double seconds, JudgingClock::time_point begun = JudgingClock::now())
+      : end_(begun +
              std::chrono::duration_cast<JudgingClock::duration>(std::chrono::duration<double>(seconds))) {}
   double left() const {
     return std::max(std::chrono::duration<double>(end_ - JudgingClock::now()).count(), 0.0);
@@ -95,74 +45,28 @@ class Shares {
   std::size_t parts_;
 };
 
-// Drawn flights, one row per scene; then two rows of hard flights in all these scenes that have balls.
-std::vector<NamedPlace> fly_drawn(Examination& examination, const TimePlan& plan, std::uint64_t seed) {
-  std::vector<NamedPlace> all;
-  Shares shares(plan.drawn, kSceneries.size());
-  for (const Scenery& scenery : kSceneries) {
-    const std::vector<NamedPlace> places = places_of(scenery, examination.claim());
-    examination.run({fmt::format("drawn {}", scenery.scene), "uniform starts, isotropic directions", false},
-                    drawn(places, Kind::uniform, seed, plan.count), shares.next());
-    all.insert(all.end(), places.begin(), places.end());
-  }
-  Shares hard(plan.hard, 2);
-  examination.run(
-      {"near-rational", "directions along small lattice vectors but for ulps to 2^-40, in these scenes"},
-      drawn(all, Kind::near_rational, seed, 2 * plan.count), hard.next());
-  examination.run({"grazing", "the first ball is passed or met within r 2^-10 to r 2^-52 of its edge"},
-                  drawn(all, Kind::grazing, seed, 2 * plan.count), hard.next());
-  return all;
-}
+constexpr double kEver = 1e7;  // seconds
 
-// The committed sets that an engine is asked about. Sets in binary32 are for engines in binary32 only; for
-// other engines the same families are harder in binary64.
-std::vector<std::string> golden_sets_for(NumberFormat precision) {
-  std::vector<std::string> files = golden::committed_sets();
-  if (precision == NumberFormat::binary64)
-    std::erase_if(
-        files, [&](const std::string& file) { return golden::Reader(file).header().precision != precision; });
-  return files;
-}
-
-void check_golden_sets(Examination& examination, double seconds) {
-  const std::vector<std::string> files = golden_sets_for(examination.claim().precision);
-  Shares shares(seconds, files.size());
-  for (const std::string& file : files) {
-    const golden::Header header = golden::Reader(file).header();
-    ExaminedRow row{"golden " + std::filesystem::path(file).stem().string(), header.description};
-    row.records = header.count;
-    examination.run(std::move(row), golden_set(file, examination.claim()), shares.next());
-  }
-}
-
-// Runs each examination in its own thread, with scenes of its own.
-void run_campaign(Examination& first, const std::vector<std::unique_ptr<Examination>>& others,
-                  const fuzz::Scope& scope, std::uint64_t seed, const TimePlan& plan) {
-  const auto parts = static_cast<unsigned>(1 + others.size());
-  const Fairness fairness = plan.questions ? Fairness::of_scenes : Fairness::of_time;
-  const auto run = [&](Examination& one, unsigned part) {
-    one.run({"campaign", "constructed cases of all families, and variants of the smallest margin"},
-            campaign(seed, scope, fairness, part, parts, one.claim()), plan.campaign);
-  };
-  std::vector<std::future<void>> threads;
-  for (unsigned part = 1; part < parts; ++part)
-    threads.push_back(std::async(std::launch::async, run, std::ref(*others[part - 1]), part));
-  run(first, 0);
-  for (std::future<void>& thread : threads) thread.get();
-  for (const auto& other : others) {
-    other->finish();
-    first.take_over(*other);
-  }
-}
-
-// The order, and how its engine is asked.
+// The order, how its engine is asked, and the time until the end of the run.
 struct Terms {
   const JudgeOrder& order;
   question::AnswererOptions answerer;
   const std::atomic<bool>& stop;
+  const Countdown all;
 
+  // The seconds of a part: all that it needs if questions are counted, except for the measurement of speed.
+  double seconds_of(JudgePart part) const {
+    if (order.questions && part != JudgePart::speed) return kEver;
+    return judge::seconds_of(part, order, all.left());
+  }
+
+  unsigned jobs() const { return order.questions ? 1 : order.jobs; }
   std::unique_ptr<Examination> examination() const {
-    return std::make_unique<Examination>(order.engine, answerer, order.ulps, stop, order.claim);
+    auto one = std::make_unique<Examination>(order.engine, answerer, order.ulps, stop, order.claim);
+    one->limit(all.left());
+    if (order.questions) one->ask_exactly(*order.questions);
+    if (!order.questions && !order.timeout) one->take_silence_for_slowness();
+    return one;
   }
   /// An examination without a listener.
   std::unique_ptr<Examination> silent_examination() const {
@@ -172,8 +76,76 @@ struct Terms {
   }
 };
 
+// ---- Questions
+
+// The length of the flight in lattice vectors; infinite if it does not end.
+double length_of_flight(const Question& question) {
+  if (!question.is_query()) return 0;
+  const Scene& scene = question.place->scene();
+  const bool repeats = std::ranges::any_of(
+      scene.lattices, [&](const Lattice& lattice) { return lattice.rank(scene.dimension) > 0; });
+  if (question.exact.outcome == Outcome::inside || !repeats) return 0;
+  if (question.exact.outcome != Outcome::hit) return std::numeric_limits<double>::infinity();
+  return *question.exact.time * length(question.query.v) / shortest_vector(scene);
+}
+
+// Asks one question of each row, the one with the shortest flight first: an engine that is slow has then
+// answered something everywhere before long flights take all the time.
+void ask_one_each(Examination& examination, JudgePlan& plan, const Terms& terms) {
+  struct First {
+    const PlannedRow* row;
+    Question question;
+    double flight;
+  };
+  std::vector<First> firsts;
+  for (PlannedRow& row : plan.rows())
+    if (const auto question = examination.is_over() ? std::nullopt : row.source())
+      firsts.push_back({&row, *question, length_of_flight(*question)});
+  std::ranges::stable_sort(firsts, {}, &First::flight);
+  for (const First& first : firsts)
+    examination.run(first.row->row, question::all_of({&first.question, 1}), terms.all.left(), first.row->look,
+                    1);
+  examination.run(campaign_row(), plan.campaign(0, terms.jobs()), terms.all.left(), {}, 1);
+}
+
+// The campaign runs in threads, each with an examination and scenes of its own.
+void run_campaign(Examination& first, JudgePlan& plan, const Terms& terms) {
+  const unsigned jobs = terms.jobs();
+  const double seconds = terms.seconds_of(JudgePart::campaign);
+  std::vector<std::unique_ptr<Examination>> others;
+  std::vector<std::future<void>> threads;
+  for (unsigned part = 1; part < jobs; ++part) {
+    others.push_back(terms.examination());
+    threads.push_back(
+        std::async(std::launch::async, [seconds, &its = *others.back(), source = plan.campaign(part, jobs)] {
+          its.run(campaign_row(), source, seconds);
+        }));
+  }
+  first.run(campaign_row(), plan.campaign(0, jobs), seconds);
+  for (std::future<void>& thread : threads) thread.get();
+  for (const auto& other : others) {
+    other->finish();
+    first.take_over(*other);
+  }
+}
+
+// Asks the rows of each part in turn; then the campaign, which depends on what the engine did in them.
+void ask_all(Examination& examination, JudgePlan& plan, const Terms& terms) {
+  for (const PlannedRow& row : plan.rows()) examination.add(row.row);
+  examination.add(campaign_row());
+  if (!terms.order.questions) ask_one_each(examination, plan, terms);
+  for (const JudgePart part : {JudgePart::drawn, JudgePart::hard, JudgePart::paths, JudgePart::golden}) {
+    Shares shares(terms.seconds_of(part), plan.number_of(part));
+    for (const PlannedRow& row : plan.rows())
+      if (row.part == part) examination.run(row.row, row.source, shares.next(), row.look);
+  }
+  run_campaign(examination, plan, terms);
+}
+
+// ---- The simplest case of each finding
+
 void find_simplest(std::vector<Finding>& findings, Examination& examination, double seconds) {
-  examination.limit(seconds);  // also if the questions took too long
+  examination.limit(seconds);
   Shares shares(seconds, findings.size());
   for (Finding& finding : findings) {
     const Question met = finding.simplest.question;
@@ -189,22 +161,21 @@ void find_simplest(std::vector<Finding>& findings, Examination& examination, dou
 }
 
 // Checks whether an external engine goes wrong on a simplest case by itself. Besides its share of the time, a
-// new start gets kForOne times the first start's time until its answer; all starts together get kMost times
-// that.
+// new start gets kForOne times the first start's time until its answer, if there is so much left.
 void recheck_all(std::vector<Finding>& findings, const Terms& terms, double seconds, double first_answer) {
-  constexpr double kForOne = 4, kMost = 10;
-  const Countdown all(seconds + kMost * first_answer);
+  constexpr double kForOne = 4;
   Shares shares(seconds, 2 * findings.size());
   for (Finding& finding : findings)
     if (finding.severity() != Severity::ill_posed)
       judge::recheck(
           finding, [&] { return terms.silent_examination(); },
-          std::min(shares.next() + kForOne * first_answer, all.left()));
+          std::min(shares.next() + kForOne * first_answer, terms.all.left()));
 }
 
 // Finds the simplest case of each finding.
-void simplify(std::vector<Finding>& findings, Examination& examination, const Terms& terms, double seconds,
+void simplify(std::vector<Finding>& findings, Examination& examination, const Terms& terms,
               double first_answer) {
+  const double seconds = terms.seconds_of(JudgePart::simplest);
   if (!terms.order.engine.runs_apart()) return find_simplest(findings, examination, seconds);
   find_simplest(findings, examination, seconds / 2);
   recheck_all(findings, terms, seconds / 2, first_answer);
@@ -243,13 +214,15 @@ std::size_t affordable(const JudgeReport& report, int rounds, double seconds) {
   return static_cast<std::size_t>(std::clamp(1e9 * seconds / rounds / slowest, kFewest, kMost));
 }
 
-void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Terms& terms, double seconds) {
+void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Terms& terms) {
   constexpr int kRounds = 5;
   constexpr double kTooLong = 2;  // times the planned duration
+  const double seconds = terms.seconds_of(JudgePart::speed);
   const std::vector<const NamedPlace*> chosen = places_to_race_in(places);
-  if (chosen.empty()) return;
+  if (chosen.empty() || seconds == 0) return;
   const std::size_t count = affordable(report, kRounds, seconds);
-  const Countdown until(kTooLong * (seconds + report.start_up) + terms.answerer.timeout);
+  const Countdown until(
+      std::min(kTooLong * (seconds + report.start_up) + terms.answerer.timeout, terms.all.left()));
   question::RaceOptions options{kRounds, terms.answerer};
   options.answerer.enough = [&] { return terms.stop || until.left() == 0; };
   const std::vector<question::Speed> speeds =
@@ -270,75 +243,46 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
 
 // If the order has no timeout, it is much longer than any answer should take here, and a small part of the
 // whole time. A program's first answer may take as long as elsewhere.
-question::AnswererOptions options_of(const JudgeOrder& order, const TimePlan& plan) {
+question::AnswererOptions options_of(const JudgeOrder& order) {
   constexpr double kShortest = 2, kPart = 0.1;
   const double most = question::AnswererOptions::kDefaultTimeout;
   question::AnswererOptions options;
-  options.timeout = order.timeout.value_or(std::clamp(kPart * plan.seconds(), kShortest, most));
-  options.start_timeout = most;
+  options.timeout = order.timeout     ? *order.timeout
+                    : order.questions ? most
+                                      : std::clamp(kPart * order.seconds(), kShortest, most);
+  options.start_timeout = order.timeout.value_or(most);
   options.listener = order.listener;
   return options;
 }
 
-// Asks everything in turn; returns the places.
-std::vector<NamedPlace> examine(Examination& examination, const Terms& terms, const TimePlan& plan,
-                                unsigned jobs, JudgeReport& report) {
-  const Countdown all(plan.seconds());
-  std::vector<NamedPlace> places = fly_drawn(examination, plan, report.seed);
-  report.flown = fly_free_paths(examination, report.seed, plan.paths);
-  check_golden_sets(examination, plan.golden);
-  std::vector<std::unique_ptr<Examination>> others;
-  for (unsigned i = 1; i < jobs; ++i) {
-    others.push_back(terms.examination());
-    others.back()->limit(all.left());
-  }
-  run_campaign(examination, others, scope_of(places), report.seed, plan);
-  report.rows = examination.rows();
-  report.findings = examination.findings();
-  report.curves = examination.curves();
-  if (!terms.stop) simplify(report.findings, examination, terms, plan.simplest, report.first_answer);
-  return places;
-}
-
-TimePlan plan_of(const JudgeOrder& order) {
-  const TimePlan& plan = order.quick ? kQuick : kWhole;
-  if (order.questions) return plan.asking(*order.questions);
-  return order.time ? plan.lasting(*order.time) : plan;
-}
-
 }  // namespace
 
-double JudgeOrder::seconds() const {
-  return plan_of(*this).seconds();
-}
-
-std::size_t number_of_rows(NumberFormat precision) {
-  constexpr std::size_t kOthers = 4;  // near-rational, grazing, free paths, campaign
-  return kSceneries.size() + golden_sets_for(precision).size() + kOthers;
+std::size_t number_of_rows(const JudgeOrder& order) {
+  return JudgePlan(order).rows().size() + 1;
 }
 
 JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
-  const TimePlan plan = plan_of(order);
-  const Terms terms{order, options_of(order, plan), stop};
+  const Terms terms{order, options_of(order), stop,
+                    order.questions ? Countdown(kEver) : Countdown(order.seconds(), order.begun)};
   JudgeReport report{order};
   report.timeout = terms.answerer.timeout;
   const std::unique_ptr<Examination> examination = terms.examination();
-  if (plan.questions) {
-    examination->ask_exactly(*plan.questions);
-    examination->on_judged(order.on_judged);
-  }
+  if (order.questions) examination->on_judged(order.on_judged);
   examination->on_progress(order.on_progress);
-  examination->limit(plan.seconds());
   const Examination::Start start = examination->warm_up();
   report.start_up = start.start_up, report.first_answer = start.first_answer;
-  if (!examination->is_over()) examination->limit(plan.seconds());
-  const std::vector<NamedPlace> places =
-      examine(*examination, terms, plan, plan.questions ? 1 : order.jobs, report);
+  JudgePlan plan(order);
+  ask_all(*examination, plan, terms);
+  report.flown = plan.flown();
+  report.rows = examination->rows();
+  report.findings = examination->findings();
+  report.curves = examination->curves();
+  if (!stop) simplify(report.findings, *examination, terms, report.first_answer);
   report.misbehaved = examination->failed();
   examination->on_progress({});
   examination->finish();
   report.was_stopped = stop;
-  if (!stop && !report.is_broken()) race(report, places, terms, plan.speed);
+  if (!stop && !report.is_broken()) race(report, plan.places(), terms);
   return report;
 }
 

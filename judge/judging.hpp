@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -13,7 +14,7 @@ namespace lorentz::judge {
 /// What to examine, and how.
 struct JudgeOrder : JudgeTerms {
   bool quick = false;               ///< fewer flights in less time
-  std::optional<double> time = {};  ///< approximate seconds in all; nothing: the usual time
+  std::optional<double> time = {};  ///< seconds in all; nothing: the usual time
   /// The number of questions of each row, instead of a time: every machine asks the same.
   std::optional<std::size_t> questions = {};
   unsigned jobs = 1;                   ///< threads of the campaign; one if questions are counted
@@ -21,13 +22,15 @@ struct JudgeOrder : JudgeTerms {
   question::Listener listener = {};
   std::function<void(const std::string& row)> on_progress = {};  ///< called often, with the name of the row
   OnJudged on_judged = {};  ///< called for each answer, if questions are counted
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< of the time
 
-  /// Approximate duration; meaningless if questions are counted.
+  /// Duration from `begun` on; meaningless if questions are counted. Only an engine of this program or of the
+  /// caller, which cannot be interrupted, makes the run longer.
   double seconds() const;
 };
 
 /// The number of rows of a report.
-std::size_t number_of_rows(NumberFormat precision);
+std::size_t number_of_rows(const JudgeOrder& order);
 
 /// The full report on the engine; once `stop` is set, what was found until then. Throws FileError without the
 /// catalogue or the golden sets.

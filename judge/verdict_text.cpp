@@ -154,7 +154,7 @@ std::string heading(const JudgeReport& report) {
   return fmt::format("right: no wrong answer in {}", answers(total));
 }
 
-// The number of missing answers, and of rows in which it was given up; empty if there are none.
+// The number of missing answers, and of rows in which it was given up or too slow; empty if there are none.
 std::string missing_text(const JudgeReport& report) {
   const question::Tally total = report.total();
   std::string text;
@@ -162,6 +162,8 @@ std::string missing_text(const JudgeReport& report) {
     text += fmt::format("; {} of {} answers missing", total.missing, total.queries);
   if (const std::size_t rows = report.rows_given_up(); rows > 0)
     text += fmt::format("; given up in {} of {} rows", rows, report.rows.size());
+  if (const std::size_t rows = report.rows_too_slow(); rows > 0)
+    text += fmt::format("; too slow to ask in {} of {} rows", rows, report.rows.size());
   return text;
 }
 
@@ -207,6 +209,7 @@ std::string wrong_text(const question::Tally& t) {
 std::string how_bad_text(const JudgeReport& report) {
   const question::Tally drawn = sum_of(report.rows, false), hard = sum_of(report.rows, true),
                         all = report.total();
+  if (judged_of(all) == 0 && report.rows_too_slow() > 0) return "nothing was judged: it is too slow to ask";
   if (judged_of(all) == 0)
     return all.queries > 0 ? "nothing was judged: all is unsupported" : "nothing was asked";
   if (all.missing == judged_of(all))
@@ -250,6 +253,11 @@ std::size_t JudgeReport::nonsense() const {
 std::size_t JudgeReport::rows_given_up() const {
   return static_cast<std::size_t>(std::count_if(
       rows.begin(), rows.end(), [](const ExaminedRow& row) { return row.scenes_given_up > 0; }));
+}
+
+std::size_t JudgeReport::rows_too_slow() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(rows, [](const ExaminedRow& row) { return row.too_slow > 0; }));
 }
 
 std::optional<double> JudgeReport::max_radii() const {

@@ -46,7 +46,8 @@ inline constexpr const char* kTimeoutHelp =
 enum class Origin {
   engine,
   bad_line,  ///< a fault: it wrote an invalid line in place of the answer
-  fault,     ///< another fault: it died, fell silent, or left the query out
+  silent,    ///< a fault: it gave no answer within AnswererOptions::timeout
+  fault,     ///< another fault: it died, or left the query out
   not_asked  ///< or asked, and not waited for
 };
 
@@ -58,7 +59,9 @@ struct Reply {
   std::optional<Stage> stage = {};  ///< which stage of its ladder decided, if it has one
 
   bool was_asked() const { return origin != Origin::not_asked; }
-  bool is_fault() const { return origin == Origin::bad_line || origin == Origin::fault; }
+  bool is_fault() const {
+    return origin == Origin::bad_line || origin == Origin::silent || origin == Origin::fault;
+  }
 };
 
 /// Answers queries in the order in which they are asked. A reply comes at once or while later queries are
@@ -149,7 +152,7 @@ class Answerer {
   OnReply on_reply_ = [](Reply&) {};
 };
 
-/// Makes an answerer, for one thread.
-using MakeAnswerer = std::function<std::unique_ptr<Answerer>()>;
+/// Makes an answerer, for one thread. `enough`: as in AnswererOptions.
+using MakeAnswerer = std::function<std::unique_ptr<Answerer>(const std::function<bool()>& enough)>;
 
 }  // namespace lorentz::question

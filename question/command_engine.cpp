@@ -312,7 +312,8 @@ class CommandEngine final : public ExternalAnswerer {
     if (run.nameless && silent_for(patience_)) return settle_nameless();
     if (now - run.last_answer >= timeout())
       return run_failed(fmt::format("{}gave no answer within {:.4g} s",
-                                    run.stopped_reading ? "closed its input and " : "", timeout().count()));
+                                    run.stopped_reading ? "closed its input and " : "", timeout().count()),
+                        Origin::silent);
     if (manner_ == Manner::line_by_line || run.ending || wait == Wait::no || !run.to_write.empty()) return;
     // A trickle of new queries does not prevent this.
     const bool long_since = now - run.last_answer >= timeout() / 2;
@@ -420,9 +421,11 @@ class CommandEngine final : public ExternalAnswerer {
   }
 
   // The first query gets no answer. `what` says why; what the program wrote instead is added.
-  void pass_over(Run& run, std::string what) {
-    const Origin origin = run.instead.empty() ? Origin::fault : Origin::bad_line;
-    if (!run.instead.empty()) what += "; before that it " + std::exchange(run.instead, {});
+  void pass_over(Run& run, std::string what, Origin origin = Origin::fault) {
+    if (!run.instead.empty()) {
+      origin = Origin::bad_line;
+      what += "; before that it " + std::exchange(run.instead, {});
+    }
     complain_of(&open_.front(), what);
     open_.front().passed_over = true;
     deliver_first({error(what), origin});
@@ -517,7 +520,7 @@ class CommandEngine final : public ExternalAnswerer {
   }
 
   // It died or fell silent with queries outstanding.
-  void run_failed(const std::string& fate) {
+  void run_failed(const std::string& fate, Origin origin = Origin::fault) {
     const std::shared_ptr<Run> run = std::move(run_);
     end_of(*run, kGrace * 0);
     if (run->doing == "releases") return complain(fate + " while it released the scene before");
@@ -535,7 +538,7 @@ class CommandEngine final : public ExternalAnswerer {
           fmt::format("{}, or on one of the {} after it; they are asked again, fewer at a time", what,
                       unanswered - 1));
     }
-    pass_over(*run, what);
+    pass_over(*run, what, origin);
     suspicion_.clear();
     if (limit_ != kNoLimit) limit_ = is_library_ ? kNoLimit : 1;
     if (!note_failure()) return;

@@ -53,13 +53,16 @@ class Place {
 
   /// Records that the engine is an external one, which failed here again and again.
   void give_up() { given_up_ = true; }
+  /// Records that it was silent here for longer than one may take.
+  void note_silence() { was_silent_ = true; }
   bool is_given_up() const { return given_up_; }
 
   /// True if the engine should be asked no more questions here: it supported none of the first kEnough, took
-  /// more than kSlowSeconds each on average, or was given up.
+  /// more than kSlowSeconds each on average, was silent, or was given up.
   bool is_beyond_engine() const {
-    return given_up_ || (asked_ >= kEnough &&
-                         (unsupported_ == asked_ || seconds_ > kSlowSeconds * static_cast<double>(asked_)));
+    return given_up_ || was_silent_ ||
+           (asked_ >= kEnough &&
+            (unsupported_ == asked_ || seconds_ > kSlowSeconds * static_cast<double>(asked_)));
   }
   bool was_answered() const { return !given_up_ && unsupported_ < asked_; }
 
@@ -82,7 +85,7 @@ class Place {
   mutable std::unique_ptr<oracle::Judge> judge_;
   mutable std::unique_ptr<oracle::Margins> margins_;
   std::size_t asked_ = 0, unsupported_ = 0;
-  bool given_up_ = false;
+  bool given_up_ = false, was_silent_ = false;
   double seconds_ = 0;
 };
 

@@ -67,16 +67,15 @@ bool run(const Plan& plan, const Bounds& bounds, const MakeAnswerer& make_answer
   Workers workers(plan, make_answerer, ledger, bounds.jobs);
   try {
     keep(ledger, bounds, journal, ranks);
+    ledger.stop_all();
+    journal.ended();
   } catch (...) {
     ledger.stop_all();
     workers.join();
     throw;
   }
-  ledger.stop_all();
   workers.join();
   if (ranks) ranks->dismiss(ledger);
-  ledger.record();  // results that came in while the threads were told to stop
-  journal.tick();
   return ledger.had_failing_answerer();
 }
 

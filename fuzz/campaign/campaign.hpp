@@ -33,6 +33,7 @@ struct Scope {
   int dimension = 0;  ///< 2 or 3; 0: both
 
   bool admits(const Scene& scene) const;
+  friend bool operator==(const Scope&, const Scope&) = default;
   bool is_all() const { return scenes == Scenes::any && dimension == 0; }
   /// Whether some of the first scenes of a target are within the scope.
   bool meets(const cases::Target& target, std::uint64_t seed) const;
@@ -80,6 +81,9 @@ class Journal {
 
   /// Called several times a second, also when nothing was done.
   virtual void tick() = 0;
+
+  /// Called once, when nothing more is recorded, before the threads are waited for.
+  virtual void ended() {}
 };
 
 /// When to stop: at a number of cases of each target, after a time for all, or both; or at a finding.
@@ -97,8 +101,9 @@ class Ranks;
 
 /// Continues from the tallies (one for each target of the plan), which it updates, and from those of their
 /// findings that are not fully shrunk. Each target gets the same time of the threads, shrinking included.
-/// Work that is unfinished when the time is up is dropped: at most the few cases, or the one finding, that
-/// each thread was at. Returns whether an engine failed. With `ranks` (this is rank 0) other processes help.
+/// Work that is unfinished when the time is up is dropped, and answers that are due are not waited for: at
+/// most the few cases, or the one finding, that each thread was at. The next run goes on from these cases.
+/// Returns whether an engine failed. With `ranks` (this is rank 0) other processes help.
 bool run(const Plan& plan, const Bounds& bounds, const MakeAnswerer& make_answerer,
          std::vector<TargetTally>& tallies, Journal& journal, Ranks* ranks = nullptr,
          const std::vector<Finding>& unshrunk = {});

@@ -155,7 +155,7 @@ void Ledger::hand_in(Done done) {
   const std::lock_guard lock(mutex_);
   Track& track = tracks_[done.stint.target];
   track.seconds += done.seconds;
-  if (done.answerer_failed) answerer_failed_ = true;
+  if (done.answerer_failed && (done.result || done.shrunk)) answerer_failed_ = true;
   if (const std::uint64_t cases = done.stint.end - done.stint.begin) {
     const double each = done.seconds / static_cast<double>(cases);
     track.usual = track.usual ? (*track.usual + each) / 2 : each;

@@ -135,8 +135,12 @@ struct StintRunner::Questions {
 };
 
 StintRunner::StintRunner(const Plan& plan, const MakeAnswerer& make_answerer, const std::atomic<bool>& stop)
-    : plan_(plan), make_answerer_(make_answerer), stop_(stop), answerer_(make_answerer()) {}
+    : plan_(plan), make_answerer_(make_answerer), stop_(stop), answerer_(new_answerer()) {}
 StintRunner::~StintRunner() = default;
+
+std::unique_ptr<Answerer> StintRunner::new_answerer() const {
+  return make_answerer_([&stop = stop_] { return stop.load(); });
+}
 
 std::optional<StintResult> StintRunner::run(const Stint& stint,
                                             const std::map<std::string, std::uint64_t>& known) {
@@ -152,7 +156,7 @@ std::optional<StintResult> StintRunner::run(const Stint& stint,
 void StintRunner::replace_broken_answerer() {
   if (!answerer_->failed()) return;
   answerer_failed_ = true;
-  answerer_ = make_answerer_();
+  answerer_ = new_answerer();
 }
 
 // Makes the cases and variants, with their exact answers, and asks about them.

@@ -41,7 +41,7 @@ class StintRunner {
   std::optional<Finding> shrink(Finding finding, double seconds);
 
   /// The engine broke at least once. (It was started again.)
-  bool answerer_failed() const { return answerer_failed_; }
+  bool answerer_failed() const { return answerer_failed_ || answerer_->failed(); }
 
   /// The number of cases that a stint should have, if they do not take long.
   std::uint64_t batch_size() const { return answerer_->batch_size(); }
@@ -57,6 +57,7 @@ class StintRunner {
   void take(Questions& questions, const std::map<std::string, std::uint64_t>& known);
   Finding finding_of(const cases::Target& target, const Case& one, const std::string& sort,
                      const Examined& examined);
+  std::unique_ptr<Answerer> new_answerer() const;
   void replace_broken_answerer();
 
   const Plan& plan_;

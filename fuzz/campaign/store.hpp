@@ -89,6 +89,7 @@ class StoreJournal final : public Journal {
   void record(const cases::Target& target, const TargetTally& tally,
               const std::vector<Finding>& kept) override;
   void tick() override;
+  void ended() override { write(); }
 
  private:
   using JournalClock = std::chrono::steady_clock;

@@ -150,8 +150,8 @@ std::unique_ptr<Answerer> batch_both_ways(FlyAlone alone) {
 
 question::MakeAnswerer answerer_maker(const question::EngineInfo& engine,
                                       const question::AnswererOptions& options) {
-  if (engine.name == "reduction") return [] { return reduction_both_ways(); };
-  if (engine.name == "batch") return [] { return batch_both_ways(); };
+  if (engine.name == "reduction") return [](const auto&) { return reduction_both_ways(); };
+  if (engine.name == "batch") return [](const auto&) { return batch_both_ways(); };
   constexpr struct {
     const char* engine;
     Tell (*tell)(const Scene&);
@@ -162,8 +162,12 @@ question::MakeAnswerer answerer_maker(const question::EngineInfo& engine,
                   {"walk", tell_walk, true}};
   for (const auto& one : kTelling)
     if (one.engine == engine.name)
-      return [one] { return std::make_unique<TellingAnswerer>(one.tell, one.takes_limits); };
-  return [engine, options] { return engine.answerer(options); };
+      return [one](const auto&) { return std::make_unique<TellingAnswerer>(one.tell, one.takes_limits); };
+  return [engine, options](const std::function<bool()>& enough) {
+    question::AnswererOptions its = options;
+    its.enough = enough;
+    return engine.answerer(its);
+  };
 }
 
 std::vector<Reply> replies_to(const question::Source& source, Answerer& answerer) {
@@ -178,6 +182,7 @@ std::vector<Reply> replies_to(const question::Source& source, Answerer& answerer
     answerer.try_again();
     question::ask_all(question::all_of({&question, 1}), answerer,
                       [&, i = i](const question::Question&, Reply& reply) { replies[i] = std::move(reply); });
+    if (!replies[i].was_asked()) break;  // the time is over
   }
   return replies;
 }

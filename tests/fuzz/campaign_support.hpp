@@ -29,7 +29,7 @@ class ToldAnswerer final : public question::Answerer {
 };
 
 inline question::MakeAnswerer told(const ToldAnswerer::Says& says, const ToldAnswerer::Works& works = {}) {
-  return [=] { return std::make_unique<ToldAnswerer>(says, works); };
+  return [=](const auto&) { return std::make_unique<ToldAnswerer>(says, works); };
 }
 
 /// Right, but for flights that leave an obstacle of cell 0 with v_1 > 1/2: these it takes a cell too far.

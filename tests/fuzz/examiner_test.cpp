@@ -116,7 +116,7 @@ TEST_CASE("A prepared direction, or a single flight, that says anything else is 
   }
   // The limit goes both ways, too.
   for (const char* engine : {"reduction", "batch", "certified", "certified-batch", "walk"})
-    CHECK(said(*fuzz::answerer_maker(question::engine_named(engine))(), scene, queries, 0.125) == "ll");
+    CHECK(said(*fuzz::answerer_maker(question::engine_named(engine))({}), scene, queries, 0.125) == "ll");
 }
 
 TEST_CASE("A reader that loses or changes anything is seen by reading back", "[fuzz][examiner]") {
@@ -271,7 +271,7 @@ TEST_CASE("What an engine said of one scene it does not say of the next", "[fuzz
   REQUIRE(Reduction::beyond(beyond));
   for (const char* engine : {"reduction", "batch", "certified", "certified-batch"}) {
     INFO(engine);
-    const auto answerer = fuzz::answerer_maker(question::engine_named(engine))();
+    const auto answerer = fuzz::answerer_maker(question::engine_named(engine))({});
     const bool is_exact = std::string_view(engine).starts_with("certified");
     const std::string here = said(*answerer, unit_scene(2, 0.25), queries);
     CHECK(here.substr(0, 1) == "h");

@@ -25,7 +25,7 @@ constexpr int kReadable = 12;
 
 // Keeps what a case of the published algorithm's is.
 Shrunk shrink_published(const Scene& scene, const Query& query, Kind kind, int tries) {
-  const auto answerer = fuzz::answerer_maker(question::engine_named("published"))();
+  const auto answerer = fuzz::answerer_maker(question::engine_named("published"))({});
   const auto kind_of = [&](const Scene& s, const Query& q) {
     if (!fuzz::is_sound(s) || flaw_of(q, s)) return Kind::fine;
     return fuzz::Examiner(*answerer, std::make_shared<question::Place>(s), 4).examine(q).kind;

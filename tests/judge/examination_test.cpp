@@ -160,6 +160,62 @@ TEST_CASE("Counted questions: each row asks its number, in slow scenes, too", "[
   CHECK(counted.rows()[1].tally.queries == 8);
 }
 
+TEST_CASE("Counted questions: where scenes are left, each row asks the same, however long an answer takes",
+          "[judge][examination]") {
+  const std::atomic<bool> stop = false;
+  // Supports no 3D, and takes this long.
+  class Planar final : public question::Answerer {
+   public:
+    explicit Planar(int milliseconds) : pause_(milliseconds) {}
+    void ask(const Id&, const Query& query) override {
+      std::this_thread::sleep_for(pause_);
+      if (scene().dimension == 3) return deliver({Answer::unsupported_because("it is planar")});
+      deliver({oracle_->first_hit(query)});
+    }
+
+   private:
+    void enter(const Scene& scene) override { oracle_.emplace(scene); }
+    const std::chrono::milliseconds pause_;
+    std::optional<oracle::Oracle> oracle_;
+  };
+  const auto asked = [&](int milliseconds) {
+    const question::EngineInfo planar = question::guest_engine(
+        "planar" + std::to_string(milliseconds),
+        [=](const question::AnswererOptions&) { return std::make_unique<Planar>(milliseconds); });
+    Examination examination(planar, {}, 4, stop);
+    examination.ask_exactly(60);
+    examination.run({"row", ""}, questions({3, 2}, 40), kForEver);
+    return examination.rows()[0].tally;
+  };
+  const question::Tally fast = asked(0), slow = asked(30);
+  CHECK(fast.queries == slow.queries);
+  CHECK(fast.unsupported == slow.unsupported);
+  CHECK(fast.agree == 40);
+  CHECK(fast.unsupported < 40);  // the scene is left
+}
+
+TEST_CASE("Silence is slowness, if the run is told so, of an engine that has answered; it leaves the scene",
+          "[judge][examination]") {
+  const std::atomic<bool> stop = false;
+  question::AnswererOptions options;
+  options.timeout = 0.5;
+  options.start_timeout = 60;
+  const auto examined = [&](bool is_slowness, const std::string& fault) {
+    auto one = std::make_unique<Examination>(question::engine_named(tolerant(fault)), options, 4, stop);
+    if (is_slowness) one->take_silence_for_slowness();
+    one->run({"plane", ""}, questions({2}, 40), kForEver);
+    one->finish();
+    return one;
+  };
+  const auto slow = examined(true, "hangs 10"), broken = examined(false, "hangs 10");
+  CHECK(slow->rows()[0].tally.missing == 0);
+  CHECK(slow->rows()[0].too_slow > 0);
+  CHECK(slow->rows()[0].is_exhausted);  // the scene is left
+  CHECK(slow->findings().size() == 1);  // with the question
+  CHECK(broken->rows()[0].too_slow == 0);
+  CHECK(broken->rows()[0].tally.missing > 0);
+}
+
 TEST_CASE("The first 500 questions of each row are compared, and a row without any has no speed",
           "[judge][examination]") {
   const std::atomic<bool> stop = false;

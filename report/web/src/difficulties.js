@@ -30,6 +30,7 @@ function leftOut(rows) {
   const items = [
     ...named("unsupported", "Unsupported"),
     ...named("no time", "Not asked, no time"),
+    ...named("too slow", "Too slow to ask"),
     ...named("other numbers", "Not asked, numbers of another precision"),
     ...named("given up", "Given up in scenes of"),
   ];
@@ -43,7 +44,7 @@ const askedOf = (row) =>
 export function difficultiesSection(report) {
   const all = report.difficulties ?? [];
   if (!all.length) return null;
-  const rows = all.filter((r) => !["unsupported", "no time", "other numbers"].includes(r.state));
+  const rows = all.filter((r) => !["unsupported", "no time", "other numbers"].includes(r.state) && r.queries > 0);
   const always = new Set(["queries", "agree", "wrong"]);
   const columns = [
     {

@@ -1,0 +1,164 @@
+#include "judge/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "files/scene_file.hpp"
+#include "golden/find_sets.hpp"
+#include "golden/reader.hpp"
+
+namespace lorentz::judge {
+
+using starts::Kind;
+
+namespace {
+
+// Seconds of the parts, in the order in which they run; their proportions also hold for another time.
+struct PartTime {
+  JudgePart part;
+  double whole, quick;
+};
+constexpr PartTime kPartTimes[] = {{.part = JudgePart::drawn, .whole = 15, .quick = 4},
+                                   {.part = JudgePart::hard, .whole = 8, .quick = 2.5},
+                                   {.part = JudgePart::paths, .whole = 3, .quick = 1},
+                                   {.part = JudgePart::golden, .whole = 24, .quick = 3.5},
+                                   {.part = JudgePart::campaign, .whole = 58, .quick = 4.5},
+                                   {.part = JudgePart::simplest, .whole = 12, .quick = 3},
+                                   {.part = JudgePart::speed, .whole = 4, .quick = 1}};
+
+// The largest number of flights of a drawn row; a hard row in the same scenes has twice as many.
+constexpr std::size_t kDrawn = 4000, kDrawnQuickly = 500;
+
+std::size_t number_of_flights(const JudgeOrder& order) {
+  return order.questions ? *order.questions : order.quick ? kDrawnQuickly : kDrawn;
+}
+
+// The scenes of the catalogue that are examined, and their radii; scenes without radii keep their own sizes.
+struct Scenery {
+  const char* scene;
+  std::vector<double> radii;
+};
+const std::vector<Scenery> kSceneries{{"square", {0.3, 0.1, 0.01, 0.001, 1e-6}},
+                                      {"cubic", {0.3, 0.1, 0.01, 0.001}},
+                                      {"triangular", {0.1, 0.001}},
+                                      {"oblique", {}},
+                                      {"honeycomb", {}},
+                                      {"fcc", {}},
+                                      {"hcp", {}},
+                                      {"diamond", {}},
+                                      {"superposition-pi-5", {}},
+                                      {"overlapping", {}},
+                                      {"ellipse", {}},
+                                      {"ellipsoid", {}},
+                                      {"ball", {}}};
+
+std::vector<NamedPlace> places_of(const Scenery& scenery, const Claim& claim) {
+  if (scenery.radii.empty()) return {{scenery.scene, place_for(read_scene(scenery.scene, {}), claim)}};
+  std::vector<NamedPlace> places;
+  for (const double radius : scenery.radii)
+    places.push_back({fmt::format("{}, r = {:g}", scenery.scene, radius),
+                      place_for(read_scene(scenery.scene, radius), claim)});
+  return places;
+}
+
+// The committed sets that an engine is asked about. Sets in binary32 are for engines in binary32 only; for
+// other engines the same families are harder in binary64.
+std::vector<std::string> golden_sets_for(NumberFormat precision) {
+  std::vector<std::string> files = golden::committed_sets();
+  if (precision == NumberFormat::binary64)
+    std::erase_if(
+        files, [&](const std::string& file) { return golden::Reader(file).header().precision != precision; });
+  return files;
+}
+
+}  // namespace
+
+double JudgeOrder::seconds() const {
+  if (time) return *time;
+  double all = 0;
+  for (const PartTime& one : kPartTimes) all += quick ? one.quick : one.whole;
+  return all;
+}
+
+double seconds_of(JudgePart part, const JudgeOrder& order, double left) {
+  double all = 0, its = 0, needed = 0;
+  for (const PartTime& one : kPartTimes) {
+    const double seconds = order.quick ? one.quick : one.whole;
+    all += seconds;
+    if (one.part == part) its = seconds;
+    if (its > 0) needed += seconds;
+  }
+  return its * std::min(order.seconds() / all, left / needed);
+}
+
+JudgePlan::JudgePlan(const JudgeOrder& order) : order_(order), free_flights_(order.seed, order.claim) {
+  add_drawn_rows();
+  rows_.push_back(
+      {.part = JudgePart::paths,
+       .row = {.name = "free paths",
+               .explanation = "from collision to collision: starts on obstacles, by the cosine law",
+               .is_hard = false},
+       .source = free_flights_.source(),
+       .look = free_flights_.look()});
+  add_golden_rows();
+}
+
+// One row for each scene; then two rows of hard flights in all these scenes that have balls.
+void JudgePlan::add_drawn_rows() {
+  for (const Scenery& scenery : kSceneries) sceneries_.push_back(places_of(scenery, order_.claim));
+  const std::size_t number = number_of_flights(order_);
+  for (std::size_t i = 0; i < kSceneries.size(); ++i) {
+    places_.insert(places_.end(), sceneries_[i].begin(), sceneries_[i].end());
+    rows_.push_back({.part = JudgePart::drawn,
+                     .row = {.name = fmt::format("drawn {}", kSceneries[i].scene),
+                             .explanation = "uniform starts, isotropic directions",
+                             .is_hard = false},
+                     .source = drawn(sceneries_[i], Kind::uniform, order_.seed, number)});
+  }
+  rows_.push_back(
+      {.part = JudgePart::hard,
+       .row = {.name = "near-rational",
+               .explanation =
+                   "directions along small lattice vectors but for ulps to 2^-40, in these scenes"},
+       .source = drawn(places_, Kind::near_rational, order_.seed, 2 * number)});
+  rows_.push_back(
+      {.part = JudgePart::hard,
+       .row = {.name = "grazing",
+               .explanation = "the first ball is passed or met within r 2^-10 to r 2^-52 of its edge"},
+       .source = drawn(places_, Kind::grazing, order_.seed, 2 * number)});
+}
+
+void JudgePlan::add_golden_rows() {
+  for (const std::string& file : golden_sets_for(order_.claim.precision)) {
+    const golden::Header header = golden::Reader(file).header();
+    rows_.push_back({.part = JudgePart::golden,
+                     .row = {.name = "golden " + std::filesystem::path(file).stem().string(),
+                             .explanation = header.description,
+                             .records = header.count},
+                     .source = golden_set(file, order_.claim)});
+  }
+}
+
+std::size_t JudgePlan::number_of(JudgePart part) const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(rows_, [&](const PlannedRow& row) { return row.part == part; }));
+}
+
+ExaminedRow campaign_row() {
+  return {.name = "campaign",
+          .explanation = "constructed cases of all families, and variants of the smallest margin"};
+}
+
+Source JudgePlan::campaign(unsigned part, unsigned parts) {
+  const fuzz::Scope scope = scope_of(places_);
+  const auto source = [&] {
+    return judge::campaign(order_.seed, scope, order_.questions ? Fairness::of_scenes : Fairness::of_time,
+                           part, parts, order_.claim);
+  };
+  if (part == 0 && (!campaign_ || scope != scope_)) campaign_ = source(), scope_ = scope;
+  return part == 0 ? campaign_ : source();
+}
+
+}  // namespace lorentz::judge
