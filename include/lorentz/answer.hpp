@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <lorentz/obstacle.hpp>
 #include <lorentz/vec.hpp>
@@ -29,6 +30,21 @@ struct Detail {
   double impact_parameter = 0;
 };
 
+struct Answer;
+
+/// Makes an answer when it is called: `Answer::hit(obstacle, time)`. It is no property of an answer: neither
+/// `if (answer.hit)` nor `std::cout << answer.error` compiles.
+template <class... Parts>
+struct AnswerMaker {
+  Answer (*make)(Parts...);
+
+  Answer operator()(Parts... parts) const;
+  template <class T>
+  operator T() const = delete;  // ask answer.outcome == Outcome::.., and answer.message for the error
+  template <class Stream>
+  friend Stream& operator<<(Stream&, const AnswerMaker&) = delete;  // ask answer.outcome, answer.message
+};
+
 struct Answer {
   Outcome outcome = Outcome::undecided;
   ObstacleId obstacle;           ///< set for `hit` and `inside`
@@ -41,14 +57,16 @@ struct Answer {
   /// Resets the answer to a newly made one but keeps allocated memory.
   void clear();
 
-  static Answer hit(ObstacleId obstacle, double time);
-  static Answer inside(ObstacleId obstacle);
-  static Answer never();
-  static Answer later();
-  static Answer undecided();
-  static Answer error(std::string message);
-  static Answer unsupported_because(std::string message);
+  static const AnswerMaker<ObstacleId, double> hit;
+  static const AnswerMaker<ObstacleId> inside;
+  static const AnswerMaker<> never, later, undecided;
+  static const AnswerMaker<std::string> error, unsupported_because;  ///< given the message
 };
+
+template <class... Parts>
+Answer AnswerMaker<Parts...>::operator()(Parts... parts) const {
+  return make(std::move(parts)...);
+}
 
 /// Returns `answer`, or `later` if it says that nothing is entered before `max_time` (infinity: no limit).
 Answer limited(Answer answer, double max_time);

@@ -5,9 +5,10 @@
 namespace lorentz {
 namespace {
 
-Answer with(Outcome outcome) {
+Answer with(Outcome outcome, ObstacleId obstacle = {}) {
   Answer answer;
   answer.outcome = outcome;
+  answer.obstacle = std::move(obstacle);
   return answer;
 }
 
@@ -24,42 +25,26 @@ void Answer::clear() {
   unsupported = false;
 }
 
-Answer Answer::hit(ObstacleId obstacle, double time) {
-  Answer answer = with(Outcome::hit);
-  answer.obstacle = std::move(obstacle);
+constinit const AnswerMaker<ObstacleId, double> Answer::hit{[](ObstacleId obstacle, double time) {
+  Answer answer = with(Outcome::hit, std::move(obstacle));
   answer.time = time;
   return answer;
-}
-
-Answer Answer::inside(ObstacleId obstacle) {
-  Answer answer = with(Outcome::inside);
-  answer.obstacle = std::move(obstacle);
-  return answer;
-}
-
-Answer Answer::never() {
-  return with(Outcome::never);
-}
-
-Answer Answer::later() {
-  return with(Outcome::later);
-}
-
-Answer Answer::undecided() {
-  return with(Outcome::undecided);
-}
-
-Answer Answer::error(std::string message) {
+}};
+constinit const AnswerMaker<ObstacleId> Answer::inside{
+    [](ObstacleId obstacle) { return with(Outcome::inside, std::move(obstacle)); }};
+constinit const AnswerMaker<> Answer::never{[] { return with(Outcome::never); }};
+constinit const AnswerMaker<> Answer::later{[] { return with(Outcome::later); }};
+constinit const AnswerMaker<> Answer::undecided{[] { return with(Outcome::undecided); }};
+constinit const AnswerMaker<std::string> Answer::error{[](std::string message) {
   Answer answer = with(Outcome::error);
   answer.message = std::move(message);
   return answer;
-}
-
-Answer Answer::unsupported_because(std::string message) {
+}};
+constinit const AnswerMaker<std::string> Answer::unsupported_because{[](std::string message) {
   Answer answer = error(std::move(message));
   answer.unsupported = true;
   return answer;
-}
+}};
 
 Answer limited(Answer answer, double max_time) {
   const bool nothing_before = answer.outcome == Outcome::never || (answer.time && !(*answer.time < max_time));
