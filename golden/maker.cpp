@@ -134,12 +134,13 @@ std::optional<std::string> Maker::flaw_of(const Record& record, const std::optio
   Record again;
   again.expect = record.expect;
   measure(*query, again);
-  if (again.margin != record.margin) return "its margin is another one";
-  if (again.condition != record.condition) return "its condition is another one";
+  const auto differs = [](const auto& given, const auto& right) { return given && given != right; };
+  if (differs(record.margin, again.margin)) return "its margin is another one";
+  if (differs(record.condition, again.condition)) return "its condition is another one";
   if (format > 1) {
     excuse(*query, again);
-    if (again.time_change != record.time_change) return "its time_change is another one";
-    if (again.comment != record.comment) return "its comment says something else";
+    if (differs(record.time_change, again.time_change)) return "its time_change is another one";
+    if (!record.comment.empty() && again.comment != record.comment) return "its comment says something else";
     if (!std::ranges::equal(again.acceptable, record.acceptable, is_same) ||
         again.tags.empty() != !needs_judge(record))
       return "other answers are acceptable";

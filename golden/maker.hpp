@@ -59,8 +59,8 @@ class Maker {
   MadeRecord make(std::string question, const std::optional<Query>& query) const;
 
   /// Says what is wrong with a record, or nothing: the id does not belong to the question; its numbers, or
-  /// those of the scene, are not of the precision; the certificate does not prove the answer; margin,
-  /// condition, time_change, comment or the acceptable answers (since format 2) differ; walk, if asked, gives
+  /// those of the scene, are not of the precision; the certificate does not prove the answer; a margin,
+  /// condition, time_change or comment that it has differs, or the acceptable answers (since format 2); walk, if asked, gives
   /// another answer.
   std::optional<std::string> flaw_of(const Record& record, const std::optional<Query>& query, bool ask_walk,
                                      int format = kFormat) const;

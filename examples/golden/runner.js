@@ -37,7 +37,7 @@ function isWrongTime(record, answer, k, bits) {
   if (t === undefined || answer.time === undefined) return false;
   if (t === "inf" || (answer.time === "inf" && bits === 24 && t > LARGEST)) return answer.time !== "inf";
   const given = typeof answer.time === "number" ? answer.time : Infinity;
-  return !(Math.abs(given - t) <= k * Math.max(record.time_change, ulp(t, bits)));
+  return !(Math.abs(given - t) <= k * Math.max(record.time_change ?? 0, ulp(t, bits)));
 }
 
 function verdict(record, answer, k, bits) {

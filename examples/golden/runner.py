@@ -31,7 +31,7 @@ def is_wrong_time(record, answer, ulps, binary32):
     if t == "inf" or (answer["time"] == "inf" and binary32 and t > LARGEST):
         return answer["time"] != "inf"
     given = answer["time"] if isinstance(answer["time"], (int, float)) else math.inf
-    return not abs(given - t) <= ulps * max(record["time_change"], ulp(t, binary32))
+    return not abs(given - t) <= ulps * max(record.get("time_change", 0), ulp(t, binary32))
 
 
 def verdict(record, answer, ulps, binary32):
