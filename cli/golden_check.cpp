@@ -1,5 +1,7 @@
 // lorentz golden check: checks an engine with golden sets.
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 
 #include <lorentz/exchange.hpp>
@@ -86,6 +88,16 @@ std::optional<double> margin_of(const Question& question) {
   return decision ? std::optional(decision->margin) : std::nullopt;
 }
 
+// True if the time, of the right obstacle, is when the line leaves it: a thousand times nearer to that than to
+// the entry. The line turned round meets its exit first.
+bool is_exit(const Question& question, const Answer& given) {
+  const Query& query = question.query;
+  const Query turned{query.x, {-query.v[0], -query.v[1], -query.v[2]}, {}};
+  const std::string time = question.place->margins().crossing(turned, question.exact.obstacle).time_decimal;
+  const double exit = -std::strtod(time.c_str(), nullptr);
+  return 1000 * std::fabs(*given.time - exit) < std::fabs(*given.time - *question.exact.time);
+}
+
 // A failure for people, with the command that asks again. `claim`: as arguments of that command.
 std::string describe(const Judged& judged, const std::string& engine, const std::string& set,
                      const std::string& claim) {
@@ -101,10 +113,11 @@ std::string describe(const Judged& judged, const std::string& engine, const std:
     text += fmt::format("margin of the case: {:.4g} ulps; ", *margin);
   const bool is_wrong = judgement.verdict == oracle::Verdict::wrong;
   if (given.outcome == Outcome::hit && expect.outcome == Outcome::hit && given.obstacle == expect.obstacle)
-    text += fmt::format(
-        "{}: off by {:.3g} times what an ulp in each input makes of the time\n",
-        judgement.other_quantity ? "no time of that collision at all" : "a wrong time of the right obstacle",
-        judgement.departs);
+    text += fmt::format("{}: off by {:.3g} times what an ulp in each input makes of the time\n",
+                        is_exit(question, given) ? "the time of the exit from that obstacle, not of the entry"
+                        : judgement.other_quantity ? "another quantity than the time of that collision"
+                                                   : "a wrong time of the right obstacle",
+                        judgement.departs);
   else if (std::isfinite(judgement.departs) && is_wrong)
     text += fmt::format("right only if the inputs moved by {:.4g} ulps\n", judgement.departs);
   else if (judgement.verdict == oracle::Verdict::error)

@@ -155,6 +155,34 @@ TEST_CASE("golden check: another program that lies, is silent about some, or bre
   CHECK(contains(once.out, "\"not_asked\":0}"));
 }
 
+TEST_CASE("golden check: says whether a wrong time is the exit, another quantity, or near the right one",
+          "[golden][golden_check]") {
+  const Folder folder;
+  // The line x2 = 0 leaves the disc at x1 = 3 + sqrt(3)/4, and the ellipse at x1 = 3 + sqrt(1/2).
+  const std::pair<std::string, std::string> atoms[] = {
+      {R"({"position":[3,0.25],"radius":0.5})", "(3 + 0.1875**0.5) / 0.5"},
+      {R"({"position":[3,0],"semiaxes":[[1,0.5],[0,0.5]]})", "(3 + 0.5**0.5) / 0.5"}};
+  for (const auto& [atom, exit] : atoms) {
+    const std::string queries = folder.write(
+        "queries.ndjson", R"({"scene":{"dimension":2,"lattices":[{"vectors":[],"atoms":[)" + atom +
+                              R"(]}]}})"
+                              "\n"
+                              R"({"id":"a","x":[0,0],"v":[0.5,0]})"
+                              "\n");
+    const std::string set = folder.file("mine.ndjson");
+    std::filesystem::remove(set);
+    REQUIRE(folder.lorentz("golden make --queries " + queries + " -o " + set).status == 0);
+    const auto told = [&](const std::string& statement) {
+      return folder.lorentz("golden check --times " + set + " -e " + engine(folder, statement)).out;
+    };
+    const std::string left = told("a['time'] = " + exit);
+    INFO(left);
+    CHECK(contains(left, "the time of the exit from that obstacle, not of the entry: off by "));
+    CHECK(contains(told("a['time'] = 1e9"), "another quantity than the time of that collision: off by "));
+    CHECK(contains(told("a['time'] *= 1 + 1e-9"), "a wrong time of the right obstacle: off by "));
+  }
+}
+
 TEST_CASE("golden check: one record, another tolerance, and bad usage", "[golden][golden_check]") {
   const Folder folder;
   const std::string id = first_id("grazing", "\"margin\":");
