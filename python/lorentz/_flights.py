@@ -89,10 +89,10 @@ class FreePaths:
         return f"{text}\n  {remark}" if remark else text
 
 
-def report_of(text: str) -> dict[str, Any]:
-    """The report in a text of JSON, without its scene."""
+def report_of(text: str, scene: Scene) -> dict[str, Any]:
+    """The report in a text of JSON. Its ``scene`` is the name of the scene; None if it has none."""
     report: dict[str, Any] = json.loads(text)
-    return {key: value for key, value in report.items() if key != "scene"}
+    return report | {"scene": scene._name}
 
 
 def single_numbers(report: dict[str, Any]) -> dict[str, Any]:
@@ -119,7 +119,7 @@ def flights(scene: SceneLike, radius: float | None = None, *, count: int = 1_000
     report, edges, counts, beyond = _lorentz.flights(
         native(place), whole(count, "count", 1, 2**52), word(start, "start"), whole(seed, "seed", 0, 2**64 - 1),
         word(engine, "engine"), whole(jobs, "jobs", 1, 1024))
-    return FreePaths(place, start, edges, counts, beyond, json.loads(report))
+    return FreePaths(place, start, edges, counts, beyond, report_of(report, place))
 
 
 def laws(scene: SceneLike, times: npt.ArrayLike, *, start: str = "uniform") -> dict[str, Floats]:
@@ -160,6 +160,6 @@ def horizon(scene: SceneLike, radius: float | None = None, *, min_width: float =
         numbers = [finite(number, "direction") for number in vector(direction, "direction")]
         if len(numbers) != 3:
             raise Error(f"direction: has {len(numbers)} components, not 3")
-        return report_of(_lorentz.open_direction(native(place), numbers))
+        return report_of(_lorentz.open_direction(native(place), numbers), place)
     text, verdict = _lorentz.horizon(native(place), min_width, cylinders)
-    return report_of(text) | {"verdict": verdict}
+    return report_of(text, place) | {"verdict": verdict}

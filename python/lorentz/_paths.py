@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any, Literal, NamedTuple, Union
 
 import numpy as np
@@ -15,7 +15,7 @@ from ._columns import Array, Column, Columns, by_component
 from ._first_hit import StartFrom, _columns, vectors_of
 from ._lorentz import Error
 from ._memory import free_memory
-from ._numbers import Number, Obstacle, Vector, obstacle_dict, plain, renamed, text, time_limit, whole, word
+from ._numbers import Number, Obstacle, Vector, exact, obstacle_dict, plain, renamed, text, time_limit, whole, word
 from ._scene import Scene, SceneLike, native
 
 #: The meaning of ``Paths.stop_code``: why a particle stopped (docs of the C++ header trajectory.hpp).
@@ -173,7 +173,9 @@ class CertifiedCollision:
 class Itinerary:
     """The proven sequence of obstacles that a particle hits. ``end``: "collisions", "time", "never", "inside"
     or "undecided"; ``bits``: the precision used; ``x``, ``v`` and ``distance`` from the origin at the end, as
-    decimal texts."""
+    decimal texts; ``scene`` and ``start``: where it was followed, and from which place.
+
+    ``time``, ``place`` and ``velocity`` are the collisions in floats, as columns of `Paths`."""
 
     collisions: list[CertifiedCollision]
     end: str
@@ -181,10 +183,32 @@ class Itinerary:
     x: list[str]
     v: list[str]
     distance: str
+    scene: Scene = field(repr=False)
+    start: tuple[float, ...]
+
+    @property
+    def time(self) -> Floats:
+        """(N,): time of each collision since the start."""
+        return np.array([float(one.time) for one in self.collisions])
+
+    @property
+    def place(self) -> Floats:
+        """(N, d): place of each collision. Raises Error if the states were not requested."""
+        return self._vectors([one.x for one in self.collisions])
+
+    @property
+    def velocity(self) -> Floats:
+        """(N, d): velocity after each collision. Raises Error if the states were not requested."""
+        return self._vectors([one.v for one in self.collisions])
+
+    def _vectors(self, texts: list[list[str]]) -> Floats:
+        if not all(texts):
+            raise Error("states: the itinerary has no places and velocities; ask for it with states=True")
+        return np.array(texts, float).reshape(-1, len(self.start))
 
     def to_dict(self) -> dict[str, Any]:
         """The itinerary as dicts, lists and numbers."""
-        return asdict(self)
+        return asdict(self) | {"scene": self.scene.to_dict()}
 
 
 @renamed("from", "start_from")
@@ -214,9 +238,10 @@ def itinerary(scene: SceneLike, x: Vector, v: Vector, *, radius: Number | None =
     start = {"x": x, "v": v} | ({} if start_from is None else {"from": obstacle_dict(start_from)})
     until = plain(max_time, "max_time")
     limit = until.hex() if isinstance(until, float) else until  # a float's text is another number
-    path = _lorentz.itinerary(native(Scene(scene, radius)), text(start), collisions, limit, digits, states, most_bits)
+    place = Scene(scene, radius)
+    path = _lorentz.itinerary(native(place), text(start), collisions, limit, digits, states, most_bits)
     path["collisions"] = [CertifiedCollision(**one) for one in path["collisions"]]
-    return Itinerary(**path)
+    return Itinerary(**path, scene=place, start=tuple(float(exact(number) or 0) for number in x))
 
 
 class Starts(NamedTuple):

@@ -79,7 +79,7 @@ class Lyapunov(Reported):
 
 @dataclass(frozen=True, repr=False)
 class Diffusion(Reported):
-    """Mean squared displacements. ``report`` is that of `lorentz diffusion --json` without the scene."""
+    """Mean squared displacements. ``report`` is that of `lorentz diffusion --json`."""
 
     @property
     def coefficient(self) -> Estimate | None:
@@ -118,7 +118,7 @@ class Diffusion(Reported):
 @dataclass(frozen=True, repr=False)
 class Survival(Reported):
     """How many collisions of trajectories are right. ``report`` is the report of `lorentz survival --json`
-    without the scene."""
+   ."""
 
     @property
     def right(self) -> dict[int, list[int]]:
@@ -161,7 +161,7 @@ def lyapunov(scene: SceneLike, radius: Number | None = None, *, collisions: int 
     """
     place = Scene(scene, radius)
     return Lyapunov(place, report_of(_lorentz.lyapunov(
-        native(place), whole(collisions, "collisions", 1, 2**52), bool(spectrum), _seed(seed), _jobs(jobs))))
+        native(place), whole(collisions, "collisions", 1, 2**52), bool(spectrum), _seed(seed), _jobs(jobs)), place))
 
 
 def diffusion(scene: SceneLike, radius: Number | None = None, *, count: int = 100_000, max_time: float = 100.0,
@@ -180,7 +180,7 @@ def diffusion(scene: SceneLike, radius: Number | None = None, *, count: int = 10
     place = Scene(scene, radius)
     until = time_limit(max_time, "max_time")
     return Diffusion(place, report_of(_lorentz.diffusion(
-        native(place), whole(count, "count", 1, 2**52), finite(until, "max_time"), word(start, "start"), _seed(seed), _jobs(jobs))))
+        native(place), whole(count, "count", 1, 2**52), finite(until, "max_time"), word(start, "start"), _seed(seed), _jobs(jobs)), place))
 
 
 def survival(scene: SceneLike, radius: Number | None = None, *, count: int = 100, collisions: int = 500,
@@ -205,7 +205,7 @@ def survival(scene: SceneLike, radius: Number | None = None, *, count: int = 100
         raise Error("bits: needs at least one number")
     return Survival(place, report_of(_lorentz.survival(
         native(place), whole(count, "count", 1, 10**7), whole(collisions, "collisions", 1, 10**6), widths, word(engine, "engine"),
-        _seed(seed))))
+        _seed(seed)), place))
 
 
 def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLike]],

@@ -19,12 +19,12 @@ import numpy.typing as npt
 from matplotlib.collections import LineCollection, PatchCollection
 from matplotlib.patches import Ellipse
 
-from ._answers import Answers, Outcome
+from ._answers import Answers, Floats, Outcome
 from ._first_hit import floats_of
 from ._flights import FreePaths
 from ._lorentz import Error
-from ._numbers import finite
-from ._paths import Paths
+from ._numbers import Obstacle, finite
+from ._paths import Itinerary, Paths
 from ._scene import Scene, SceneLike, common_radius, scene_of
 from ._statistics import Diffusion, Survival
 
@@ -82,24 +82,38 @@ def flights(of: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, answers: Answers,
     return ax
 
 
-def trajectory(of: SceneLike, start: npt.ArrayLike, paths: Paths, particle: int = 0, *, ax: Any = None) -> Any:
-    """The path of one particle, from its start (or the common start) through the kept collisions. Without
-    axes it is drawn with the scene in 2D, and with the obstacles that it hits in 3D."""
+def trajectory(of: SceneLike | Itinerary, start: npt.ArrayLike = (), paths: Paths | None = None, particle: int = 0,
+               *, ax: Any = None) -> Any:
+    """The path of one particle, from its start (or the common start) through the kept collisions. Or an
+    itinerary, given alone, that was followed with ``states=True``. Without axes it is drawn with the scene in
+    2D, and with the obstacles that it hits in 3D."""
+    if isinstance(of, Itinerary):
+        place, points, met = of.scene, np.concatenate([[of.start], of.place]), {one.obstacle for one in of.collisions}
+    else:
+        place, points, met = _flown(scene_of(of), start, paths, particle)
+    if ax is None:
+        ax = scene(place, _around(points)) if place.dimension == 2 else _met_in_space(place, met)
+    ax.plot(*points.T, "-", color=FLIGHT, linewidth=1, zorder=2)
+    ax.plot(*points[1:].T, ".", color=HIT, markersize=4, zorder=3)
+    ax.plot(*points[:1].T, "o", color=FLIGHT, markersize=5, zorder=3)
+    return ax
+
+
+def _flown(place: Scene, start: npt.ArrayLike, paths: Paths | None, particle: int) -> tuple[Scene, Floats, set[Obstacle]]:
+    """The scene, the start and the places of the collisions, and the obstacles that are hit."""
+    if not isinstance(paths, Paths):
+        raise Error("paths: needs the Paths of lorentz.trajectories; an Itinerary is drawn alone")
     if not 0 <= particle < len(paths):
         raise Error(f"particle: there is no {particle}; there are {len(paths)}, from 0 on")
-    place, kept = scene_of(of), int(paths.kept()[particle])
+    kept = int(paths.kept()[particle])
     starts, dimension = np.atleast_2d(floats_of(start, "start")), paths.dimension
     if place.dimension != dimension:
         raise Error(f"paths: are in {dimension}D, the scene is in {place.dimension}D")
     if starts.shape not in ((1, dimension), (len(paths), dimension)):
         raise Error(f"start: has the shape {np.shape(start)}, needs ({dimension},) or ({len(paths)}, {dimension})")
     points = np.concatenate([starts[[particle if len(starts) > 1 else 0]], paths.place[particle, :kept]])
-    if ax is None:
-        ax = scene(of, _around(points)) if place.dimension == 2 else _met_in_space(place, paths[particle], kept)
-    ax.plot(*points.T, "-", color=FLIGHT, linewidth=1, zorder=2)
-    ax.plot(*points[1:].T, ".", color=HIT, markersize=4, zorder=3)
-    ax.plot(*points[:1].T, "o", color=FLIGHT, markersize=5, zorder=3)
-    return ax
+    met = zip(paths.lattice[particle, :kept], paths.atom[particle, :kept], paths.cell[particle, :kept].tolist())
+    return place, points, {(int(lattice), int(atom), tuple(cell)) for lattice, atom, cell in met}
 
 
 def free_paths(runs: Runs, *, ax: Any = None) -> Any:
@@ -181,11 +195,10 @@ def _colour(number: int) -> str:
     return COLOURS[number % len(COLOURS)]
 
 
-def _met_in_space(place: Scene, path: Paths, kept: int) -> Any:
-    """3D axes with the obstacles that a path hits."""
+def _met_in_space(place: Scene, met: set[Obstacle]) -> Any:
+    """3D axes with these obstacles."""
     ax = plt.figure(layout="constrained").add_subplot(projection="3d")
     lattices = place.nearest().to_dict()["lattices"]
-    met = {(int(path.lattice[0, k]), int(path.atom[0, k]), tuple(path.cell[0, k].tolist())) for k in range(kept)}
     turn, tilt = np.meshgrid(np.linspace(0, 2 * np.pi, 25), np.linspace(0, np.pi, 13))
     sphere = np.stack([np.cos(turn) * np.sin(tilt), np.sin(turn) * np.sin(tilt), np.cos(tilt)])
     for lattice, atom, cell in sorted(met):

@@ -37,6 +37,20 @@ def test_floats_follow_the_truth_for_a_while():
             assert abs(paths.time[i, k] - float(collision.time)) < 1e-9
             assert np.allclose(paths.place[i, k], [float(c) for c in collision.x], rtol=0, atol=1e-9)
             assert np.allclose(paths.velocity[i, k], [float(c) for c in collision.v], rtol=0, atol=1e-8)
+        assert truth.time.tolist() == [float(collision.time) for collision in truth.collisions]
+        for column in ("time", "place", "velocity"):
+            assert getattr(truth, column).shape == getattr(paths, column)[i].shape
+            assert np.allclose(getattr(truth, column), getattr(paths, column)[i], rtol=0, atol=1e-8)
+
+
+def test_an_itinerary_without_states_has_times_alone():
+    path = lorentz.itinerary("square", ["1/2", Fraction(1, 10)], [1, 0.3], radius=0.3, collisions=3)
+    assert path.time.shape == (3,) and path.start == (0.5, 0.1) and path.scene == lorentz.Scene("square", 0.3)
+    assert path.to_dict()["scene"] == path.scene.to_dict()
+    for column in ("place", "velocity"):
+        with pytest.raises(lorentz.Error, match="states=True"):
+            getattr(path, column)
+    assert lorentz.itinerary("square", [0.5, 0.5], [1, 0], max_time=1, states=True).place.shape == (0, 2)
 
 
 @pytest.mark.parametrize("precision", ["binary64", "double-double"])

@@ -85,6 +85,22 @@ def test_a_path_in_space_goes_among_what_it_hits():
     assert any(np.allclose(np.linalg.norm(on_surface - centre, axis=1), obstacle["radius"]) for centre in centres)
 
 
+@pytest.mark.parametrize("name", ["triangular", "rock-salt"])
+def test_an_itinerary_is_drawn_as_the_path_in_floats(name):
+    scene = lorentz.Scene(name)
+    x, v, _ = lorentz.draw_starts(scene, 1, seed=SEED)
+    path = lorentz.itinerary(scene, x[0], v[0], collisions=4, states=True)
+    ax = lorentz.plot.trajectory(path)
+    in_floats = lorentz.plot.trajectory(scene, x[0], lorentz.trajectories(scene, x, v, 4))
+    lines = [np.array(one.lines[0].get_data_3d() if name == "rock-salt" else one.lines[0].get_data()) for one in (ax, in_floats)]
+    assert lines[0].shape == (scene.dimension, 5) and np.allclose(*lines, rtol=0, atol=1e-8)
+    assert len(ax.collections) == len(in_floats.collections)
+    with pytest.raises(lorentz.Error, match="drawn alone"):
+        lorentz.plot.trajectory(scene, x[0], path)
+    with pytest.raises(lorentz.Error, match="states=True"):
+        lorentz.plot.trajectory(lorentz.itinerary(scene, x[0], v[0], collisions=4))
+
+
 def labels(ax):
     return [text.get_text() for text in ax.get_legend().get_texts()]
 
