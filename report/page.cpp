@@ -1,29 +1,40 @@
 #include "report/page.hpp"
 
+#include <algorithm>
+#include <charconv>
+
 #include "report/page_text.hpp"
 
 #include <lorentz/errors.hpp>
+#include "src/problem/safe_text.hpp"
 
 namespace lorentz::report {
 namespace {
 
 constexpr std::string_view kPlace = "%REPORT%";
-constexpr std::string_view kLineSeparator = "\u2028", kParagraphSeparator = "\u2029";
+// The escape \uXXXX at the beginning of a text, if it stands for a character that acts.
+bool is_acting_escape(std::string_view text) {
+  unsigned code = 0;
+  if (!text.starts_with("\\u") || text.size() < 6) return false;
+  std::from_chars(text.data() + 2, text.data() + 6, code, 16);
+  return acts(code) && code != '\n' && code != '\t';
+}
 
-// JSON has these characters only inside strings, so the escape stands for the same text.
+// The JSON in a form that ends no element. A character that acts becomes the text of its escape, so that none
+// turns the page's texts round.
 std::string embedded(std::string_view json) {
   std::string out;
   out.reserve(json.size() + json.size() / 16);
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const std::string_view rest = json.substr(i, kLineSeparator.size());
-    if (json[i] == '<') {
+  while (!json.empty()) {
+    const Character c = first_character(json);
+    const std::size_t bytes = json[0] == '\\' ? std::min<std::size_t>(2, json.size()) : c.bytes;
+    if (json[0] == '<')
       out += "\\u003c";
-    } else if (rest == kLineSeparator || rest == kParagraphSeparator) {
-      out += rest == kLineSeparator ? "\\u2028" : "\\u2029";
-      i += rest.size() - 1;
-    } else {
-      out += json[i];
-    }
+    else if (c.acts && c.code >= 0x80)
+      out += '\\' + printable(json.substr(0, bytes));
+    else
+      out += (is_acting_escape(json) ? "\\" : "") + std::string(json.substr(0, bytes));
+    json.remove_prefix(bytes);
   }
   return out;
 }

@@ -16,15 +16,13 @@ bool follows(unsigned byte) {
   return (byte & 0xc0) == 0x80;
 }
 
-// True for control characters, line and paragraph separators, the marks and overrides of the writing
-// direction, the byte order mark, and the two code points that XML excludes.
+}  // namespace
+
 bool acts(char32_t code) {
   return code < 0x20 || (code >= 0x7f && code < 0xa0) || (code >= 0x200e && code <= 0x200f) ||
          (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069) || code == 0x061c ||
          code == 0xfeff || code == 0xfffe || code == 0xffff;
 }
-
-}  // namespace
 
 Character first_character(std::string_view text) {
   const unsigned first = byte(text, 0);

@@ -7,12 +7,16 @@
 
 namespace lorentz {
 
+/// True for control characters, line and paragraph separators, the marks and overrides of the writing
+/// direction, the byte order mark, and the two code points that XML excludes.
+bool acts(char32_t code);
+
 /// The first character of a text.
 struct Character {
   char32_t code = 0;      ///< U+FFFD if the bytes are not UTF-8
   std::size_t bytes = 1;  ///< its length; if the bytes are not UTF-8, how many to skip together
-  bool acts = false;  ///< a control character (C0, DEL, C1), or one that sets the direction or ends the line
-  bool is_text = true;  ///< its bytes are UTF-8
+  bool acts = false;      ///< as the function
+  bool is_text = true;    ///< its bytes are UTF-8
 };
 
 /// Requires a text that is not empty.

@@ -360,7 +360,13 @@ function bench() {
 
 // What an engine may have said to break the page, in every text.
 export const HOSTILE =
-  '<script>window.broken=1</script></script><img src=x onerror="window.broken=1">\'"`${1}\u2028\u2029<!--';
+  '<script>window.broken=1</script></script><img src=x onerror="window.broken=1">\'"`${1}\u2028\u2029\u202e\u202a\u2066\u2069\u200f\u061c<!--';
+
+// The same as the page shows it: no character turns the text round or ends a line.
+export const SHOWN = HOSTILE.replace(
+  /[\u2028-\u202e\u2066-\u2069\u200e\u200f\u061c]/g,
+  (c) => `\\u${c.charCodeAt(0).toString(16).padStart(4, "0")}`,
+);
 
 function hostile() {
   const report = judge();

@@ -148,7 +148,7 @@ function worst(cell) {
       "data-copy": cell.worst.command ?? "",
       "aria-label": "Copy the command that repeats the worst input",
     },
-    "copy command",
+    "copy",
   );
   return h(
     "span",
