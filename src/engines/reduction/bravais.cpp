@@ -8,6 +8,7 @@
 #include <lorentz/geometry.hpp>
 #include "src/engines/reduction/bounds.hpp"
 #include "src/engines/reduction/formulas.hpp"
+#include "src/engines/reduction/overlap.hpp"
 
 namespace lorentz {
 namespace {
@@ -34,6 +35,9 @@ struct Metric {
   double length_of_form(const Vec& g) const {
     return shape ? length(times(shape->cofactor, g)) / shape->volume : length(g);
   }
+
+  // At least the largest length of all a with |a| = 1.
+  double size() const { return shape ? std::sqrt(shape->metric_size) * (1 + kAmple) : 1; }
 
   // The largest such length of all forms g with |g| = 1.
   double length_of_longest_form() const { return shape ? shape->cofactor_size / shape->volume : 1; }
@@ -166,13 +170,11 @@ bool set_inverse(Bravais& bravais) {
   return determinant == 1 || determinant == -1;
 }
 
-// A lower bound on the length of the shortest lattice vector. A vector with a coefficient of 2 or more in
-// absolute value is at least 2/|dual_i| long; the others are tried.
-double shortest_vector(const Bravais& bravais, const Metric& metric) {
-  const int second = bravais.rank >= 2, third = bravais.rank == 3;  // the coefficients that are tried
-  double shortest = kInfinity;
-  for (int i = 0; i < bravais.rank; ++i)
-    shortest = std::min(shortest, 2 / metric.length_of_form(bravais.dual[i]));
+// Calls visit(t, length) for the vectors sum_i t_i B_i with coefficients of at most 1 in absolute value, one
+// of each pair of opposite ones.
+template <class Visit>
+void visit_short(const Bravais& bravais, const Metric& metric, const Visit& visit) {
+  const int second = bravais.rank >= 2, third = bravais.rank == 3;
   for (int a = 0; a <= 1; ++a)
     for (int b = -second; b <= second; ++b)
       for (int c = -third; c <= third; ++c) {
@@ -180,9 +182,41 @@ double shortest_vector(const Bravais& bravais, const Metric& metric) {
         Vec sum{};
         for (int k = 0; k < 3; ++k)
           sum[k] = a * bravais.basis[0][k].hi + b * bravais.basis[1][k].hi + c * bravais.basis[2][k].hi;
-        shortest = std::min(shortest, length(metric(sum)));
+        visit(Vec{double(a), double(b), double(c)}, length(metric(sum)));
       }
-  return shortest;
+}
+
+// A lower bound on the length of the shortest lattice vector. A vector with a coefficient of 2 or more in
+// absolute value is at least 2/|dual_i| long; the others are tried.
+double shortest_vector(const Bravais& bravais, const Metric& metric) {
+  double shortest = kInfinity;
+  for (int i = 0; i < bravais.rank; ++i)
+    shortest = std::min(shortest, 2 / metric.length_of_form(bravais.dual[i]));
+  visit_short(bravais, metric, [&](const Vec&, double length) { shortest = std::min(shortest, length); });
+  return shortest * (1 - kAmple);
+}
+
+// Do the obstacles overlap their own translates? A translate with a coefficient of 2 or more in absolute value
+// overlaps only if obstacles reach through a cell, which is refused anyway. Where lengths in binary64 do not
+// tell, exact arithmetic does; if components were taken as zero, or are too small for it, the answer is yes.
+bool overlaps_itself(const Bravais& bravais, const Metric& metric, const Shortening& shortening) {
+  const double r = bravais.radius;
+  const Vec ball[3] = {{r, 0, 0}, {0, r, 0}, {0, 0, r}};
+  const auto& primitive = shortening.primitive;
+  const Vec u[3] = {primitive[0], primitive[1], primitive[2]};
+  double error = r;
+  for (int i = 0; i < bravais.rank; ++i) error += length(rounded(bravais.basis[i]));
+  error *= kAmple * metric.size();
+  bool overlaps = false;
+  visit_short(bravais, metric, [&](const Vec& t, double length) {
+    if (overlaps || length > 2 * r + error) return;
+    Vec sum{};
+    for (int i = 0; i < bravais.rank; ++i)
+      for (int j = 0; j < bravais.rank; ++j) sum[j] += t[i] * shortening.T[i][j];
+    overlaps = length < 2 * r - error || !shortening.complete ||
+               overlaps_translate(metric.shape ? metric.shape->semiaxes : ball, u, sum).value_or(true);
+  });
+  return overlaps;
 }
 
 bool is_too_skewed(const Shortening& shortening) {
@@ -193,17 +227,17 @@ bool is_too_skewed(const Shortening& shortening) {
 }
 
 // Why the engine does not support this atom; empty if it does.
-std::string beyond(const Bravais& bravais, const Metric& metric) {
+std::string beyond(const Bravais& bravais, const Metric& metric, const Shortening& shortening) {
   if (!(bravais.radius > 1 / kMaxSpacing && bravais.radius < kMaxSpacing))
     return "does obstacles and lattices only whose sizes are within 2^60 of each other";
   if (bravais.rank == 0) return "";
   const double smallest = bravais.dimension == 2 ? kSmallestRadius2d : kSmallestRadius3d;
-  const double shortest = bravais.unit && !metric.shape ? 1 : shortest_vector(bravais, metric) * (1 - kAmple);
+  const double shortest = shortest_vector(bravais, metric);
   if (!(shortest > 1 / kMaxSpacing && shortest < kMaxSpacing && home_error(bravais) < kMaxHomeError))
     return "does not do lattices of so different spacings, or so flat a cell";
-  if (metric.shape && !(2 * bravais.radius <= shortest))
-    return "does ellipsoids only that do not overlap their own translates";
-  if (!(2 * bravais.radius <= shortest)) return "does radii up to half the shortest lattice vector only";
+  if (overlaps_itself(bravais, metric, shortening))
+    return metric.shape ? "does ellipsoids only that do not overlap their own translates"
+                        : "does radii up to half the shortest lattice vector only";
   if (!(std::ranges::max(bravais.reach) < 1 - 2 * kMaxHomeError))
     return "does not do obstacles that reach so far into a cell so flat";
   if (bravais.rank == bravais.dimension && !(bravais.radius >= smallest * shortest))
@@ -268,7 +302,7 @@ class LatticePreparation {
     set_place(bravais);
     bravais.unit = is_unit_ && atom.position == Vec{};
     bravais.radius = atom.radius * scale_;
-    return set_basis(bravais, short_) ? finish(bravais, {}) : kTooSkewed;
+    return set_basis(bravais, short_) ? finish(bravais, {}, short_) : kTooSkewed;
   }
 
   // Uses a short basis in the metric of the shape: that of the previous atom, if it has the same shape.
@@ -289,7 +323,7 @@ class LatticePreparation {
     bravais.shape = *shape_;
     bravais.radius = shape_->radius;
     if (!set_basis(bravais, *shaped_)) return kTooSkewed;
-    std::string why = finish(bravais, {&*shape_});
+    std::string why = finish(bravais, {&*shape_}, *shaped_);
     if (is_unit_ && is_alone() && atom.position == Vec{} && why.empty()) use_axes(bravais);
     return why;
   }
@@ -321,9 +355,9 @@ class LatticePreparation {
     bravais.reaches_out = !(std::ranges::max(bravais.reach) < kReachAtHome);
   }
 
-  static std::string finish(Bravais& bravais, const Metric& metric) {
+  static std::string finish(Bravais& bravais, const Metric& metric, const Shortening& shortening) {
     set_reach(bravais, metric);
-    return beyond(bravais, metric);
+    return beyond(bravais, metric, shortening);
   }
 
   const Scene& scene_;
