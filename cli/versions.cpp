@@ -10,7 +10,6 @@
 #include <lorentz/walk.hpp>
 #include "cli/app.hpp"
 #include "fuzz/campaign/store.hpp"
-#include "golden/record.hpp"
 
 namespace lorentz::cli {
 
@@ -19,7 +18,7 @@ std::vector<std::string> library_versions() {
   // One entry may name several libraries, separated by commas or lines.
   for (std::string names :
        {oracle::oracle_libraries(), oracle::walk_libraries(), oracle::itinerary_libraries(),
-        batch_libraries(), exchange_libraries(), golden::record_libraries(), fuzz::store_libraries()}) {
+        batch_libraries(), exchange_libraries(), fuzz::store_libraries()}) {
     for (std::size_t end; (end = names.find_first_of(",\n")) != std::string::npos;) {
       versions.push_back(names.substr(0, end));
       names.erase(0, names.find_first_not_of(",\n ", end));

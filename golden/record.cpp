@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <openssl/crypto.h>
-#include <openssl/evp.h>
-#include <openssl/sha.h>
+#include <sha2.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "src/exchange/exchange_json.hpp"
 #include "src/exchange/exchange_write.hpp"
@@ -54,9 +51,11 @@ bool needs_judge(const Record& record) {
 }
 
 std::string sha256(std::string_view text) {
+  SHA2_CTX state;
+  SHA256Init(&state);
+  SHA256Update(&state, reinterpret_cast<const unsigned char*>(text.data()), text.size());
   unsigned char digest[SHA256_DIGEST_LENGTH];
-  if (EVP_Digest(text.data(), text.size(), digest, nullptr, EVP_sha256(), nullptr) != 1)
-    throw std::runtime_error("SHA-256 failed");
+  SHA256Final(digest, &state);
   return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
@@ -134,10 +133,6 @@ void append_record_line(std::string& out, const Record& record, const Components
                [&](json::Members& object) { add_certificate(object, *record.certificate, count); });
   });
   out += '\n';
-}
-
-std::string record_libraries() {
-  return std::string("OpenSSL ") + OpenSSL_version(OPENSSL_VERSION_STRING);
 }
 
 }  // namespace lorentz::golden

@@ -81,7 +81,4 @@ void add_certificate(json::Members& object, const oracle::Certificate& certifica
 void append_header_line(std::string& out, const Header& header);
 void append_record_line(std::string& out, const Record& record, const Components& count);
 
-/// The library that makes the ids, and its version.
-std::string record_libraries();
-
 }  // namespace lorentz::golden
