@@ -65,22 +65,23 @@ class Csv {
 class Npy {
  public:
   Npy(const ColumnOrder& order, std::string& out)
-      : reader_(order.queries, order.scene.dimension, unknown_columns(npy_query_fields(), order.unknown)),
+      : reader_(read_npy_queries(order.queries, order.scene.dimension,
+                                 unknown_columns(npy_query_fields(), order.unknown))),
         out_(out) {
-    out_ += npy_answer_header(reader_.promised(), order.scene.dimension);
+    out_ += npy_answer_header(reader_->promised(), order.scene.dimension);
   }
-  ColumnReader& reader() { return reader_; }
+  ColumnReader& reader() { return *reader_; }
   void write(const QueryRows&, AnswerRows& answers) {
     answers.refuse_large_cells();
     append_npy_answers(out_, answers);
   }
   void finish() {
-    if (reader_.has_more())
-      say("warning: {}: there is more behind the last row, which is ignored", reader_.name());
+    if (reader_->has_more())
+      say("warning: {}: there is more behind the last row, which is ignored", reader_->name());
   }
 
  private:
-  NpyQueryReader reader_;
+  std::unique_ptr<NpyQueryReader> reader_;
   std::string& out_;
 };
 

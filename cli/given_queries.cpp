@@ -11,8 +11,7 @@ constexpr std::size_t kMostComplaints = 20, kRowsTogether = 4096;
 
 std::unique_ptr<ColumnReader> columns_in(const std::string& path, const Scene& scene, UnknownKeys unknown) {
   if (path.ends_with(".npy"))
-    return std::make_unique<NpyQueryReader>(path, scene.dimension,
-                                            unknown_columns(npy_query_fields(), unknown));
+    return read_npy_queries(path, scene.dimension, unknown_columns(npy_query_fields(), unknown));
   return std::make_unique<CsvQueryReader>(path, Components(scene),
                                           unknown_columns(csv_query_columns(scene.dimension), unknown));
 }

@@ -1,25 +1,270 @@
-#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <regex>
 
 #include <lorentz/errors.hpp>
 #include "src/exchange/columns_npy.hpp"
-#include "src/exchange/npy_number.hpp"
+#include "src/exchange/input_file.hpp"
+#include "src/problem/safe_text.hpp"
 
 namespace lorentz {
 namespace {
 
-constexpr std::size_t kLargestPart = std::size_t{1} << 26;  // bytes that are held
-// The first part read from a pipe, which is held whole; each next part doubles what is held.
-constexpr std::size_t kFirstPart = std::size_t{1} << 16;
+constexpr std::size_t kLongestHeader = 1 << 16, kLongestRow = 1 << 20, kLargestPart = 1 << 26;  // bytes
+constexpr std::string_view kReal = "f8", kInteger = "i1 i2 i4 i8 u1 u2 u4 u8";
 
-void append_reals(std::vector<double>& column, const char* first, std::size_t stride, std::size_t count,
-                  bool swap) {
-  const std::size_t before = column.size();
-  column.resize(before + count);
-  double* const out = column.data() + before;
-  for (std::size_t i = 0; i < count; ++i) out[i] = number_in<double, std::uint64_t>(first + i * stride, swap);
+struct Field {
+  std::string name, type;                // "f8"; an array without fields has one without a name
+  std::size_t bytes, count, offset = 0;  // of one number; of numbers; in the row
+};
+
+// The text of the header, which follows the magic bytes, the version and its length.
+std::string header_text(InputFile& file) {
+  char front[12] = {};
+  const std::size_t there = file.read_all(front, 8), width = front[6] == 1 ? 2 : 4;
+  if (std::memcmp(front, "\x93NUMPY", there > 0 && there < 6 ? there : 6) != 0)
+    throw InputError("is no .npy file: it does not begin with \\x93NUMPY (--format ndjson, csv: text)");
+  if (there == 8 && (front[6] < 1 || front[6] > 3 || front[7] != 0))
+    throw InputError("is of version " + std::to_string(front[6]) + "." + std::to_string(front[7]) +
+                     " of the format .npy; 1.0, 2.0 and 3.0 are read");
+  std::uint32_t length = 0;
+  const bool whole = there == 8 && file.read_all(front + 8, width) == width;
+  std::memcpy(&length, front + 8, sizeof length);
+  std::string text(std::min<std::size_t>(length, kLongestHeader), '\0');
+  if (!whole || file.read_all(text.data(), text.size()) < length)
+    throw InputError("ends in its header, or has one longer than 64 KiB");
+  return text.substr(0, text.find_last_not_of(" \n") + 1);
 }
+
+// An array of shape (N,), or of shape (N, n) as N rows with a field of n numbers, read part by part.
+class Array {
+ public:
+  // `expected` says in messages what the array must be.
+  Array(const std::string& path, const std::string& expected) : file(path) {
+    try {
+      understand(header_text(file), expected);
+    } catch (const InputError& error) {
+      throw InputError(file.name() + ": " + error.what());
+    }
+  }
+
+  // Throws InputError for a field of other types, and for one that must be there.
+  std::optional<Field> field(std::string_view name, std::string_view types, std::size_t count,
+                             bool must) const {
+    for (const Field& field : fields)
+      if (field.name == name) {
+        if (types.find(field.type) != types.npos && field.count == count) return field;
+        must = true;
+      }
+    if (must) throw InputError(file.name() + ": " + what_it_is_);
+    return {};
+  }
+
+  // Reads the next rows as they arrive: at least one and up to about `most`, 0 after the last.
+  std::size_t read(std::size_t most, const std::function<void()>& before_waiting) {
+    done += rows_;
+    std::memmove(buffer_.data(), buffer_.data() + rows_ * row_bytes_, end_ -= rows_ * row_bytes_);
+    most = std::min(most, std::max<std::size_t>(kLargestPart / row_bytes_, 1));
+    const std::size_t wanted = std::min<std::uint64_t>(promised - done, most) * row_bytes_;
+    buffer_.resize(std::max(buffer_.size(), wanted));
+    while (end_ < wanted) {
+      const bool ready = file.is_ready();
+      if (!ready && end_ >= row_bytes_) break;
+      if (!ready) before_waiting();
+      const std::size_t more = file.read(buffer_.data() + end_, wanted - end_);
+      if (more == 0) break;
+      end_ += more;
+    }
+    rows_ = end_ / row_bytes_;
+    if (rows_ == 0 && done < promised)
+      throw InputError(file.name() + ": ends too early: " + std::to_string(promised - done) + " of " +
+                       std::to_string(promised) + " rows are missing");
+    return rows_;
+  }
+
+  // A number of a row that was read last, whose field has these bytes or fewer.
+  template <class Number>
+  Number number(std::size_t row, const Field& field, std::size_t k = 0) const {
+    Number number{};
+    std::memcpy(&number, &buffer_[row * row_bytes_ + field.offset + k * field.bytes],
+                std::min(field.bytes, sizeof number));
+    return number;
+  }
+  // Nothing beyond the range of int64.
+  std::optional<std::int64_t> integer(std::size_t row, const Field& field, std::size_t k = 0) const {
+    const auto bits = number<std::uint64_t>(row, field, k);
+    const std::size_t unused = 64 - 8 * field.bytes;
+    if (field.type[0] == 'i') return static_cast<std::int64_t>(bits << unused) >> unused;
+    return bits >> 63 ? std::nullopt : std::optional(static_cast<std::int64_t>(bits));
+  }
+
+  InputFile file;
+  std::vector<Field> fields;
+  std::uint64_t promised = 0, done = 0;  // rows; done: before those that were read last
+
+ private:
+  // {'descr': '<f8', 'fortran_order': False, 'shape': (7, 4), }
+  // {'descr': [('x', '<f8', (2,)), ('n', '<i4')], 'fortran_order': False, 'shape': (7,), }
+  void understand(const std::string& header, const std::string& expected) {
+    static const std::regex kNumbers(R"(\{'descr': ()'([<>|])(\w)(\d{1,9})')"),
+        kField(R"((?:\{'descr': \[|, )\('([^']{0,99})', '([<>|])(\w)(\d{1,9})[^']{0,99}')"
+               R"((?:, \((\d{1,9}),\))?\))"),
+        kRest(R"((\])?, 'fortran_order': (True|False), 'shape': \((\d{1,18}),(?: (\d{1,9}))?\), \})");
+    what_it_is_ = "is an array with the header " + shortened(header, 200) + "; " + expected;
+    const bool has_fields = header.starts_with("{'descr': [");
+    auto place = header.begin();
+    std::smatch part;
+    const auto take = [&](const std::regex& form) {
+      const bool found =
+          std::regex_search(place, header.end(), part, form, std::regex_constants::match_continuous);
+      if (found) place = part[0].second;
+      return found;
+    };
+    while (take(has_fields ? kField : kNumbers)) {
+      const std::string type = part.str(3) + part.str(4);
+      if (part[2] == ">")
+        throw InputError("is big-endian: '>" + type + "'; save the array with .astype('<" + type + "')");
+      const std::size_t bytes = std::stoull(part[4]) * (part[3] == "U" ? 4 : 1);
+      fields.push_back({part[1], type, bytes, part[5].length() > 0 ? std::stoull(part[5]) : 1});
+    }
+    if (!take(kRest) || place != header.end() || fields.empty() || part[1].matched != has_fields)
+      throw InputError(what_it_is_);
+    if (part[2] == "True")
+      throw InputError("is in Fortran order, column by column; save np.ascontiguousarray(ARRAY)");
+    promised = std::stoull(part[3]);
+    if (part[4].matched) fields.back().count *= std::stoull(part[4]);
+    for (Field& field : fields) {
+      field.offset = row_bytes_;
+      row_bytes_ += field.bytes * field.count;
+      if (row_bytes_ > kLongestRow) throw InputError("its rows are longer than 1 MiB");
+    }
+  }
+
+  std::string what_it_is_;  // for messages
+  std::vector<char> buffer_;
+  std::size_t row_bytes_ = 0, rows_ = 0, end_ = 0;  // in the buffer: of those read last; of all that it holds
+};
+
+class Queries final : public NpyQueryReader {
+ public:
+  Queries(const std::string& path, const std::string& d, const OnUnknownColumn& on_unknown_column)
+      : array_(path,
+               "queries in " + d + " dimensions are float64 of shape (N, 2 * " + d +
+                   "): x, v; or one column more, max_time; or of shape (N,) with the fields x, v (float64, "
+                   "shape (" +
+                   d + ",)), perhaps max_time, and from_lattice, from_atom, from_cell (integers)"),
+        d_(std::stoull(d)) {
+    if (array_.fields[0].name.empty()) {  // columns of numbers
+      const bool limits = array_.fields[0].count > 2 * d_;
+      Field column = *array_.field("", kReal, 2 * d_ + limits, true);
+      x_ = column, column.offset = 8 * d_;
+      v_ = column, column.offset = 16 * d_;
+      if (limits) max_time_ = column;
+      return;
+    }
+    x_ = array_.field("x", kReal, d_, true), v_ = array_.field("v", kReal, d_, true);
+    max_time_ = array_.field("max_time", kReal, 1, false);
+    for (const bool must : {false, from_lattice_ || from_atom_ || from_cell_}) {
+      from_lattice_ = array_.field("from_lattice", kInteger, 1, must);
+      from_atom_ = array_.field("from_atom", kInteger, 1, must);
+      from_cell_ = array_.field("from_cell", kInteger, d_, must);
+    }
+    const std::vector<std::string> known = npy_query_fields();
+    for (const Field& field : array_.fields)
+      if (!field.name.empty() && std::find(known.begin(), known.end(), field.name) == known.end())
+        on_unknown_column(name(), field.name);
+  }
+
+  const std::string& name() const override { return array_.file.name(); }
+  std::uint64_t promised() const override { return array_.promised; }
+  bool has_more() override {
+    char byte;
+    if (!array_.file.is_ready()) before_waiting_();
+    return array_.file.read(&byte, 1) == 1;
+  }
+
+  bool next(QueryRows& rows, std::size_t most) override {
+    const std::size_t count = array_.read(most, before_waiting_);
+    rows.first = array_.done;
+    const auto append = [&](std::vector<double>& column, const Field& field, std::size_t k) {
+      for (std::size_t i = 0; i < count; ++i) column.push_back(array_.number<double>(i, field, k));
+    };
+    for (std::size_t k = 0; k < d_; ++k) append(rows.x[k], *x_, k), append(rows.v[k], *v_, k);
+    if (max_time_) append(rows.max_time, *max_time_, 0);
+    for (std::size_t i = 0; from_cell_ && i < count; ++i) append_from(rows, i);
+    rows.count += count;
+    return count > 0;
+  }
+
+ private:
+  void append_from(QueryRows& rows, std::size_t i) const {
+    constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+    const auto index = [&](const Field& field) {
+      return static_cast<std::int32_t>(
+          std::clamp<std::int64_t>(array_.integer(i, field).value_or(kMost), -1, kMost));
+    };
+    rows.from_lattice.push_back(index(*from_lattice_)), rows.from_atom.push_back(index(*from_atom_));
+    bool fits = true;
+    for (std::size_t k = 0; k < d_; ++k) {
+      const auto coordinate = array_.integer(i, *from_cell_, k);
+      fits &= coordinate.has_value();
+      rows.from_cell[k].push_back(coordinate.value_or(0));
+    }
+    if (!fits && rows.from_lattice.back() >= 0)
+      rows.flaws.push_back({rows.count + i, "from_cell does not fit 64 bits with a sign"});
+  }
+
+  Array array_;
+  const std::size_t d_;
+  std::optional<Field> x_, v_, max_time_, from_lattice_, from_atom_, from_cell_;
+};
+
+class Answers final : public AnswerReader {
+ public:
+  Answers(const std::string& path, const std::string& d)
+      : array_(path, "answers in " + d +
+                         " dimensions are of shape (N,) with the fields outcome, lattice, atom, cell "
+                         "(integers, the last of shape (" +
+                         d + ",)) and time (float64 or float32)"),
+        d_(std::stoull(d)) {}
+
+  const std::string& name() const override { return array_.file.name(); }
+
+  bool next(Answer& answer, Id& id) override {
+    if (++row_ >= rows_) row_ = 0, rows_ = array_.read(1 << 10, [] {});
+    if (rows_ == 0) return false;
+    id = std::to_string(array_.done + row_);
+    const auto integer = [&](const Field& field, std::int64_t least, std::int64_t most, std::size_t k = 0) {
+      const auto value = array_.integer(row_, field, k);
+      if (!value || *value < least || *value > most)
+        throw InputError(name() + ": row " + id + ": is not an answer: " + field.name + " is out of range");
+      return *value;
+    };
+    constexpr std::int64_t kMost = 1'000'000'000, kAny = std::numeric_limits<std::int64_t>::max();
+    answer = {};
+    answer.outcome = static_cast<Outcome>(integer(outcome_, 0, static_cast<int>(Outcome::error)));
+    const std::int64_t lattice = integer(lattice_, 0, kMost), atom = integer(atom_, 0, kMost);
+    if (answer.outcome != Outcome::hit && answer.outcome != Outcome::inside) return true;
+    answer.obstacle.lattice = static_cast<int>(lattice), answer.obstacle.atom = static_cast<int>(atom);
+    for (std::size_t k = 0; k < d_; ++k) answer.obstacle.cell[k] = integer(cell_, -kAny - 1, kAny, k);
+    const double time =
+        time_.bytes == 8 ? array_.number<double>(row_, time_) : array_.number<float>(row_, time_);
+    if (answer.outcome == Outcome::hit && !std::isnan(time)) answer.time = time;
+    return true;
+  }
+
+ private:
+  Field field(std::string_view name, std::size_t count = 1, std::string_view types = kInteger) const {
+    return *array_.field(name, types, count, true);
+  }
+
+  Array array_;
+  const std::size_t d_;
+  const Field outcome_ = field("outcome"), lattice_ = field("lattice"), atom_ = field("atom"),
+              cell_ = field("cell", d_), time_ = field("time", 1, "f8 f4");
+  std::size_t row_ = 0, rows_ = 0;  // of those that were read last
+};
 
 }  // namespace
 
@@ -27,181 +272,13 @@ std::vector<std::string> npy_query_fields() {
   return {"x", "v", "max_time", "from_lattice", "from_atom", "from_cell"};
 }
 
-NpyQueryReader::NpyQueryReader(const std::string& path, int dimension,
-                               const OnUnknownColumn& on_unknown_column)
-    : file_(path), header_(read_npy_header(file_)), dimension_(dimension) {
-  if (header_.structured)
-    understand_fields(on_unknown_column);
-  else
-    understand_numbers();
-  promised_ = header_.shape[0];
-  if (promised_ > (std::uint64_t{1} << 62) / row_bytes_) refuse();  // places in the file fit 63 bits
-  if (by_columns_) place_ = file_.place();
+std::unique_ptr<NpyQueryReader> read_npy_queries(const std::string& path, int dimension,
+                                                 const OnUnknownColumn& on_unknown_column) {
+  return std::make_unique<Queries>(path, std::to_string(dimension), on_unknown_column);
 }
 
-void NpyQueryReader::refuse() const {
-  const std::string d = std::to_string(dimension_), numbers = std::to_string(2 * dimension_);
-  throw InputError(
-      file_.name() + ": is an array of " + header_.description + "; queries in " + d +
-      " dimensions are one of float64, shape (N, " + numbers +
-      "): columns x, v; or one column more, max_time; or one of shape (N,) with the fields x and "
-      "v (float64, shape (" +
-      d + ",)), perhaps max_time, from_lattice, from_atom, from_cell");
-}
-
-void NpyQueryReader::understand_numbers() {
-  const auto d = static_cast<std::size_t>(dimension_);
-  const NpyField& number = header_.fields[0];
-  const bool good = number.kind == 'f' && number.bytes == 8 && header_.shape.size() == 2 &&
-                    (header_.shape[1] == 2 * d || header_.shape[1] == 2 * d + 1);
-  if (!good) refuse();
-  x_ = v_ = number;
-  v_.offset = 8 * d;
-  row_bytes_ = 8 * header_.shape[1];
-  by_columns_ = header_.fortran_order;
-  if (header_.shape[1] == 2 * d) return;
-  max_time_ = number;
-  max_time_->offset = 16 * d;
-}
-
-const NpyField* NpyQueryReader::field(const std::string& name, bool needed) const {
-  for (const NpyField& field : header_.fields)
-    if (field.name == name) return &field;
-  if (needed) refuse();
-  return nullptr;
-}
-
-// Refuses a field that does not have the type and shape that it must have.
-void NpyQueryReader::check_number(const NpyField& field, bool is_vector, bool is_real) const {
-  const bool real = field.kind == 'f' && field.bytes == 8;
-  std::vector<std::size_t> shape;
-  if (is_vector) shape.push_back(static_cast<std::size_t>(dimension_));
-  if (!(is_real ? real : field.is_integer()) || field.shape != shape) refuse();
-}
-
-void NpyQueryReader::understand_fields(const OnUnknownColumn& on_unknown_column) {
-  if (header_.shape.size() != 1) refuse();
-  row_bytes_ = header_.item_bytes;
-  check_number(x_ = *field("x", true), true, true);
-  check_number(v_ = *field("v", true), true, true);
-  if (const NpyField* limit = field("max_time", false)) check_number(*(max_time_ = *limit), false, true);
-  const bool leaves = field("from_lattice", false) || field("from_atom", false) || field("from_cell", false);
-  if (leaves) {
-    check_number(*(from_lattice_ = *field("from_lattice", true)), false, false);
-    check_number(*(from_atom_ = *field("from_atom", true)), false, false);
-    check_number(*(from_cell_ = *field("from_cell", true)), true, false);
-  }
-  const std::vector<std::string> known = npy_query_fields();
-  for (const NpyField& field : header_.fields)
-    if (!field.name.empty() && std::find(known.begin(), known.end(), field.name) == known.end())
-      on_unknown_column(file_.name(), field.name);
-}
-
-// Reads rows as they arrive: no more than are available at once, but at least one.
-std::size_t NpyQueryReader::fill_rows(std::size_t most) {
-  if (begin_ > 0) std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
-  end_ -= begin_, begin_ = 0;
-  const std::size_t wanted = most * row_bytes_;
-  if (buffer_.size() < wanted) buffer_.resize(wanted);
-  while (end_ < wanted) {
-    if (!file_.is_ready()) {
-      if (end_ >= row_bytes_) break;
-      before_waiting_();
-    }
-    const std::size_t more = file_.read(buffer_.data() + end_, wanted - end_);
-    if (more == 0) break;
-    end_ += more;
-  }
-  const std::size_t rows = end_ / row_bytes_;
-  begin_ = rows * row_bytes_;
-  return rows;
-}
-
-// Reads the next numbers of a column, and returns how many.
-std::size_t NpyQueryReader::read_column(std::size_t column, std::size_t most, char* bytes) {
-  const std::uint64_t from = 8 * (column * promised_ + done_);
-  if (place_) return file_.read_all_at(*place_ + from, bytes, 8 * most) / 8;
-  const std::size_t there = from < all_.size() ? std::min<std::size_t>(all_.size() - from, 8 * most) : 0;
-  std::copy_n(all_.data() + std::min<std::size_t>(from, all_.size()), there, bytes);
-  return there / 8;
-}
-
-// Reads a part of each column. A pipe is read to its end for that, because the last column comes last.
-std::size_t NpyQueryReader::fill_columns(std::size_t most) {
-  if (!place_ && all_.empty()) {
-    const std::uint64_t size = row_bytes_ * promised_;
-    for (std::size_t end = 0; end < size; end = all_.size()) {
-      all_.resize(std::min<std::uint64_t>(size, end + std::max(end, kFirstPart)));
-      all_.resize(end + file_.read_all(all_.data() + end, all_.size() - end));
-      if (all_.size() == end) break;
-    }
-  }
-  held_ = most;
-  if (buffer_.size() < row_bytes_ * most) buffer_.resize(row_bytes_ * most);
-  std::size_t rows = most;
-  for (std::size_t column = 0; column < row_bytes_ / 8; ++column)
-    rows = std::min(rows, read_column(column, most, buffer_.data() + 8 * column * held_));
-  return rows;
-}
-
-NpyQueryReader::Numbers NpyQueryReader::numbers(const NpyField& field, int component) const {
-  const std::size_t offset = field.offset + field.bytes * static_cast<std::size_t>(component);
-  if (by_columns_) return {buffer_.data() + offset * held_, 8};
-  return {buffer_.data() + offset, row_bytes_};
-}
-
-void NpyQueryReader::append_rows(QueryRows& rows, std::size_t count) const {
-  const auto append = [&](std::vector<double>& column, const NpyField& field, int component) {
-    const Numbers from = numbers(field, component);
-    append_reals(column, from.first, from.stride, count, must_swap(field));
-  };
-  for (int k = 0; k < dimension_; ++k) append(rows.x[k], x_, k), append(rows.v[k], v_, k);
-  if (max_time_) append(rows.max_time, *max_time_, 0);
-  if (from_lattice_) append_from(rows, count);
-  rows.count += count;
-}
-
-void NpyQueryReader::append_from(QueryRows& rows, std::size_t count) const {
-  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto value = [&](const NpyField& field, int component) {
-      const Numbers from = numbers(field, component);
-      return integer_at(field, from.first + i * from.stride);
-    };
-    const auto index = [&](const NpyField& field) {
-      return static_cast<std::int32_t>(std::clamp<std::int64_t>(value(field, 0).value_or(kMost), -1, kMost));
-    };
-    rows.from_lattice.push_back(index(*from_lattice_));
-    rows.from_atom.push_back(index(*from_atom_));
-    bool fits = true;
-    for (int k = 0; k < dimension_; ++k) {
-      const auto coordinate = value(*from_cell_, k);
-      fits &= coordinate.has_value();
-      rows.from_cell[k].push_back(coordinate.value_or(0));
-    }
-    if (!fits && rows.from_lattice.back() >= 0)
-      rows.flaws.push_back({rows.count + i, "from_cell does not fit 64 bits with a sign"});
-  }
-}
-
-bool NpyQueryReader::next(QueryRows& rows, std::size_t most) {
-  if (done_ == promised_) return false;
-  const std::size_t held = std::max<std::size_t>(kLargestPart / row_bytes_, 1);
-  const auto wanted =
-      static_cast<std::size_t>(std::min<std::uint64_t>(promised_ - done_, std::min(most, held)));
-  const std::size_t count = by_columns_ ? fill_columns(wanted) : fill_rows(wanted);
-  if (count == 0) refuse_truncated(file_, done_, promised_);
-  rows.first = done_;
-  append_rows(rows, count);
-  done_ += count;
-  return true;
-}
-
-bool NpyQueryReader::has_more() {
-  char byte;
-  if (by_columns_ && place_) return file_.read_all_at(*place_ + row_bytes_ * promised_, &byte, 1) == 1;
-  if (!file_.is_ready()) before_waiting_();
-  return file_.read(&byte, 1) == 1;
+std::unique_ptr<AnswerReader> read_npy_answers(const std::string& path, int dimension) {
+  return std::make_unique<Answers>(path, std::to_string(dimension));
 }
 
 }  // namespace lorentz

@@ -45,23 +45,6 @@ std::size_t InputFile::read_all(char* bytes, std::size_t count) {
   return done;
 }
 
-std::size_t InputFile::read_all_at(std::uint64_t place, char* bytes, std::size_t count) const {
-  std::size_t done = 0;
-  while (done < count) {
-    const ssize_t more = pread(descriptor_, bytes + done, count - done, static_cast<off_t>(place + done));
-    if (more < 0 && errno == EINTR) continue;
-    if (more < 0) throw FileError(name_ + ": " + std::strerror(errno));
-    if (more == 0) break;
-    done += static_cast<std::size_t>(more);
-  }
-  return done;
-}
-
-std::optional<std::uint64_t> InputFile::place() const {
-  const off_t place = lseek(descriptor_, 0, SEEK_CUR);
-  return place < 0 ? std::nullopt : std::optional<std::uint64_t>(static_cast<std::uint64_t>(place));
-}
-
 bool InputFile::is_ready() const {
   return lorentz::is_ready(descriptor_);
 }

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <optional>
 #include <string>
 
 namespace lorentz {
@@ -23,12 +21,6 @@ class InputFile {
 
   /// Reads `count` bytes, fewer only at the end. Throws FileError.
   std::size_t read_all(char* bytes, std::size_t count);
-
-  /// The same from a place in the file. Requires an input that has places: place() returns one.
-  std::size_t read_all_at(std::uint64_t place, char* bytes, std::size_t count) const;
-
-  /// The place of the next byte; nothing for a pipe or a terminal.
-  std::optional<std::uint64_t> place() const;
 
   /// False if a read would have to wait.
   bool is_ready() const;

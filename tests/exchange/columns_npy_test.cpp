@@ -9,7 +9,6 @@
 #include <thread>
 
 #include <lorentz/errors.hpp>
-#include "src/exchange/npy_literal.hpp"
 #include "tests/support/command_line.hpp"
 #include "tests/support/npy.hpp"
 
@@ -29,11 +28,11 @@ struct Reading {
 Reading read_path(const std::string& path, int dimension, std::size_t part) {
   Reading reading;
   try {
-    NpyQueryReader reader(path, dimension, [&](const std::string&, const std::string& column) {
+    const auto reader = read_npy_queries(path, dimension, [&](const std::string&, const std::string& column) {
       reading.unknown.push_back(column);
     });
-    while (reader.next(reading.rows, part)) continue;
-    reading.more = reader.has_more();
+    while (reader->next(reading.rows, part)) continue;
+    reading.more = reader->has_more();
   } catch (const InputError& error) {
     reading.failure = error.what();
   }
@@ -86,56 +85,48 @@ void check_rows(const QueryRows& read, const Rows& rows, std::size_t d) {
 
 }  // namespace
 
-TEST_CASE("Arrays of queries: both byte orders, both orders of the axes, all versions", "[exchange][npy]") {
+TEST_CASE("Arrays of queries, in all versions of the format", "[exchange][npy]") {
   std::mt19937_64 random(20260101);
   for (const std::size_t d : {2, 3})
     for (const bool limits : {false, true})
-      for (const bool big : {false, true})
-        for (const bool fortran : {false, true})
-          for (const int version : {1, 2, 3}) {
-            INFO(d << limits << big << fortran << version);
-            const Rows rows = drawn_rows(random, 100, 2 * d + limits);
-            const Reading reading = read(npy_rows(rows, big, fortran, version), static_cast<int>(d));
-            CHECK(reading.failure.empty());
-            CHECK_FALSE(reading.more);
-            check_rows(reading.rows, rows, d);
-          }
+      for (const int version : {1, 2, 3}) {
+        INFO(d << limits << version);
+        const Rows rows = drawn_rows(random, 100, 2 * d + limits);
+        const Reading reading = read(npy_rows(rows, version), static_cast<int>(d));
+        CHECK(reading.failure.empty());
+        CHECK_FALSE(reading.more);
+        check_rows(reading.rows, rows, d);
+      }
 }
 
-TEST_CASE("Arrays with fields: any order, any integers, titles, fields that mean nothing",
+TEST_CASE("Arrays with fields: any order, any integers, padding, fields that mean nothing",
           "[exchange][npy]") {
-  for (const bool big : {false, true}) {
-    const std::string e = big ? ">" : "<";
-    const std::string description =
-        "[('from_cell', '" + e + "i2', (2,)), ('', '|V3'), ('v', '" + e + "f8', (2,)), ('colour', '<U2'), " +
-        "(('a title', 'x'), '" + e + "f8', 2), ('from_lattice', '|i1'), ('inner', [('a', '<f4'), ('b', " +
-        "'|S3', (2, 2))]), ('from_atom', '" + e + "u4'), ('max_time', '" + e + "f8')]";
-    std::string data;
-    for (int i = 0; i < 20; ++i) {
-      data +=
-          bytes_of(static_cast<std::int16_t>(-i), big) + bytes_of(static_cast<std::int16_t>(300 + i), big);
-      data += "pad" + bytes_of(0.5 + i, big) + bytes_of(-0.25, big) + "colourU2";
-      data += bytes_of(1.0 * i, big) + bytes_of(2.0 * i, big);
-      data += bytes_of(static_cast<std::int8_t>(i % 2 == 0 ? -1 : 1)) + std::string(16, 'z');
-      data += bytes_of(static_cast<std::uint32_t>(70000 + i), big) + bytes_of(10.0 + i, big);
-    }
-    const Reading reading = read(npy_file(npy_dictionary(description, "(20,)"), data), 2);
-    REQUIRE(reading.failure.empty());
-    CHECK(reading.unknown == std::vector<std::string>{"colour", "inner"});
-    const QueryRows& rows = reading.rows;
-    REQUIRE(rows.count == 20);
-    for (std::size_t i = 0; i < 20; ++i) {
-      const double r = static_cast<double>(i);
-      CHECK((rows.x[0][i] == r && rows.x[1][i] == 2 * r && rows.v[0][i] == r + 0.5));
-      CHECK((rows.v[1][i] == -0.25 && rows.max_time[i] == 10 + r));
-      CHECK(rows.from_lattice[i] == (i % 2 == 0 ? -1 : 1));
-      CHECK(rows.from_atom[i] == static_cast<int>(70000 + i));
-      CHECK(rows.from_cell[0][i] == -static_cast<int>(i));
-      CHECK(rows.from_cell[1][i] == static_cast<int>(300 + i));
-    }
-    CHECK_FALSE(rows.query(0, 2).from);
-    CHECK(rows.query(1, 2).from->atom == 70001);
+  const std::string description =
+      "[('from_cell', '<i2', (2,)), ('', '|V3'), ('v', '<f8', (2,)), ('colour', '<U2'), ('x', '<f8', (2,)), "
+      "('from_lattice', '|i1'), ('day', '<M8[D]'), ('from_atom', '<u4'), ('max_time', '<f8')]";
+  std::string data;
+  for (int i = 0; i < 20; ++i) {
+    data += bytes_of(static_cast<std::int16_t>(-i)) + bytes_of(static_cast<std::int16_t>(300 + i));
+    data += "pad" + bytes_of(0.5 + i) + bytes_of(-0.25) + "colourU2" + bytes_of(1.0 * i) + bytes_of(2.0 * i);
+    data += bytes_of(static_cast<std::int8_t>(i % 2 == 0 ? -1 : 1)) + std::string(8, 'z');
+    data += bytes_of(static_cast<std::uint32_t>(70000 + i)) + bytes_of(10.0 + i);
   }
+  const Reading reading = read(npy_file(npy_dictionary(description, "(20,)"), data), 2);
+  REQUIRE(reading.failure.empty());
+  CHECK(reading.unknown == std::vector<std::string>{"colour", "day"});
+  const QueryRows& rows = reading.rows;
+  REQUIRE(rows.count == 20);
+  for (std::size_t i = 0; i < 20; ++i) {
+    const double r = static_cast<double>(i);
+    CHECK((rows.x[0][i] == r && rows.x[1][i] == 2 * r && rows.v[0][i] == r + 0.5));
+    CHECK((rows.v[1][i] == -0.25 && rows.max_time[i] == 10 + r));
+    CHECK(rows.from_lattice[i] == (i % 2 == 0 ? -1 : 1));
+    CHECK(rows.from_atom[i] == static_cast<int>(70000 + i));
+    CHECK(rows.from_cell[0][i] == -static_cast<int>(i));
+    CHECK(rows.from_cell[1][i] == static_cast<int>(300 + i));
+  }
+  CHECK_FALSE(rows.query(0, 2).from);
+  CHECK(rows.query(1, 2).from->atom == 70001);
 }
 
 TEST_CASE("Integers of every width, and those that 64 bits with a sign do not hold", "[exchange][npy]") {
@@ -159,30 +150,18 @@ TEST_CASE("Integers of every width, and those that 64 bits with a sign do not ho
   CHECK(cell("|i1", "\xfe") == -2);
   CHECK(cell("|u1", "\xfe") == 254);
   CHECK(cell("<u2", "\xfe\xff") == 65534);
-  CHECK(cell(">i2", "\xff\xfe") == -2);
-  CHECK(cell(">i4", "\xff\xff\xff\xfe") == -2);
+  CHECK(cell("<i2", "\xfe\xff") == -2);
+  CHECK(cell("<i4", "\xfe\xff\xff\xff") == -2);
   CHECK(cell("<u4", "\xfe\xff\xff\xff") == 4294967294);
   CHECK(cell("<i8", bytes_of(std::numeric_limits<std::int64_t>::min())) ==
         std::numeric_limits<std::int64_t>::min());
-  CHECK(cell(">u8", bytes_of(std::uint64_t{1} << 62, true)) == std::int64_t{1} << 62);
+  CHECK(cell("<u8", bytes_of(std::uint64_t{1} << 62)) == std::int64_t{1} << 62);
   const Reading large = rows("<u8", bytes_of(std::uint64_t{1} << 63));
   REQUIRE(large.rows.flaws.size() == 1);
   CHECK(large.rows.flaws[0].message == "from_cell does not fit 64 bits with a sign");
 }
 
-TEST_CASE("Names of fields are in Latin-1 at first, then in UTF-8", "[exchange][npy]") {
-  const auto unknown = [](const std::string& name, int version) {
-    const std::string description = "[('x', '<f8', (2,)), ('v', '<f8', (2,)), ('" + name + "', '|u1')]";
-    const std::string row(33, '\0');
-    return read(npy_file(npy_dictionary(description, "(1,)"), row, version), 2).unknown.at(0);
-  };
-  CHECK(unknown("\xfc", 1) == "\xc3\xbc");
-  CHECK(unknown("\x80", 1) == "\xc2\x80");
-  CHECK(unknown("\xfc", 2) == "\xc3\xbc");
-  CHECK(unknown("\xc3\xbc", 3) == "\xc3\xbc");
-}
-
-TEST_CASE("Arrays that are not queries are refused, with what they are", "[exchange][npy]") {
+TEST_CASE("Arrays that are not queries are refused, with what they are and the remedy", "[exchange][npy]") {
   const auto says = [](const std::string& content, const std::string& what) {
     const Reading reading = read(content, 2);
     INFO(reading.failure);
@@ -192,7 +171,7 @@ TEST_CASE("Arrays that are not queries are refused, with what they are", "[excha
   const auto array = [](const std::string& description, const std::string& shape) {
     return npy_file(npy_dictionary(description, shape), std::string(1000, '\0'));
   };
-  says("", "is empty");
+  says("", "is no .npy file");
   says("{\"x\":[0,0]}", "--format ndjson");
   says("x1,x2,v1,v2\n", "is no .npy file");
   says("\x93NUM", "ends in its header");
@@ -200,64 +179,76 @@ TEST_CASE("Arrays that are not queries are refused, with what they are", "[excha
   says(std::string("\x93NUMPY\4\0\1\0", 10), "of version 4.0");
   says(std::string("\x93NUMPY\1\1\1\0", 10), "of version 1.1");
   says(std::string("\x93NUMPY\1\0\x50\0{'descr'", 18), "ends in its header");
-  says(std::string("\x93NUMPY\2\0\0\0\0\x7f", 12), "longer than 1 MiB");
-  for (const char* text : {"", "{", "{}", "{'descr': }", "{'descr': '<f8'", "{1: 2}", "[", "{'descr' '<f8'}",
-                           "'", "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 4)} x", "(1 2)",
-                           "99999999999999999999", "-", "nan", "{'a': 'b' 'c': 'd'}"}) {
-    INFO(text);
-    const std::string failure = read(npy_file(text, ""), 2).failure;
-    CHECK((contains(failure, "not a literal of Python") || contains(failure, "needs descr")));
+  says(std::string("\x93NUMPY\2\0\0\0\0\x7f", 12), "longer than 64 KiB");
+  says(array("'>f8'", "(5, 4)"), "is big-endian: '>f8'; save the array with .astype('<f8')");
+  says(array("[('x', '<f8', (2,)), ('v', '>f8', (2,))]", "(5,)"), "'>f8'");
+  says(npy_file("{'descr': '<f8', 'fortran_order': True, 'shape': (5, 4), }", ""), "np.ascontiguousarray");
+  const std::string good = npy_dictionary("'<f8'", "(1, 4)");
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{good, ""},
+                                 {"{", ""},
+                                 {"'<f8'", "8"},
+                                 {"False", "0"},
+                                 {", }", "}"},
+                                 {"(1, 4)", "4"},
+                                 {"(1, 4)", "(-1, 4)"},
+                                 {"(1, 4)", "(1, 4, 1)"},
+                                 {"(1, 4)", "(5)"},
+                                 {"(1, 4)", "()"},
+                                 {"(1, 4)", "(99999999999999999999, 4)"},
+                                 {"'<f8'", "'=f8'"},
+                                 {"'<f8'", "['<f8']"},
+                                 {", ", ","},
+                                 {"}", "} x"},
+                                 {"'descr'", "\"descr\""},
+                                 {"'<f8'", "[]"},
+                                 {"'<f8'", "'|O'"},
+                                 {"'<f8'", "''"},
+                                 {"'<f8'", "'<c16'"},
+                                 {"'<f8'", "'<f4'"},
+                                 {"'<f8'", "'<i8'"},
+                                 {"(1, 4)", "(1, 6)"},
+                                 {"(1, 4)", "(4,)"}}) {
+    std::string header = good;
+    header.replace(header.find(from), from.size(), to);
+    says(npy_file(header, std::string(100, '\0')), "is an array with the header ");
+    says(npy_file(header, std::string(100, '\0')), "; queries in 2 dimensions are float64 of shape (N, 4)");
   }
-  says(npy_file(std::string(100'000, '('), ""), "not a literal of Python");
-  says(npy_file("{'descr': '<f8', 'fortran_order': 0, 'shape': (1, 4)}", ""), "neither True nor False");
-  says(npy_file("{'descr': '<f8', 'fortran_order': False, 'shape': 4}", ""), "is not a tuple");
-  says(npy_file("{'descr': '<f8', 'fortran_order': False, 'shape': (-1, 4)}", ""), "has no numbers");
-  says(npy_file("{'descr': 8, 'fortran_order': False, 'shape': (1, 4)}", ""), "is not understood");
-  says(array("'<f8'", "(5, 6)"), "an array of '<f8' of shape (5, 6); queries in 2 dimensions");
-  says(array("'<f8'", "(5, 4, 1)"), "of shape (5, 4, 1)");
-  says(array("'<f8'", "(4,)"), "of shape (4,)");
-  says(array("'<f8'", "()"), "of shape ()");
-  says(array("'<f4'", "(5, 4)"), "'<f4'");
-  says(array("'<i8'", "(5, 4)"), "'<i8'");
-  says(array("'<c16'", "(5, 4)"), "'<c16'");
-  says(array("'|O'", "(5, 4)"), "'|O'");
-  says(array("''", "(5, 4)"), "''");
-  says(array("'<f8'", "(9223372036854775807, 4)"), "(9223372036854775807, 4)");
-  says(array("[('x', '<f8', (2,))]", "(5,)"), "fields x '<f8' x 2 of shape (5,)");
-  says(array("[('x', '<f8', (3,)), ('v', '<f8', (3,))]", "(5,)"), "x '<f8' x 3, v '<f8' x 3");
-  says(array("[('x', '<f8', (2,)), ('v', '<f4', (2,))]", "(5,)"), "v '<f4' x 2");
-  says(array("[('x', '<f8', (2,)), ('v', '<f8', (2,))]", "(5, 1)"), "of shape (5, 1)");
-  says(array("[('x', '<f8', (2,)), ('v', '<f8', (2,)), ('from_lattice', '<i4')]", "(5,)"), "from_cell");
-  says(array("[('x', '<f8', (2,)), ('v', '<f8', (2,)), ('max_time', '<i4')]", "(5,)"), "max_time '<i4'");
-  says(array("[('x', '<f8', (2,)), ('v', '<f8', (2,)), ('o', '|O')]", "(5,)"), "'|O'");
+  for (const char* description : {"[('x', '<f8', (2,))]", "[('x', '<f8', (3,)), ('v', '<f8', (3,))]",
+                                  "[('x', '<f8', (2,)), ('v', '<f4', (2,))]",
+                                  "[('x', '<f8', (2,)), ('v', '<f8', (2,)), ('from_lattice', '<i4')]",
+                                  "[('x', '<f8', (2,)), ('v', '<f8', (2,)), ('from_cell', '<i4', (2,))]",
+                                  "[('x', '<f8', (2,)), ('v', '<f8', (2,)), ('max_time', '<i4')]",
+                                  "[('x', '<f8', (2,)), ('v', '<f8', (2,)), ('o', '|O')]",
+                                  "[(('title', 'x'), '<f8', (2,)), ('v', '<f8', (2,))]",
+                                  "[('x', '<f8', (2,)), ('v', '<f8', (2,)), ('in', [('a', '<f8')])]",
+                                  "[('x', '<f8', (2,)), ('v', '<f8', (2,)), ('a', '<f8', (2, 2))]",
+                                  "[('x', '<f8', (2, 1)), ('v', '<f8', (2,))]", "[('x',)]", "['x', '<f8']"}) {
+    INFO(description);
+    says(array(description, "(5,)"), std::string("{'descr': ") + description);
+  }
+  says(array("[('x', '<f8', (2,)), ('v', '<f8', (2,))]", "(5, 1)"), "(5, 1)");
   says(array("[('x', '<f8', (2,)), ('v', '<f8', (2,)), ('o', '|S1048576')]", "(5,)"), "longer than 1 MiB");
-  says(array("[('x', '<f8', (2,)), ('v', '<f8', (9999999999, 9999999999))]", "(5,)"), "longer than 1 MiB");
-  says(array("[('x',)]", "(5,)"), "of a field");
-  says(array("[]", "(5,)"), "of shape (5,)");
+  says(array("[('x', '<f8', (2,)), ('v', '<f8', (999999999,))]", "(5,)"), "longer than 1 MiB");
 }
 
 TEST_CASE("A file that ends too early: its rows are read, and those that are missing are counted",
           "[exchange][npy]") {
   std::mt19937_64 random(2);
   const Rows rows = drawn_rows(random, 10, 5);
-  for (const bool fortran : {false, true}) {
-    const std::string whole = npy_rows(rows, false, fortran);
-    for (std::size_t missing = 1; missing <= 10 * 40; missing += 3) {
-      const std::string content = whole.substr(0, whole.size() - missing);
-      const std::size_t gone = fortran ? std::min<std::size_t>((missing + 7) / 8, 10) : (missing + 39) / 40;
-      for (const Reading& reading : {read(content, 2, 4), read_piped(content, 2, 4)}) {
-        INFO(fortran << " " << missing);
-        CHECK(contains(reading.failure, ": ends too early: " + std::to_string(gone) + " of 10 rows"));
-        if (gone < 10) check_rows(reading.rows, Rows(rows.begin(), rows.end() - static_cast<int>(gone)), 2);
-      }
+  const std::string whole = npy_rows(rows);
+  for (std::size_t missing = 1; missing <= 10 * 40; missing += 3) {
+    const std::string content = whole.substr(0, whole.size() - missing);
+    const std::size_t gone = (missing + 39) / 40;
+    for (const Reading& reading : {read(content, 2, 4), read_piped(content, 2, 4)}) {
+      INFO(missing);
+      CHECK(contains(reading.failure, ": ends too early: " + std::to_string(gone) + " of 10 rows"));
+      if (gone < 10) check_rows(reading.rows, Rows(rows.begin(), rows.end() - static_cast<int>(gone)), 2);
     }
   }
-  CHECK(read(npy_rows(rows) + "x", 2).more);
-  CHECK(read(npy_rows(rows, false, true) + "x", 2).more);
-  CHECK(read_piped(npy_rows(rows, false, true) + "x", 2, 7).more);
+  CHECK(read(whole + "x", 2).more);
+  CHECK(read_piped(whole + "x", 2, 7).more);
   // What a header promises is not taken before it is there.
-  const std::string promises =
-      npy_file(npy_dictionary("'<f8'", "(1099511627776, 4)", true), std::string(100, '\0'));
+  const std::string promises = npy_file(npy_dictionary("'<f8'", "(1099511627776, 4)"), std::string(20, '\0'));
   for (const auto& reads : {read, read_piped})
     CHECK(contains(reads(promises, 2, 7).failure, "ends too early: 1099511627776 of 1099511627776 rows"));
   CHECK(read(npy_rows({}), 2).failure.empty());
@@ -265,14 +256,12 @@ TEST_CASE("A file that ends too early: its rows are read, and those that are mis
 
 TEST_CASE("Arrays longer than a pipe holds, and than what is read of them at once", "[exchange][npy]") {
   std::mt19937_64 random(3);
-  for (const std::size_t count : {1638, 1639, 4000, 10'000}) {  // 64 KiB are 1638.4 rows
+  for (const std::size_t count : {1638, 1639, 10'000}) {  // 64 KiB are 1638.4 rows
     const Rows rows = drawn_rows(random, count, 5);
-    for (const bool fortran : {false, true}) {
-      const Reading reading = read_piped(npy_rows(rows, false, fortran), 2, 3000);
-      INFO(count << fortran << reading.failure);
-      CHECK((reading.failure.empty() && !reading.more));
-      check_rows(reading.rows, rows, 2);
-    }
+    const Reading reading = read_piped(npy_rows(rows), 2, 3000);
+    INFO(count << reading.failure);
+    CHECK((reading.failure.empty() && !reading.more));
+    check_rows(reading.rows, rows, 2);
   }
 }
 
@@ -314,11 +303,11 @@ TEST_CASE("Queries as an array, with and without obstacles that they leave, are 
 TEST_CASE("Spoilt .npy files never do worse than an error", "[exchange][npy]") {
   std::mt19937_64 random(31);
   const std::string fields =
-      npy_file(npy_dictionary("[('x', '<f8', (2,)), ('v', '>f8', (2,)), ('from_lattice', '<i4'), "
-                              "('from_atom', '|u1'), ('from_cell', '<i8', (2,)), ('more', '<U3', (2, 1))]",
+      npy_file(npy_dictionary("[('x', '<f8', (2,)), ('v', '<f8', (2,)), ('from_lattice', '<i4'), "
+                              "('from_atom', '|u1'), ('from_cell', '<i8', (2,)), ('more', '<U3', (2,))]",
                               "(9,)"),
                std::string(9 * 77, '\1'));
-  const std::string numbers = npy_rows(drawn_rows(random, 9, 4), false, true);
+  const std::string numbers = npy_rows(drawn_rows(random, 9, 4));
   const std::string alphabet = "(){}[]'\",: 0123456789<>|=fiuVSUOTrueFalsxN\\\n\xff";
   int read_well = 0, refused = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -348,9 +337,9 @@ TEST_CASE("Answers as an array: the header as NumPy pads it, and every byte of t
     CHECK(header.size() % 64 == 0);
     CHECK(header.starts_with(std::string("\x93NUMPY\1\0", 8)));
     CHECK(header.back() == '\n');
-    const PythonValue value = read_python_literal(header.substr(10));
-    CHECK(value.at("shape")->items.at(0).number == 7);
-    CHECK(value.at("descr")->items.size() == 7);
+    CHECK(header.substr(10).starts_with("{'descr': [('outcome', '|u1'), ('stage', '|u1'), "));
+    CHECK(contains(header, d == 2 ? "('cell', '<i8', (2,)), ('time', '<f8')]" : "(3,)), ('time', '<f8')]"));
+    CHECK(contains(header, "'fortran_order': False, 'shape': (7,), }  "));
     AnswerRows answers;
     answers.resize(3, d);
     answers.set(0, Answer::hit({1, 2, {-3, 4, 5}}, 0.5), 2, true);

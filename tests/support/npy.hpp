@@ -1,7 +1,6 @@
 // Files of NumPy's format .npy, byte by byte.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -9,12 +8,11 @@
 
 namespace lorentz::test {
 
-/// A number's bytes, the lowest first, or the highest.
+/// A number's bytes, the lowest first.
 template <class Number>
-std::string bytes_of(Number number, bool big_endian = false) {
+std::string bytes_of(Number number) {
   std::string bytes(sizeof number, '\0');
   std::memcpy(bytes.data(), &number, sizeof number);
-  if (big_endian != (std::endian::native == std::endian::big)) return {bytes.rbegin(), bytes.rend()};
   return bytes;
 }
 
@@ -32,26 +30,19 @@ inline std::string npy_file(const std::string& dictionary, const std::string& da
   return std::string("\x93NUMPY") + static_cast<char>(version) + '\0' + length + dictionary + data;
 }
 
-inline std::string npy_dictionary(const std::string& description, const std::string& shape,
-                                  bool fortran = false) {
-  return "{'descr': " + description + ", 'fortran_order': " + (fortran ? "True" : "False") +
-         ", 'shape': " + shape + ", }\n";
+inline std::string npy_dictionary(const std::string& description, const std::string& shape) {
+  return "{'descr': " + description + ", 'fortran_order': False, 'shape': " + shape + ", }\n";
 }
 
 /// Rows of numbers as a file.
-inline std::string npy_rows(const std::vector<std::vector<double>>& rows, bool big_endian = false,
-                            bool fortran = false, int version = 1) {
+inline std::string npy_rows(const std::vector<std::vector<double>>& rows, int version = 1) {
   const std::size_t columns = rows.empty() ? 4 : rows.front().size();
   std::string data;
-  if (!fortran)
-    for (const auto& row : rows)
-      for (const double number : row) data += bytes_of(number, big_endian);
-  for (std::size_t column = 0; fortran && column < columns; ++column)
-    for (const auto& row : rows) data += bytes_of(row[column], big_endian);
+  for (const auto& row : rows)
+    for (const double number : row) data += bytes_of(number);
   return npy_file(
-      npy_dictionary(big_endian ? "'>f8'" : "'<f8'",
-                     "(" + std::to_string(rows.size()) + ", " + std::to_string(columns) + ")", fortran),
-      data, version);
+      npy_dictionary("'<f8'", "(" + std::to_string(rows.size()) + ", " + std::to_string(columns) + ")"), data,
+      version);
 }
 
 /// What stands behind the header of a file of version 1.0.
