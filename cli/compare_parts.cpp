@@ -10,82 +10,25 @@
 #include "files/messages.hpp"
 #include "files/scene_file.hpp"
 #include "report/claim_words.hpp"
-#include "src/exchange/exchange_json.hpp"
-#include "src/exchange/json_writer.hpp"
+#include "src/exchange/json_piece.hpp"
+
+namespace lorentz::question {
+
+static auto members_of(Tally& self) {
+  return std::tie(self.queries, self.agree, self.ill_posed, self.wrong, self.undecided, self.unsupported,
+                  self.error, self.missing, self.wrong_time, self.other_quantity, self.timed_hits, self.ulps,
+                  self.wrong_ulps, self.wrong_conditions);
+}
+
+}  // namespace lorentz::question
 
 namespace lorentz::cli {
 
-using question::Tally;
+static auto members_of(ComparedPart& self) {
+  return std::tie(self.number, self.check, self.tallies, self.wrong, self.disagreements);
+}
 
 namespace {
-
-constexpr std::size_t Tally::*kCounts[] = {&Tally::queries,        &Tally::agree,     &Tally::ill_posed,
-                                           &Tally::wrong,          &Tally::undecided, &Tally::unsupported,
-                                           &Tally::error,          &Tally::missing,   &Tally::wrong_time,
-                                           &Tally::other_quantity, &Tally::timed_hits};
-
-std::string text_of(const ComparedPart& part) {
-  std::size_t next = 0;
-  const auto tally = [&](json::Members& one, const Tally& its) {
-    std::vector<std::size_t> counts;
-    for (const auto count : kCounts) counts.push_back(its.*count);
-    one.add("counts", counts, "ulps", its.ulps, "wrong_ulps", its.wrong_ulps, "wrong_conditions",
-            its.wrong_conditions, "wrong", part.wrong[next++]);
-  };
-  return json::text_of([&](json::Members& object) {
-    object.add("part", part.number, "check", json::Digits{part.check}, "tallies",
-               json::objects(part.tallies, tally), "disagreements", part.disagreements);
-  });
-}
-
-std::vector<double> numbers_in(json::Array array) {
-  std::vector<double> numbers;
-  json::each_element(array, [&](json::Value value) {
-    numbers.push_back(read_number_or_infinity(value, "an error of a time"));
-  });
-  return numbers;
-}
-
-Tally tally_in(json::Object object) {
-  Tally tally;
-  std::size_t next = 0;
-  json::each_element(object["counts"].array(), [&](json::Value value) {
-    if (next == std::size(kCounts)) throw InputError("has a count too many");
-    tally.*kCounts[next++] = value.natural();
-  });
-  for (const auto& [key, numbers] : {std::pair{"ulps", &Tally::ulps},
-                                     {"wrong_ulps", &Tally::wrong_ulps},
-                                     {"wrong_conditions", &Tally::wrong_conditions}})
-    tally.*numbers = numbers_in(object[key].array());
-  const std::size_t sum = tally.agree + tally.ill_posed + tally.wrong + tally.undecided + tally.unsupported +
-                          tally.error + tally.missing;
-  if (next != std::size(kCounts) || sum != tally.queries || tally.timed_hits != tally.ulps.size() ||
-      tally.other_quantity > tally.wrong_time || tally.wrong_time != tally.wrong_ulps.size() ||
-      tally.wrong_time != tally.wrong_conditions.size())
-    throw InputError("has counts that do not fit together");
-  return tally;
-}
-
-ComparedPart part_in(const std::string& text) {
-  try {
-    json::Document document;
-    document.open(text);
-    json::Object object = document.object();
-    ComparedPart part;
-    part.number = object["part"].natural();
-    part.check = object["check"].natural();
-    json::each_element(object["tallies"].array(), [&](json::Value value) {
-      json::Object one = value.object();
-      part.tallies.push_back(tally_in(one));
-      std::vector<std::string>& wrong = part.wrong.emplace_back();
-      json::each_element(one["wrong"].array(), [&](json::Value its) { wrong.emplace_back(its.text()); });
-    });
-    part.disagreements = object["disagreements"].text();
-    return part;
-  } catch (const json::Error& error) {
-    throw InputError(std::string("is not a part of a comparison: ") + error.what());
-  }
-}
 
 runs::Plan plan_of(const CompareOptions& options, const std::vector<std::string>& names) {
   std::string scene;
@@ -118,9 +61,9 @@ ComparedParts::ComparedParts(const CompareOptions& options, const std::vector<st
 void ComparedParts::read(const runs::PieceStore& store, const std::string& name) {
   std::size_t queries = 0;
   store.each([&](const std::string& piece) {
-    ComparedPart part = part_in(piece);
-    if (part.tallies.size() != compared_) throw InputError("is of another number of engines");
-    queries += part.tallies[0].queries;
+    ComparedPart part;
+    json::read_piece(piece, part);
+    queries += part.tallies.at(0).queries;
     const std::uint64_t number = part.number;
     if (!parts_.emplace(number, std::move(part)).second)
       throw InputError(fmt::format("is part {}, which is there twice", number));
@@ -137,7 +80,7 @@ bool ComparedParts::is_to_do(std::uint64_t number, std::uint64_t check) const {
 }
 
 void ComparedParts::add(ComparedPart part, bool is_whole) {
-  if (store_.is_file() && is_whole) store_.add({text_of(part)});
+  if (store_.is_file() && is_whole) store_.add({json::piece_of(part)});
   const std::uint64_t number = part.number;
   parts_.emplace(number, std::move(part));
 }

@@ -15,8 +15,15 @@
 
 #include "golden/maker.hpp"
 #include "golden/seen.hpp"
+#include "src/exchange/json_piece.hpp"
 
 namespace lorentz::golden {
+
+static auto members_of(RecordCounts& self) {
+  return std::tie(self.records, self.walked, self.hits, self.insides, self.nevers, self.errors,
+                  self.needing_judge, self.left_out);
+}
+
 namespace {
 
 constexpr std::uint64_t kBatch = cases::kCasesPerScene;
@@ -163,7 +170,7 @@ void count(RecordCounts& counts, const MadeRecord& made) {
 
 // Makes the missing batches. `write` gets the text of one batch at a time; `state` then includes that batch.
 void produce_rest(const Order& order, ProductionState& state,
-                  const std::function<void(std::string_view)>& write, const OnProgress& progress) {
+                  const std::function<void(const std::string&)>& write, const OnProgress& progress) {
   BatchQueue queue(order, state.next_batch);
   while (state.counts.records + state.counts.left_out < order.count) {
     std::string text;
@@ -185,27 +192,19 @@ void produce_rest(const Order& order, ProductionState& state,
   }
 }
 
-// A piece has the counts up to and including a batch, and the batch's text.
-std::string piece_of(const RecordCounts& a, std::string_view text) {
-  return fmt::format("{} {} {} {} {} {} {} {}\n{}", a.records, a.walked, a.hits, a.insides, a.nevers,
-                     a.errors, a.needing_judge, a.left_out, text);
-}
-
+// Reads a piece: the counts up to and including a batch, and the batch's text.
 std::string text_in(const std::string& piece, ProductionState& state) {
-  RecordCounts& a = state.counts;
-  std::istringstream in(piece);
-  in >> a.records >> a.walked >> a.hits >> a.insides >> a.nevers >> a.errors >> a.needing_judge >> a.left_out;
-  if (!in || in.get() != '\n') throw InputError("is not a batch of records");
-  const auto begin = static_cast<std::size_t>(in.tellg());
+  std::string text;
+  json::read_piece(piece, std::tie(state.counts, text));
+  std::istringstream in(text);
   constexpr std::string_view kId = "{\"id\":\"";
   for (std::string line; std::getline(in, line);)
     if (line.starts_with(kId))
       state.ids.insert(number_of(line.substr(kId.size(), 16)));
     else
       state.scene_line = line;
-  if (state.ids.size() != a.records) throw InputError("has another number of records than it says");
   ++state.next_batch;
-  return piece.substr(begin);
+  return text;
 }
 
 }  // namespace
@@ -261,9 +260,9 @@ RecordCounts produce_lines(const Order& order, const Write& write, const OnProgr
   if (kept) kept->each([&](const std::string& piece) { write(text_in(piece, state)); });
   produce_rest(
       order, state,
-      [&](std::string_view text) {
+      [&](const std::string& text) {
         write(text);
-        if (kept) kept->add({piece_of(state.counts, text)});
+        if (kept) kept->add({json::piece_of(std::tie(state.counts, text))});
       },
       progress);
   return state.counts;

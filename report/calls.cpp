@@ -46,15 +46,4 @@ void append_json(std::string& out, const Calls& calls) {
   }));
 }
 
-Calls calls_of(json::Array array) {
-  Calls calls;
-  json::each_element(array, [&](json::Value element) {
-    json::Object one = element.object();
-    const int decade = static_cast<int>(one["decade"].integer());
-    calls.add(decade, {one["right"].natural(), one["ill_posed"].natural(), one["wrong"].natural(),
-                       one["undecided"].natural(), read_number(one["radii_off"], "radii_off")});
-  });
-  return calls;
-}
-
 }  // namespace lorentz::report

@@ -4,9 +4,9 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include <lorentz/verdict.hpp>
-#include "src/exchange/exchange_json.hpp"
 
 namespace lorentz::report {
 
@@ -17,6 +17,9 @@ struct Call {
 
   std::size_t total() const { return right + ill_posed + wrong + undecided; }
   friend bool operator==(const Call&, const Call&) = default;
+  friend auto members_of(Call& self) {
+    return std::tie(self.right, self.ill_posed, self.wrong, self.undecided, self.radii_off);
+  }
 };
 
 /// Answers by decade. A tolerance shows as an edge: wrong below, right above.
@@ -31,6 +34,7 @@ class Calls {
 
   const std::map<int, Call>& by_decade() const { return by_decade_; }
   friend bool operator==(const Calls&, const Calls&) = default;
+  friend auto members_of(Calls& self) { return std::tie(self.by_decade_); }
 
  private:
   std::map<int, Call> by_decade_;
@@ -38,8 +42,5 @@ class Calls {
 
 /// An array of objects, one per decade; the keys are the members' names.
 void append_json(std::string& out, const Calls& calls);
-
-/// Reads what append_json wrote. Throws InputError and json::Error.
-Calls calls_of(json::Array array);
 
 }  // namespace lorentz::report

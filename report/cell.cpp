@@ -5,8 +5,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "src/exchange/exchange_json.hpp"
-#include "src/exchange/json_writer.hpp"
+#include "src/exchange/json_piece.hpp"
 
 namespace lorentz::report {
 
@@ -74,149 +73,33 @@ void append_json(std::string& out, const Cell& cell) {
   });
 }
 
-namespace {
-
-std::string text(json::Value value) {
-  return std::string(value.text());
+static auto members_of(Share& self) {
+  return std::tie(self.count, self.low, self.high);
+}
+static auto members_of(CellTimes& self) {
+  return std::tie(self.median, self.q1, self.q3, self.mean);
+}
+static auto members_of(Histogram& self) {
+  return std::tie(self.exact, self.first, self.counts, self.mean, self.p99, self.max);
+}
+static auto members_of(Worst& self) {
+  return std::tie(self.verdict, self.ulps, self.query, self.command);
+}
+static auto members_of(Cell& self) {
+  return std::tie(self.scene, self.radius, self.dimension, self.difficulty, self.engine, self.queries,
+                  self.skipped, self.ns, self.instructions, self.mean_path, self.undecided, self.ill_posed,
+                  self.wrong, self.wrong_time, self.unsupported, self.error, self.missing, self.ulps,
+                  self.conditions, self.calls, self.worst);
 }
 
-double number(json::Object& object, const char* key) {
-  return read_number_or_infinity(object[key], "a number");
+std::string piece_of(const Cell& cell) {
+  return json::piece_of(cell);
 }
 
-std::optional<double> number_or_null(json::Value value) {
-  if (value.is_null()) return std::nullopt;
-  return read_number_or_infinity(value, "a number");
-}
-
-std::size_t count(json::Object& object, const char* key) {
-  return object[key].natural();
-}
-
-Share share(json::Object object) {
-  return {count(object, "count"), number(object, "low"), number(object, "high")};
-}
-
-CellTimes times(json::Object object) {
-  return {number(object, "median"), number(object, "q1"), number(object, "q3"), number(object, "mean")};
-}
-
-Histogram histogram(json::Object object) {
-  Histogram histogram;
-  histogram.exact = count(object, "exact");
-  histogram.first = static_cast<int>(object["first"].integer());
-  json::each_element(object["counts"].array(),
-                     [&](json::Value bin) { histogram.counts.push_back(bin.natural()); });
-  histogram.mean = number(object, "mean");
-  histogram.p99 = number(object, "p99");
-  histogram.max = number(object, "max");
-  return histogram;
-}
-
-Worst worst(json::Object object) {
-  return {text(object["verdict"]), number_or_null(object["ulps"]),
-          std::string(object["query"].object().text()), text(object["command"])};
-}
-
-void read_measured(json::Object& object, Cell& cell) {
-  if (json::Value value = object["ns"]; !value.is_null()) cell.ns = times(value.object());
-  cell.instructions = number_or_null(object["instructions"]);
-  cell.mean_path = number(object, "mean_path");
-  cell.undecided = share(object["undecided"].object());
-  cell.ill_posed = share(object["ill_posed"].object());
-  cell.wrong = share(object["wrong"].object());
-  cell.wrong_time = share(object["wrong_time"].object());
-  cell.error = count(object, "error");
-  cell.missing = count(object, "missing");
-  cell.ulps = histogram(object["ulps"].object());
-  cell.conditions = histogram(object["conditions"].object());
-  cell.calls = calls_of(object["calls"].array());
-  if (json::Value value = object["worst"]; !value.is_null()) cell.worst = worst(value.object());
-}
-
-}  // namespace
-
-Cell cell_of(std::string_view text_of_cell) {
-  try {
-    json::Document document;
-    document.open(text_of_cell);
-    json::Object object = document.object();
-    Cell cell;
-    cell.scene = text(object["scene"]);
-    cell.radius = number_or_null(object["radius"]);
-    cell.dimension = static_cast<int>(object["dimension"].integer());
-    cell.difficulty = text(object["difficulty"]);
-    cell.engine = text(object["engine"]);
-    cell.queries = count(object, "queries");
-    cell.skipped = object["skipped"].boolean();
-    cell.unsupported = count(object, "unsupported");
-    if (!cell.skipped) read_measured(object, cell);
-    return cell;
-  } catch (const std::runtime_error& error) {  // InputError, NotJson, json::Error
-    throw InputError(std::string("is not a cell of a table: ") + error.what());
-  }
-}
-
-namespace {
-
-bool fits(const Histogram& h, std::size_t most) {
-  std::size_t left = most;
-  const auto take = [&](std::size_t count) { return count <= left && ((left -= count), true); };
-  if (!take(h.exact)) return false;
-  for (const std::size_t count : h.counts)
-    if (!take(count)) return false;
-  const bool is_empty = left == most,
-             ends = h.counts.empty() || (h.counts.front() > 0 && h.counts.back() > 0);
-  if (is_empty) return h == Histogram();
-  return ends && h.first >= -1074 && h.first < 1024 && h.mean >= 0 && h.mean <= h.max * (1 + 1e-9) &&
-         h.p99 >= 0 && h.p99 <= h.max && std::isfinite(h.max) &&
-         (h.counts.empty() ? h.max == 0
-                           : std::ilogb(h.max) == h.first + static_cast<int>(h.counts.size()) - 1);
-}
-
-// True if the calls have no more of each verdict than the cell.
-bool fits(const Calls& calls, const Cell& cell) {
-  Call all;
-  for (const auto& [decade, call] : calls.by_decade()) {
-    if (call.total() == 0 || !(call.radii_off >= 0)) return false;
-    for (const auto part : {&Call::right, &Call::ill_posed, &Call::wrong, &Call::undecided}) {
-      if (call.*part > cell.queries) return false;
-      all.*part += call.*part;
-    }
-  }
-  return all.ill_posed <= cell.ill_posed.count && all.wrong <= cell.wrong.count &&
-         all.undecided <= cell.undecided.count && all.total() <= cell.queries;
-}
-
-bool is_verdict(const std::string& text) {
-  return text == "wrong" || text == "ill-posed" || text == "wrong-time" || text == "agree";
-}
-
-}  // namespace
-
-std::string flaw_of(const Cell& cell, std::size_t most) {
-  const std::size_t n = cell.queries;
-  if (n > most || cell.unsupported > n) return "counts more queries than were asked";
-  if (cell.skipped) return "";
-  for (const Share* share : {&cell.undecided, &cell.ill_posed, &cell.wrong, &cell.wrong_time})
-    if (share->count > n || !(*share == share_of(share->count, n)))
-      return "has a share that is not one of its queries";
-  if (cell.error > n || cell.missing > n ||
-      cell.undecided.count + cell.ill_posed.count + cell.wrong.count + cell.unsupported + cell.error +
-              cell.missing >
-          n)
-    return "counts more answers than queries";
-  const CellTimes ns = cell.ns.value_or(CellTimes());
-  if (!(ns.q1 >= 0 && ns.q1 <= ns.median && ns.median <= ns.q3 && ns.mean >= 0 &&
-        std::isfinite(ns.q3 + ns.mean)))
-    return "has times out of order";
-  if (!(cell.instructions.value_or(0) >= 0) || !(cell.mean_path >= 0)) return "has a number below zero";
-  if (!fits(cell.ulps, n) || !fits(cell.conditions, n))
-    return "has a histogram that is not one of its answers";
-  if (!fits(cell.calls, cell)) return "has calls that are not those of its answers";
-  if (cell.worst && (!is_verdict(cell.worst->verdict) || !(cell.worst->ulps.value_or(0) >= 0)))
-    return "has a worst input without a verdict";
-  return "";
+Cell cell_of(std::string_view piece) {
+  Cell cell;
+  json::read_piece(piece, cell);
+  return cell;
 }
 
 }  // namespace lorentz::report

@@ -67,11 +67,8 @@ struct Cell {
 /// An object; the keys are the members' names. A skipped cell has null for all that was not measured.
 void append_json(std::string& out, const Cell& cell);
 
-/// Reads what append_json wrote. Throws InputError.
-Cell cell_of(std::string_view json);
-
-/// Says why no engine can have this result for up to `most` queries; empty if one can. Flaws are inconsistent
-/// counts, bounds that do not belong to their counts, and times and errors out of order.
-std::string flaw_of(const Cell& cell, std::size_t most);
+/// A cell in a store, and the inverse. Throws InputError.
+std::string piece_of(const Cell& cell);
+Cell cell_of(std::string_view piece);
 
 }  // namespace lorentz::report

@@ -43,25 +43,18 @@ runs::Plan words_of(const BenchPlan& plan, const std::vector<BenchGroup>& groups
 BenchStore::BenchStore(std::optional<std::string> path, const BenchPlan& plan,
                        const std::vector<BenchGroup>& groups, const runs::Plan& words, std::string manifest)
     : plan_(plan), store_(path, "bench", words_of(plan, groups, words)) {
-  store_.each([&](const std::string& piece) { read(piece, groups); });
+  store_.each([&](const std::string& piece) {  // the first piece is the manifest
+    if (manifest_.empty())
+      manifest_ = piece;
+    else
+      keep(report::cell_of(piece));
+  });
   if (manifest_.empty()) store_.add({manifest_ = std::move(manifest)});
 }
 
-// The first piece is the manifest, the others are cells.
-void BenchStore::read(const std::string& piece, const std::vector<BenchGroup>& groups) {
-  if (manifest_.empty()) {
-    manifest_ = piece;
-    return;
-  }
-  report::Cell cell = report::cell_of(piece);
-  if (const std::string flaw = flaw_of(cell, plan_.count); !flaw.empty()) throw InputError(flaw);
+bool BenchStore::keep(report::Cell cell) {
   const CellKey key = key_of(cell);
-  const bool is_asked = std::any_of(groups.begin(), groups.end(), [&](const BenchGroup& group) {
-    return std::any_of(plan_.engines.begin(), plan_.engines.end(),
-                       [&](const EngineInfo& engine) { return key == key_of(group, engine.name); });
-  });
-  if (!is_asked) throw InputError("is a cell that the run has not");
-  if (!cells_.emplace(key, std::move(cell)).second) throw InputError("is a cell that was there before");
+  return cells_.emplace(key, std::move(cell)).second;
 }
 
 std::optional<std::vector<report::Cell>> BenchStore::find(const BenchGroup& group) const {
@@ -77,7 +70,7 @@ std::optional<std::vector<report::Cell>> BenchStore::find(const BenchGroup& grou
 void BenchStore::add(const std::vector<report::Cell>& cells) {
   std::vector<std::string> pieces;
   for (const report::Cell& cell : cells)
-    if (cells_.emplace(key_of(cell), cell).second) pieces.push_back(json::text_of(cell));
+    if (keep(cell)) pieces.push_back(report::piece_of(cell));
   store_.add(std::move(pieces));
 }
 

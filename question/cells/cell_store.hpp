@@ -32,7 +32,7 @@ class BenchStore {
   const std::string& manifest() const { return manifest_; }
 
  private:
-  void read(const std::string& piece, const std::vector<BenchGroup>& groups);
+  bool keep(report::Cell cell);  ///< false if it was there
 
   const BenchPlan& plan_;
   std::string manifest_;

@@ -51,13 +51,6 @@ void add(const Way& way, Sums& sums) {
   ++sums.particles;
 }
 
-bool can_be_displacements(const Sums& sums, GroupShare share) {
-  return sums.values.size() == kDiffusionValues &&
-         std::all_of(sums.values.begin(), sums.values.begin() + kTimes, [](double x) { return x >= 0; }) &&
-         sums.stopped <= share.last - share.first &&
-         sums.particles == share.last - share.first - sums.stopped;
-}
-
 // Flies the particles [first, last) to the time T. If the work is stopped earlier, the sums are unusable.
 void fly(const DiffusionPlan& plan, const Batch& engine, const starts::FreeStarts& starts, GroupShare share,
          const std::vector<double>& times, const Work& work, Sums& sums) {
@@ -148,19 +141,14 @@ Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work) {
   const Batch engine(plan.scene);
   const starts::FreeStarts starts(plan.scene, starts::kind_of(plan.from), plan.seed);
   const std::vector<double> times = times_of(plan.time);
-  const auto all = for_each_group(
-      work,
-      [&](std::uint64_t group) {
-        Sums sums{std::vector<double>(kDiffusionValues)};
-        GroupShare share = share_of(group, plan.count);
-        for (; share.first < share.last && !work.is_stopped(); share.first += kTogether)
-          fly(plan, engine, starts, {share.first, std::min(share.first + kTogether, share.last)}, times, work,
-              sums);
-        return sums;
-      },
-      [&](std::uint64_t group, const Sums& sums) {
-        return can_be_displacements(sums, share_of(group, plan.count));
-      });
+  const auto all = for_each_group(work, [&](std::uint64_t group) {
+    Sums sums{std::vector<double>(kDiffusionValues)};
+    GroupShare share = share_of(group, plan.count);
+    for (; share.first < share.last && !work.is_stopped(); share.first += kTogether)
+      fly(plan, engine, starts, {share.first, std::min(share.first + kTogether, share.last)}, times, work,
+          sums);
+    return sums;
+  });
   std::vector<Sums> good;
   for (const auto& sums : all)
     if (sums && sums->particles > 0) good.push_back(*sums);

@@ -1,68 +1,47 @@
 #include "statistics/chaos/groups.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <exception>
 #include <mutex>
 #include <thread>
 
 #include <lorentz/errors.hpp>
-#include "src/exchange/exchange_json.hpp"
-#include "src/exchange/json_writer.hpp"
+#include "src/exchange/json_piece.hpp"
 
 namespace lorentz::chaos {
 
+static auto members_of(Sums& self) {
+  return std::tie(self.values, self.particles, self.collisions, self.stopped);
+}
+
 std::string text_of(std::uint64_t group, const Sums& sums) {
-  std::vector<json::Digits> values;
-  for (const double value : sums.values) values.push_back({std::bit_cast<std::uint64_t>(value)});
-  const auto digits = [](std::uint64_t n) { return json::Digits{n}; };
-  return json::text_of([&](json::Members& object) {
-    object.add("group", digits(group), "values", values, "particles", digits(sums.particles), "collisions",
-               digits(sums.collisions), "stopped", digits(sums.stopped));
-  });
+  return json::piece_of(std::tie(group, sums));
 }
 
 Sums sums_in(std::string_view text, std::uint64_t& group) {
-  try {
-    json::Document document;
-    document.open(text);
-    json::Object object = document.object();
-    Sums sums;
-    group = object["group"].natural();
-    json::each_element(object["values"].array(), [&](json::Value bits) {
-      sums.values.push_back(std::bit_cast<double>(bits.natural()));
-    });
-    sums.particles = object["particles"].natural();
-    sums.collisions = object["collisions"].natural();
-    sums.stopped = object["stopped"].natural();
-    return sums;
-  } catch (const json::Error& error) {
-    throw InputError(std::string("is not a group of particles: ") + error.what());
-  }
+  Sums sums;
+  json::read_piece(text, std::tie(group, sums));
+  return sums;
 }
 
 namespace {
 
 using AllSums = std::vector<std::optional<Sums>>;
 
-AllSums kept_in(const KeptGroups& kept, const std::function<bool(std::uint64_t, const Sums&)>& is_possible) {
+AllSums kept_in(const KeptGroups& kept) {
   AllSums all(kGroups);
   kept.each([&](const std::string& text) {
     std::uint64_t group = 0;
     Sums sums = sums_in(text, group);
-    if (group >= kGroups || all[group])
-      throw InputError("is a group that the run has not, or that was there before");
-    if (!is_possible(group, sums)) throw InputError("is a group that cannot have come to such numbers");
-    all[group] = std::move(sums);
+    all.at(group) = std::move(sums);
   });
   return all;
 }
 
 }  // namespace
 
-AllSums for_each_group(const Work& work, const std::function<Sums(std::uint64_t)>& act,
-                       const std::function<bool(std::uint64_t, const Sums&)>& is_possible) {
-  AllSums all = work.kept ? kept_in(*work.kept, is_possible) : AllSums(kGroups);
+AllSums for_each_group(const Work& work, const std::function<Sums(std::uint64_t)>& act) {
+  AllSums all = work.kept ? kept_in(*work.kept) : AllSums(kGroups);
   std::uint64_t next = 0, finished = 0;
   for (const auto& sums : all) finished += sums.has_value();
   std::exception_ptr failure;

@@ -23,7 +23,7 @@ struct Sums {
   bool operator==(const Sums&) const = default;
 };
 
-/// A group's number and sums as a JSON object, exact to the bit, and the inverse. Throws InputError.
+/// A group's number and sums as a piece of a store, and the inverse. Throws InputError.
 std::string text_of(std::uint64_t group, const Sums& sums);
 Sums sums_in(std::string_view text, std::uint64_t& group);
 
@@ -44,11 +44,9 @@ struct Work {
 };
 
 /// The sums of the groups 0 to kGroups - 1: the stored ones, and those that `act(group)` computes on threads
-/// until all are done or the work is stopped. Rethrows an exception of `act`. Throws InputError if
-/// `is_possible(group, sums)` is false for a stored group.
-std::vector<std::optional<Sums>> for_each_group(
-    const Work& work, const std::function<Sums(std::uint64_t)>& act,
-    const std::function<bool(std::uint64_t, const Sums&)>& is_possible);
+/// until all are done or the work is stopped. Rethrows an exception of `act`.
+std::vector<std::optional<Sums>> for_each_group(const Work& work,
+                                                const std::function<Sums(std::uint64_t)>& act);
 
 /// The remark for an incomplete result; empty if it is complete.
 std::string remark_on_end(bool is_whole);

@@ -46,13 +46,6 @@ class Group {
     return sums;
   }
 
-  bool is_possible(const Sums& sums) const {
-    const std::uint64_t all = kParticles * each_;
-    return sums.values.size() == kLyapunovValues && sums.values[kFlight] >= 0 && sums.particles == 0 &&
-           sums.stopped <= kParticles && sums.collisions <= all &&
-           (sums.stopped > 0 || sums.collisions == all);
-  }
-
  private:
   const LyapunovPlan& plan_;
   const Batch& engine_;
@@ -94,9 +87,7 @@ Lyapunov lyapunov_of(const LyapunovPlan& plan, const Work& work) {
   const Batch engine(plan.scene);
   const starts::FreeStarts starts(plan.scene, starts::Kind::surface, plan.seed);
   const Group group(plan, engine, work);
-  const auto all = for_each_group(
-      work, [&](std::uint64_t number) { return group.run(starts, number); },
-      [&](std::uint64_t, const Sums& sums) { return group.is_possible(sums); });
+  const auto all = for_each_group(work, [&](std::uint64_t number) { return group.run(starts, number); });
   std::vector<Sums> good;
   for (const auto& sums : all)
     if (sums && sums->collisions > 0) good.push_back(*sums);

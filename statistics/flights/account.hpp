@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,7 @@ class Ranges {
   const std::map<std::uint64_t, std::uint64_t>& all() const { return ranges_; }
 
   bool operator==(const Ranges&) const = default;
+  friend auto members_of(Ranges& self) { return std::tie(self.ranges_); }
 
  private:
   bool meets(std::uint64_t first, std::uint64_t last) const;
@@ -74,11 +76,7 @@ struct Account {
   /// Adds another account of the same plan. Throws std::invalid_argument if a block is in both.
   void add(const Account& other);
 
-  /// Throws InputError if no run of this plan can produce this account: if a block is not in the plan, the
-  /// counts do not add up to the flights of the blocks, or the bins exclude the sums or extremes.
-  void check(const FlightsPlan& plan) const;
-
-  /// A JSON object.
+  /// A piece of a store.
   std::string text() const;
   /// The inverse of text(). Throws InputError.
   static Account of(std::string_view text);

@@ -75,36 +75,6 @@ double ExactSum::value() const {
   return negative ? -rounded : rounded;
 }
 
-std::string ExactSum::text() const {
-  bool negative = false;
-  const ExactSum sum = size(negative);
-  std::string text;
-  for (std::size_t i = kDigits; i-- > 0;) text += fmt::format("{:08x}", sum.digits_[i]);
-  text.erase(0, std::min(text.find_first_not_of('0'), text.size() - 1));
-  return negative ? '-' + text : text;
-}
-
-ExactSum ExactSum::of(std::string_view text) {
-  constexpr std::size_t kHexadecimal = kDigitBits / 4;  // digits in a digit
-  const bool negative = text.starts_with('-');
-  if (negative) text.remove_prefix(1);
-  // The highest digit may be half full.
-  if (text.empty() || text.size() >= kDigits * kHexadecimal)
-    throw std::invalid_argument("not a sum: too many hexadecimal digits");
-  if (text.find_first_not_of("0123456789abcdef") != text.npos)
-    throw std::invalid_argument("no sum: not hexadecimal");
-  ExactSum sum;
-  for (std::int64_t& digit : sum.digits_) {
-    const std::string_view last = text.substr(text.size() - std::min(text.size(), kHexadecimal));
-    std::from_chars(last.data(), last.data() + last.size(), digit, 16);
-    text.remove_suffix(last.size());
-  }
-  if (negative)
-    for (std::int64_t& digit : sum.digits_) digit = -digit;
-  sum.carry();
-  return sum;
-}
-
 bool ExactSum::operator==(const ExactSum& other) const {
   ExactSum a = *this, b = other;
   a.carry(), b.carry();

@@ -3,8 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
-#include <string_view>
+#include <tuple>
 
 namespace lorentz::flights {
 
@@ -20,12 +19,11 @@ class ExactSum {
   /// The nearest binary64 number; an infinity if the sum is out of range.
   double value() const;
 
-  /// The sum in units of 2^-1074, in hexadecimal, such as -1f3, and the inverse. `of` throws
-  /// std::invalid_argument.
-  std::string text() const;
-  static ExactSum of(std::string_view text);
-
   bool operator==(const ExactSum& other) const;
+  friend auto members_of(ExactSum& self) {  // the same for the same sum
+    self.carry();
+    return std::tie(self.digits_);
+  }
 
  private:
   // 2098 bits for one number, and 62 for the number of summands.
