@@ -1,7 +1,5 @@
 #include "pictures/finding_drawing.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -10,6 +8,51 @@
 #include "src/problem/safe_text.hpp"
 
 namespace lorentz::pictures {
+
+// ---- colours, clips and frames
+
+std::string paint(Ink fill) {
+  return fmt::format("fill=\"{1}\" style=\"fill:var({0},{1})\"", fill.variable, fill.otherwise);
+}
+
+std::string paint(Ink fill, Ink stroke, double width) {
+  return fmt::format(
+      "fill=\"{1}\" stroke=\"{3}\" stroke-width=\"{4}\" style=\"fill:var({0},{1});stroke:var({2},{3})\"",
+      fill.variable, fill.otherwise, stroke.variable, stroke.otherwise, width);
+}
+
+std::string outline(Ink stroke, double width) {
+  return fmt::format("stroke=\"{1}\" stroke-width=\"{2}\" style=\"stroke:var({0},{1})\"", stroke.variable,
+                     stroke.otherwise, width);
+}
+
+// A nested <svg> cuts off everything beyond it, and needs no id.
+void open_clip(Svg& svg, const Panel& panel) {
+  svg.raw(
+      fmt::format("<svg x=\"{0:.2f}\" y=\"{1:.2f}\" width=\"{2:.2f}\" height=\"{3:.2f}\" "
+                  "viewBox=\"{0:.2f} {1:.2f} {2:.2f} {3:.2f}\" overflow=\"hidden\">\n",
+                  panel.left, panel.top, panel.width, panel.height));
+}
+
+void close_clip(Svg& svg) {
+  svg.raw("</svg>\n");
+}
+
+void frame(Svg& svg, const Panel& panel, const std::string& style) {
+  svg.rectangle({panel.left, panel.top}, {panel.right(), panel.bottom()}, "fill=\"none\" " + style);
+}
+
+void open_hint(Svg& svg, const std::string& words) {
+  svg.raw("<g><title>" + xml_escaped(words) + "</title>\n");
+}
+
+double on_paper(double pixels) {
+  constexpr double kFar = 1e5;
+  return std::isnan(pixels) ? kFar : std::clamp(pixels, -kFar, kFar);
+}
+
+// ---- the sheet
+
 namespace {
 
 constexpr double kWidth = 640, kHeight = 410;

@@ -11,7 +11,7 @@
 
 #include <lorentz/surroundings.hpp>
 #include "golden/reader.hpp"
-#include "pictures/finding_case.hpp"
+#include "pictures/finding_parts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
