@@ -30,10 +30,10 @@ constexpr std::chrono::seconds kBetweenStores{3};
 constexpr std::uint64_t kMostFlights = std::uint64_t{1} << 52;
 
 struct FlightsOptions {
-  std::string engine = "batch", from = "uniform", shard = "0/1", size = "800x600";
+  std::string engine = "batch", from = "uniform", shard = "0/1";
   std::uint64_t count = 1'000'000, seed = starts::kDefaultSeed, jobs = 1, cells = flights::kCellsOfBox;
   std::optional<double> seconds;
-  std::optional<std::string> store, csv, svg, density_svg, html, title;
+  std::optional<std::string> store, csv, html;
   bool json = false;
   std::vector<std::string> scenes{"square"}, radii, parts;
 };
@@ -76,15 +76,13 @@ flights::FlightBounds bounds_of(const FlightsOptions& options) {
   return bounds;
 }
 
-// Adds the counts of a store, which must be possible for this plan, and reports how many there are.
+// Adds the counts of a store, and reports how many there are.
 void add_store(const runs::PieceStore& store, const std::string& file, const FlightsPlan& plan,
                Account& account) {
   const std::uint64_t before = account.done.size();
   store.each([&](const std::string& piece) {
     try {
-      const Account kept = Account::of(piece);
-      kept.check(plan);
-      account.add(kept);
+      account.add(Account::of(piece));
     } catch (const std::invalid_argument& error) {
       throw InputError(fmt::format("cannot be added: {}", error.what()));
     }
@@ -143,9 +141,7 @@ void fly(FlightsReport& task, const flights::FlightBounds& bounds, const Flights
 // tasks without results are left out.
 int fly_all(std::vector<FlightsReport>&& tasks, const flights::FlightBounds& bounds,
             const FlightsOptions& options, flights::Ranks* ranks) {
-  const PictureSize size = picture_size(options.size);
-  const flights::PictureStyle style{options.title, size.width, size.height.value_or(size.width * 3 / 4)};
-  RequestedFile csv(options.csv), svg(options.svg), density(options.density_svg), html(options.html);
+  RequestedFile csv(options.csv), html(options.html);
   std::vector<FlightsReport> reports;
   const auto fly_each = [&] {
     for (FlightsReport& task : tasks) {
@@ -158,8 +154,6 @@ int fly_all(std::vector<FlightsReport>&& tasks, const flights::FlightBounds& bou
   keeping_results(fly_each, [&] {
     if (reports.empty()) return;
     csv.write([&] { return csv_of(reports); });
-    svg.write([&] { return survival_svg(reports, style); });
-    density.write([&] { return density_svg(reports, style); });
     html.write([&] { return report::page(page_json(reports, command_line())); });
   });
   if (!Interrupt::came()) return kDone;
@@ -224,15 +218,6 @@ Command flights_command() {
            "the histograms, and theory, to a file; of several scenes or radii one table, with both in its "
            "first columns",
            kOutput},
-          {"--svg", &options->svg, "FILE",
-           "the picture: P(free path > t), theory drawn in; several scenes and radii in one", kOutput},
-          {"--density-svg", &options->density_svg, "FILE",
-           "the picture of the density in linear bins, theory drawn in; several scenes and radii in one, in "
-           "units of the mean free path",
-           kOutput},
-          {"--title", &options->title, "TEXT",
-           "of the pictures, instead of scene and starts; \"\" for no title"},
-          {"--size", &options->size, "W[xH]", "of the pictures, in pixels; legible at half of 800x600"},
           {"--html", &options->html, "FILE",
            "a page that opens offline: P(free path > t) and theory, with numbers on hover", kOutput},
           {"--json", &options->json, "",
@@ -241,10 +226,9 @@ Command flights_command() {
 
       "docs/free_paths.md: the ensembles, the closed forms, what means and error bars mean.\n"
       "Examples:\n  lorentz flights --scene square --radius 0.2 --from surface\n"
-      "  lorentz flights --scene square,triangular --radius 0.1,0.01 --svg survival.svg --title \"Two "
-      "lattices\"\n"
+      "  lorentz flights --scene square,triangular --radius 0.1,0.01 --html lattices.html\n"
       "  lorentz flights --scene superposition-pi-5 --radius 1e-4 --count 1e8 --jobs 2 --store pi-5.flights "
-      "--svg pi-5.svg",
+      "--csv pi-5.csv",
       [options] { return act(*options); }};
 }
 

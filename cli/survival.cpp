@@ -17,7 +17,7 @@ struct SurvivalOptions : ScanOptions {
   std::string engine = "reduction";
   std::uint64_t count = 100, collisions = 500;
   std::vector<std::string> bits{"53,106,128,256"};
-  std::optional<std::string> svg, html;
+  std::optional<std::string> html;
 };
 
 survival::SurvivalPlan plan_of(const SurvivalOptions& options) {
@@ -43,17 +43,16 @@ survival::Survival followed(const survival::SurvivalPlan& plan) {
 
 int act(const SurvivalOptions& options) {
   if (options.html && !report::has_page()) report::page("");  // throws with the reason
-  if (options.is_of_several() && (options.svg || options.html))
-    throw InputError("--svg and --html: of one scene at one radius; --csv has all of them in one table");
+  if (options.is_of_several() && options.html)
+    throw InputError("--html: of one scene at one radius; --csv has all of them in one table");
   survival::SurvivalPlan plan = plan_of(options);
-  RequestedFile svg(options.svg), html(options.html);
+  RequestedFile html(options.html);
   const Interrupt interrupt;
   return scan(
       options, "right collisions are counted", [&](const ScanPlace& place) -> std::optional<ScanFinding> {
         plan.scene_name = place.name, plan.scene = place.scene, plan.radius = place.radius;
         const survival::Survival found = followed(plan);
         if (found.starts() == 0) return std::nullopt;
-        svg.write([&] { return found.svg(); });
         html.write([&] { return report::page(found.page_json(command_line())); });
         return ScanFinding{options.json ? found.json() : found.table(), found.csv(), !Interrupt::came()};
       });
@@ -75,14 +74,13 @@ Command survival_command() {
                  {"--count", Whole{&options->count, 1, 10'000'000}, "N",
                   "starts, off the surface of an obstacle (cosine law)"},
                  {"--collisions", Whole{&options->collisions, 1, 1'000'000}, "N", "at most N of each start"},
-                 {"--svg", &options->svg, "FILE", "the shares as a picture", kOutput},
                  {"--html", &options->html, "FILE",
                   "a page that opens offline: the shares with 95 % bounds, and their numbers", kOutput},
              }),
 
       "Each start is followed with certainty (lorentz trajectory), and each arithmetic until it hits "
       "another\nobstacle. docs/itineraries.md has figures.\n"
-      "Example:\n  lorentz survival --scene square --radius 0.1 --count 1000 --svg survival.svg",
+      "Example:\n  lorentz survival --scene square --radius 0.1 --count 1000 --html survival.html",
       [options] { return act(*options); }};
 }
 

@@ -151,6 +151,13 @@ void add_theory(json::Members& object, const FlightsFindings& found) {
              found.no_law);
 }
 
+// Radii may differ.
+bool are_of_one_scene(const std::vector<FlightsReport>& reports) {
+  return std::all_of(reports.begin(), reports.end(), [&](const FlightsReport& report) {
+    return report.scene_name == reports.front().scene_name;
+  });
+}
+
 }  // namespace
 
 std::string FlightsReport::table() const {
@@ -330,12 +337,6 @@ std::string csv_of(const std::vector<FlightsReport>& reports) {
                 edges_of(1, Bins::kLinear, [&](int bin) { return bins.linear_edge(bin); }));
   }
   return text;
-}
-
-bool are_of_one_scene(const std::vector<FlightsReport>& reports) {
-  return std::all_of(reports.begin(), reports.end(), [&](const FlightsReport& report) {
-    return report.scene_name == reports.front().scene_name;
-  });
 }
 
 }  // namespace lorentz::flights

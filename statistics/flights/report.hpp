@@ -1,4 +1,4 @@
-// The results of many flights, beside the predictions of theory, as text, JSON, CSV, pictures and pages.
+// The results of many flights, beside the predictions of theory, as text, JSON, CSV and pages.
 #pragma once
 
 #include <optional>
@@ -58,18 +58,5 @@ std::string csv_of(const std::vector<FlightsReport>& reports);
 
 /// The report of a page (docs/page.md), of kind "flights".
 std::string page_json(const std::vector<FlightsReport>& reports, const std::string& command);
-
-struct PictureStyle {
-  std::optional<std::string> title;  ///< replaces the default of scene and starts
-  double width = 800, height = 600;  ///< in pixels
-};
-
-/// Pictures of one or several scenes and radii: P(free path > t) on logarithmic axes, and the density on
-/// linear axes. Throw InputError if nothing was hit.
-std::string survival_svg(const std::vector<FlightsReport>& reports, const PictureStyle& style);
-std::string density_svg(const std::vector<FlightsReport>& reports, const PictureStyle& style);
-
-/// Whether all reports have the same scene; radii may differ.
-bool are_of_one_scene(const std::vector<FlightsReport>& reports);
 
 }  // namespace lorentz::flights

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "pictures/free_path_plot.hpp"
 #include "report/curves.hpp"
 #include "report/manifest.hpp"
 #include "report/scene_name.hpp"
@@ -76,21 +75,6 @@ std::string Survival::csv() const {
     text += '\n';
   }
   return text;
-}
-
-std::string Survival::svg() const {
-  pictures::FreePathPlot plot;
-  plot.title = fmt::format("trajectories that are still right: {}", plan.scene_name);
-  plot.axes = pictures::AxisScale::linear;
-  plot.t_label = "collisions";
-  plot.value_label = "share of starts";
-  for (const Arithmetic& one : arithmetics) {
-    pictures::PlotSeries series{one.name(plan.engine.name), {}};
-    for (std::uint64_t k = 1; k <= last_of(one); ++k)
-      series.points.push_back({static_cast<double>(k), one.share(k), 0});
-    plot.series.push_back(std::move(series));
-  }
-  return pictures::draw_free_paths(plot);
 }
 
 std::string Survival::page_json(const std::string& command) const {

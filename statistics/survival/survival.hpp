@@ -46,7 +46,6 @@ struct Survival {
   std::string table() const;
   std::string json() const;  ///< one object on one line
   std::string csv() const;   ///< the shares of each arithmetic by number of collisions
-  std::string svg() const;
   std::string page_json(const std::string& command) const;  ///< the report for a page, kind "survival"
 
  private:

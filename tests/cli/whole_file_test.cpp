@@ -182,7 +182,7 @@ TEST_CASE("Files of another kind are left as they are", "[cli][whole_file]") {
     CHECK(contains(run.err, why));
     CHECK(folder.read(name) == before);
   };
-  for (const std::string option : {"--svg ", "--csv ", "--html "}) {
+  for (const std::string option : {"--csv ", "--html "}) {
     require_left("flights --count 10 " + option, "store", "is a store, and is left as it is");
     require_left("flights --count 10 " + option, "queries",
                  "is a file of another kind, and is left as it is");
@@ -191,8 +191,8 @@ TEST_CASE("Files of another kind are left as they are", "[cli][whole_file]") {
   require_left("judge --engine reduction --time 1 --junit ", "queries", "is a file of another kind");
   require_left("compare --count 5 -e 'cmd:python3 " + source + " -u' --disagreements ", "engine.py",
                "--engine reads");
-  CHECK(folder.lorentz("flights --count 10 --svg " + old).status == 0);
-  CHECK(contains(folder.read("old"), "free path"));
+  CHECK(folder.lorentz("scene draw square -o " + old).status == 0);
+  CHECK(contains(folder.read("old"), "radius"));
   CHECK(contains(folder.lorentz("flights --count 10 --csv -").err, "needs a file; /dev/stdout is one"));
 }
 
@@ -201,24 +201,25 @@ TEST_CASE("Two options that name one file are refused, whatever they call it", "
   const std::string path = folder.write("f", "old\n"), other = folder.file("g");
   std::filesystem::create_symlink(path, folder.file("link"));
   std::filesystem::create_hard_link(path, folder.file("hard"));
-  const auto flights = [&](const std::string& options) {
-    return folder.lorentz("flights --count 10 " + options);
+  const std::string start = folder.write("start", R"({"x":["1/2","1/7"],"v":[1,2]})");
+  const auto path_of = [&](const std::string& options) {
+    return folder.lorentz("trajectory --scene square --radius 1/3 --collisions 5 " + options + " " + start);
   };
   const auto refused = [&](const std::string& options) {
-    const Run run = flights(options);
+    const Run run = path_of(options);
     INFO(options << ": " << run.err);
     CHECK(run.status == 2);
     CHECK(contains(run.err, "give each its own"));
     CHECK(folder.read("f") == "old\n");
   };
-  CHECK(contains(flights("--csv " + path + " --svg " + other + " --density-svg " + path).err,
-                 "--csv and --density-svg name the same file: " + path + "; give each its own"));
+  CHECK(contains(path_of("--csv " + path + " --svg " + path).err,
+                 "--csv and --svg name the same file: " + path + "; give each its own"));
   refused("--csv " + path + " --svg " + folder.file("./f"));
   refused("--csv " + path + " --svg " + folder.file("link"));
   refused("--csv " + path + " --svg " + folder.file("hard"));
   refused("--csv " + other + " --svg " + folder.file("./g"));  // there is none yet
-  CHECK(contains(flights("--csv ''").err, "--csv: the name is empty"));
-  CHECK(flights("--csv /dev/null --svg /dev/null").status == 0);
-  CHECK(flights("--csv " + path + " --svg " + other).status == 0);
+  CHECK(contains(path_of("--csv ''").err, "--csv: the name is empty"));
+  CHECK(path_of("--csv /dev/null --svg /dev/null").status == 0);
+  CHECK(path_of("--csv " + path + " --svg " + other).status == 0);
   CHECK(folder.read("f") != "old\n");
 }

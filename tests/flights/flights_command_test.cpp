@@ -93,10 +93,9 @@ TEST_CASE("Flights: a store goes on with its own run only", "[flights][flights_c
   CHECK(contains(torn.err, "store: is damaged (database disk image is malformed); take a copy from before"));
 }
 
-TEST_CASE("Flights: JSON, CSV and a picture", "[flights][flights_command]") {
+TEST_CASE("Flights: JSON and CSV", "[flights][flights_command]") {
   const Folder folder;
-  const Run run = folder.lorentz("flights --radius 1e-4 --count 2e5 --json --csv " + folder.file("bins.csv") +
-                                 " --svg " + folder.file("picture.svg"));
+  const Run run = folder.lorentz("flights --radius 1e-4 --count 2e5 --json --csv " + folder.file("bins.csv"));
   INFO(run.err);
   REQUIRE(run.status == 0);
   for (const char* part :
@@ -108,7 +107,6 @@ TEST_CASE("Flights: JSON, CSV and a picture", "[flights][flights_command]") {
   CHECK(contains(csv, "bins,from,to,count,density,density_error,survival_at_to,Boca-Zaharescu: density"));
   CHECK(contains(csv, "\nlogarithmic,"));
   CHECK(contains(csv, "\nlinear,"));
-  CHECK(contains(folder.read("picture.svg"), "<svg"));
 }
 
 // The sum of the counts of the histogram's rows, and the last survival among its rows.
@@ -197,30 +195,7 @@ TEST_CASE("Flights: several radii, each as alone", "[flights][flights_command]")
   CHECK(contains(folder.read("half"), "\n0.3,"));
 }
 
-TEST_CASE("Flights: pictures of several radii, of survival and density", "[flights][flights_command]") {
-  const Folder folder;
-  const auto drawn = [&](const std::string& options) {
-    const Run run = folder.lorentz("flights " + options + " --svg " + folder.file("survival") +
-                                   " --density-svg " + folder.file("density"));
-    INFO(run.err);
-    CHECK(run.status == 0);
-  };
-  drawn("--count 1e5 --radius 0.3,0.001");
-  for (const char* picture : {"survival", "density"}) {
-    const std::string svg = folder.read(picture);
-    for (const char* part : {"Free paths: square, uniform starts", "100000 flights each", "r = 0.3",
-                             "r = 0.001", "law, r -&gt; 0"})
-      CHECK(contains(svg, part));
-    CHECK_FALSE(contains(svg, "nan"));
-  }
-  CHECK(contains(folder.read("density"), "free path / mean free path between collisions"));
-  CHECK(contains(folder.read("density"), ">0.5</text>"));
-  CHECK_FALSE(contains(folder.read("density"), ">500</text>"));    // a mean free path at r = 0.001
-  drawn("--count 1e4 --scene overlapping-3d --engine certified");  // neither law nor mean
-  CHECK(contains(folder.read("density"), "free path, in the scene's unit of length"));
-}
-
-TEST_CASE("Flights: several scenes in one table and one picture", "[flights][flights_command]") {
+TEST_CASE("Flights: several scenes in one table", "[flights][flights_command]") {
   const Folder folder;
   const std::string what = "flights --count 1e4 --seed 7504 ";
   const auto fly = [&](const std::string& options) {
@@ -232,9 +207,7 @@ TEST_CASE("Flights: several scenes in one table and one picture", "[flights][fli
   // "cubic" has no law, and the columns of one stay empty.
   const std::string square = fly("--scene square --radius 0.01 --csv " + folder.file("square")),
                     cubic = fly("--scene cubic --radius 0.01 --csv " + folder.file("cubic"));
-  CHECK(fly("--scene cubic,square --radius 0.01 --title \"Two <lattices>\" --size 900x500 --csv " +
-            folder.file("both") + " --svg " + folder.file("survival") + " --density-svg " +
-            folder.file("density")) == cubic + "\n" + square);
+  CHECK(fly("--scene cubic,square --radius 0.01 --csv " + folder.file("both")) == cubic + "\n" + square);
   std::istringstream rows(folder.read("both")), of_square(folder.read("square")),
       of_cubic(folder.read("cubic"));
   std::string row, single;
@@ -246,56 +219,7 @@ TEST_CASE("Flights: several scenes in one table and one picture", "[flights][fli
     CHECK(row == "cubic,0.01," + single + ",,");
   while (std::getline(of_square, single) && std::getline(rows, row)) CHECK(row == "square,0.01," + single);
   CHECK_FALSE(std::getline(rows, row));
-  for (const char* picture : {"survival", "density"})
-    for (const char* part :
-         {"Two &lt;lattices&gt;", "width=\"900\"", "height=\"500\"", ">cubic, r = 0.01</text>",
-          ">square, r = 0.01</text>", ">law, r -&gt; 0</text>", "law: Boca-Zaharescu"}) {
-      INFO(picture << " " << part);
-      CHECK(contains(folder.read(picture), part));
-    }
-  fly("--scene cubic,square --svg " + folder.file("untold"));
-  CHECK(contains(folder.read("untold"), ">Free paths: uniform starts</text>"));
   CHECK(folder.lorentz(what + "--scene cubic,square --store " + folder.file("store")).status == 2);
-  for (const char* size : {"", "x", "800x", "800x600x2", "10", "1e9", "-800"})
-    CHECK(
-        contains(folder.lorentz(what + "--size '" + size + "' --svg " + folder.file("not")).err, "--size: "));
-}
-
-namespace {
-
-using Place = std::pair<double, double>;
-
-std::vector<Place> places_in(const std::string& svg, const std::regex& pattern) {
-  std::vector<Place> places;
-  for (std::sregex_iterator it(svg.begin(), svg.end(), pattern), end; it != end; ++it)
-    places.emplace_back(std::stod((*it)[1]), std::stod((*it)[2]));
-  return places;
-}
-
-}  // namespace
-
-TEST_CASE("Flights: in the picture of the density the law goes through the points",
-          "[flights][flights_command]") {
-  const Folder folder;
-  CHECK(folder.lorentz("flights --radius 1e-4 --count 4e5 --seed 7506 --density-svg " + folder.file("svg"))
-            .status == 0);
-  const std::string svg = folder.read("svg");
-  auto points = places_in(svg, std::regex(R"re(<circle cx="([0-9.]+)" cy="([0-9.]+)")re"));
-  REQUIRE(points.size() > 30);
-  points.pop_back();  // in the legend
-  const std::size_t end = svg.find(R"(" fill="none" stroke="#777777" stroke-width="2.2")");
-  REQUIRE(end != std::string::npos);
-  const std::size_t begin = svg.rfind("points=", end);
-  const auto law = places_in(svg.substr(begin, end - begin), std::regex(R"re(([0-9.]+),([0-9.]+))re"));
-  REQUIRE(law.size() > points.size());
-  for (const auto& [x, y] : points) {
-    const double at = x;
-    const auto near = std::min_element(law.begin(), law.end(), [at](const Place& a, const Place& b) {
-      return std::fabs(a.first - at) < std::fabs(b.first - at);
-    });
-    CHECK(std::fabs(near->first - x) < 4);
-    CHECK(std::fabs(near->second - y) < 9);  // 450 pixels are 1, and 4 standard errors at most 0.02
-  }
 }
 
 TEST_CASE("Flights: the limit law is not rejected, from surfaces too, and a wrong one is",
@@ -417,12 +341,6 @@ TEST_CASE("Flights: where nothing is ever hit it is said, and nothing drawn", "[
   const std::string json = folder.lorentz(what + "--json").out;
   for (const char* part : {"\"hits\":0", "\"never\":1000", "\"mean\":null", "\"shortest\":null"})
     CHECK(contains(json, part));
-  for (const std::string picture : {"--svg ", "--density-svg "}) {
-    const Run run = folder.lorentz(what + picture + folder.file("picture"));
-    CHECK(run.status == 2);
-    CHECK(contains(run.err, "nothing was hit"));
-    CHECK_FALSE(fs::exists(folder.file("picture")));
-  }
 }
 
 // At this radius most flights have a period, of 2^53 and less, and no disc on it.
@@ -466,7 +384,7 @@ TEST_CASE("Flights: bad input is named, with the remedy", "[flights][flights_com
     CHECK(contains(run.err, words));
     CHECK(run.out.empty());
   }
-  for (const std::string file : {"--csv", "--svg", "--density-svg", "--store"}) {
+  for (const std::string file : {"--csv", "--store"}) {
     const Run full = folder.lorentz("flights --count 1000 " + file + " /dev/full");
     INFO(file);
     CHECK(full.status == 3);
