@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -64,7 +65,8 @@ class Array {
   // Reads the next rows as they arrive: at least one and up to about `most`, 0 after the last.
   std::size_t read(std::size_t most, const std::function<void()>& before_waiting) {
     done += rows_;
-    std::memmove(buffer_.data(), buffer_.data() + rows_ * row_bytes_, end_ -= rows_ * row_bytes_);
+    std::copy(buffer_.data() + rows_ * row_bytes_, buffer_.data() + end_, buffer_.data());
+    end_ -= rows_ * row_bytes_;
     most = std::min(most, std::max<std::size_t>(kLargestPart / row_bytes_, 1));
     const std::size_t wanted = std::min<std::uint64_t>(promised - done, most) * row_bytes_;
     buffer_.resize(std::max(buffer_.size(), wanted));
@@ -128,12 +130,13 @@ class Array {
       const std::size_t bytes = std::stoull(part[4]) * (part[3] == "U" ? 4 : 1);
       fields.push_back({part[1], type, bytes, part[5].length() > 0 ? std::stoull(part[5]) : 1});
     }
-    if (!take(kRest) || place != header.end() || fields.empty() || part[1].matched != has_fields)
+    if (!take(kRest) || place != header.end() || fields.empty() || part[1].matched != has_fields ||
+        part[4].matched == has_fields)
       throw InputError(what_it_is_);
     if (part[2] == "True")
       throw InputError("is in Fortran order, column by column; save np.ascontiguousarray(ARRAY)");
     promised = std::stoull(part[3]);
-    if (part[4].matched) fields.back().count *= std::stoull(part[4]);
+    if (!has_fields) fields[0].count = std::stoull(part[4]);
     for (Field& field : fields) {
       field.offset = row_bytes_;
       row_bytes_ += field.bytes * field.count;
@@ -150,7 +153,8 @@ class Queries final : public NpyQueryReader {
  public:
   Queries(const std::string& path, const std::string& d, const OnUnknownColumn& on_unknown_column)
       : array_(path,
-               "queries in " + d + " dimensions are float64 of shape (N, 2 * " + d +
+               "queries in " + d + " dimensions are float64 of shape (N, " +
+                   std::to_string(2 * std::stoi(d)) +
                    "): x, v; or one column more, max_time; or of shape (N,) with the fields x, v (float64, "
                    "shape (" +
                    d + ",)), perhaps max_time, and from_lattice, from_atom, from_cell (integers)"),
@@ -165,10 +169,11 @@ class Queries final : public NpyQueryReader {
     }
     x_ = array_.field("x", kReal, d_, true), v_ = array_.field("v", kReal, d_, true);
     max_time_ = array_.field("max_time", kReal, 1, false);
-    for (const bool must : {false, from_lattice_ || from_atom_ || from_cell_}) {
-      from_lattice_ = array_.field("from_lattice", kInteger, 1, must);
-      from_atom_ = array_.field("from_atom", kInteger, 1, must);
-      from_cell_ = array_.field("from_cell", kInteger, d_, must);
+    for (bool leaves : {false, true}) {  // one of these fields needs the others
+      leaves &= from_lattice_ || from_atom_ || from_cell_;
+      from_lattice_ = array_.field("from_lattice", kInteger, 1, leaves);
+      from_atom_ = array_.field("from_atom", kInteger, 1, leaves);
+      from_cell_ = array_.field("from_cell", kInteger, d_, leaves);
     }
     const std::vector<std::string> known = npy_query_fields();
     for (const Field& field : array_.fields)

@@ -1,4 +1,5 @@
 #include <bit>
+#include <cstring>
 
 #include "src/exchange/columns_npy.hpp"
 
@@ -15,9 +16,16 @@ std::string header(const std::string& description, const std::string& shape) {
   return "\x93NUMPY" + std::string("\1\0", 2) + length + text;
 }
 
+// Room for more bytes, and their place.
+char* room(std::string& out, std::size_t bytes) {
+  out.resize(out.size() + bytes);
+  return out.data() + out.size() - bytes;
+}
+
 template <class Number>
-void put(std::string& out, Number number) {
-  out.append(reinterpret_cast<const char*>(&number), sizeof number);
+void put(char*& place, Number number) {
+  std::memcpy(place, &number, sizeof number);
+  place += sizeof number;
 }
 
 // The codes of docs/formats.md.
@@ -36,12 +44,15 @@ std::string npy_query_header(std::uint64_t count, int dimension, bool with_from)
 }
 
 void append_npy_queries(std::string& out, const QueryRows& queries, int dimension) {
+  const bool with_from = !queries.from_lattice.empty();
+  const std::size_t vectors = with_from ? 3 : 2, indices = with_from ? 8 : 0;
+  char* place = room(out, queries.count * (8 * vectors * static_cast<std::size_t>(dimension) + indices));
   for (std::size_t i = 0; i < queries.count; ++i) {
     for (const auto* vector : {&queries.x, &queries.v})
-      for (int k = 0; k < dimension; ++k) put(out, (*vector)[k][i]);
-    if (queries.from_lattice.empty()) continue;
-    put(out, queries.from_lattice[i]), put(out, queries.from_atom[i]);
-    for (int k = 0; k < dimension; ++k) put(out, queries.from_cell[k][i]);
+      for (int k = 0; k < dimension; ++k) put(place, (*vector)[k][i]);
+    if (!with_from) continue;
+    put(place, queries.from_lattice[i]), put(place, queries.from_atom[i]);
+    for (int k = 0; k < dimension; ++k) put(place, queries.from_cell[k][i]);
   }
 }
 
@@ -54,11 +65,12 @@ std::string npy_answer_header(std::uint64_t count, int dimension) {
 }
 
 void append_npy_answers(std::string& out, const AnswerRows& answers) {
+  char* place = room(out, answers.count * (19 + 8 * static_cast<std::size_t>(answers.dimension)));
   for (std::size_t i = 0; i < answers.count; ++i) {
-    put(out, static_cast<std::uint8_t>(answers.outcome[i])), put(out, answers.stage[i]);
-    put(out, answers.time_is_rounded[i]), put(out, answers.lattice[i]), put(out, answers.atom[i]);
-    for (int k = 0; k < answers.dimension; ++k) put(out, answers.cell[k][i]);
-    put(out, answers.time[i]);
+    put(place, static_cast<std::uint8_t>(answers.outcome[i])), put(place, answers.stage[i]);
+    put(place, answers.time_is_rounded[i]), put(place, answers.lattice[i]), put(place, answers.atom[i]);
+    for (int k = 0; k < answers.dimension; ++k) put(place, answers.cell[k][i]);
+    put(place, answers.time[i]);
   }
 }
 
