@@ -1,7 +1,6 @@
 // lorentz horizon: the infinite channels that a scene leaves open.
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
 #include "files/scene_file.hpp"
@@ -11,7 +10,7 @@ namespace lorentz::cli {
 namespace {
 
 struct HorizonOptions {
-  std::optional<std::string> name, scene, direction;
+  std::optional<std::string> name, scene;
   std::optional<double> radius, min_width;
   std::uint64_t limit = 20;
   bool no_cylinders = false, json = false;
@@ -24,12 +23,6 @@ int act(const HorizonOptions& options) {
     throw InputError("which scene? give a file, or a name of the catalogue");
   const std::string& name = options.name ? *options.name : *options.scene;
   const Scene scene = load_scene(name, options.radius);
-  if (options.direction) {
-    const Vec direction = vector_in(*options.direction, "--direction");
-    const oracle::OpenDirection found = oracle::look_along(scene, direction);
-    print(options.json ? report::json_of(found, name, direction) : report::text_of(found));
-    return kDone;
-  }
   try {
     const oracle::Horizon horizon =
         oracle::horizon_of(scene, options.min_width.value_or(0), !options.no_cylinders, search_progress());
@@ -48,21 +41,18 @@ Command horizon_command() {
   auto options = std::make_shared<HorizonOptions>();
   return {"horizon",
           "The infinite channels that a scene leaves open, exactly: corridors (2D), planar and cylindrical "
-          "channels (3D); of rows the directions that are closed, of a layer whether one direction is.",
+          "channels (3D).",
           {
               {"name", &options->name, "SCENE", "the scene: a file, or a name of the catalogue"},
               {"--scene", &options->scene, "SCENE", "the same"},
               {"--radius", Positive{&options->radius}, "R", "radius of every ball"},
-              {"--direction", &options->direction, "X,Y,Z",
-               "of a layer: whether it leaves a way open in this direction, and one such way", kPlain,
-               "--min-width"},
               {"--min-width", Positive{&options->min_width}, "W",
                "only corridors and planar channels at least W wide (for small obstacles)"},
               {"--limit", Whole{&options->limit, 0, 1'000'000'000}, "N", "print N rows of a table at most"},
               {"--no-cylinders", &options->no_cylinders, "", "leave out the search for cylindrical channels"},
               {"--json", &options->json, "", "one JSON object, with all channels"},
           },
-          "Examples:\n  lorentz horizon square --radius 0.4\n  lorentz horizon layer --direction 1,2,3",
+          "Examples:\n  lorentz horizon square --radius 0.4",
           [options] { return act(*options); }};
 }
 

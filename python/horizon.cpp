@@ -18,16 +18,10 @@ std::pair<std::string, std::string> horizon(const PyScene& scene, double min_wid
   }
 }
 
-std::string open_direction(const PyScene& scene, const Vec& direction) {
-  const py::gil_scoped_release release;
-  return report::json_of(oracle::look_along(scene.scene(), direction), "", direction);
-}
-
 }  // namespace
 
 void bind_horizon(py::module_& module) {
   module.def("horizon", horizon, py::arg("scene"), py::arg("min_width"), py::arg("cylinders"));
-  module.def("open_direction", open_direction, py::arg("scene"), py::arg("direction"));
 }
 
 }  // namespace lorentz::python

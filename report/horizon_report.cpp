@@ -20,9 +20,6 @@ std::string counted(std::size_t count, const char* what) {
 }  // namespace
 
 std::string verdict_of(const oracle::Horizon& h, bool limited) {
-  if (h.closed)
-    return "infinite horizon: all directions are open" +
-           (h.closed->empty() ? "" : ", but for " + counted(h.closed->size(), "arc"));
   if (h.is_finite() && !limited) return "finite horizon: every path ends";
   if (!h.is_infinite())
     return limited && h.is_finite() ? "no channel is so wide" : "no open channel found, but not all is known";
@@ -117,28 +114,6 @@ std::string families_text(const oracle::Horizon& h, std::size_t limit) {
   return out + rest_of(h.families.size(), limit);
 }
 
-std::string end_text(const oracle::ArcEnd& end) {
-  std::string between;
-  for (const ObstacleId& id : end.between)
-    between += fmt::format("{}({}, {}, [{}])", between.empty() ? "" : " ", id.lattice, id.atom,
-                           id.cell[0].decimal());
-  return between.empty() ? "the row" : between;
-}
-
-std::string closed_text(const std::vector<oracle::ClosedArc>& arcs, std::size_t limit) {
-  Table table({"closed from", "to", "vector from", "to", "between, from", "to"});
-  const auto degrees = [](const oracle::ArcEnd& end) {
-    return fmt::format("{:.10g}", end.angle * 180 / M_PI);
-  };
-  for (std::size_t i = 0; i < std::min(limit, arcs.size()); ++i) {
-    const auto& [from, to] = arcs[i];
-    table.add({degrees(from), degrees(to), text_of(from.vector, 2), text_of(to.vector, 2), end_text(from),
-               end_text(to)});
-  }
-  return table.text() + rest_of(arcs.size(), limit) +
-         "\nangles in degrees, from the row's vector; the row's own direction is open\n";
-}
-
 std::string tail_text(const oracle::Horizon& h, bool limited) {
   if (h.is_finite() && !limited) return "tail: none, the free path is bounded\n";
   if (!h.tail_constant) return fmt::format("tail constant: not given ({})\n", h.no_tail_constant);
@@ -151,7 +126,6 @@ std::string tail_text(const oracle::Horizon& h, bool limited) {
 
 std::string text_of(const oracle::Horizon& h, std::size_t limit, bool limited) {
   std::string out = verdict_of(h, limited) + "\n";
-  if (h.closed) return h.closed->empty() ? out : out + "\n" + closed_text(*h.closed, limit);
   bool outside = false;
   for (std::size_t i = 0; i < std::min(limit, h.channels.size()); ++i) outside |= !h.channels[i].inside;
   for (std::size_t i = 0; i < std::min(limit, h.cylinders.size()); ++i) outside |= !h.cylinders[i].inside;
@@ -165,16 +139,6 @@ std::string text_of(const oracle::Horizon& h, std::size_t limit, bool limited) {
   out += "\n" + tail_text(h, limited);
   if (!h.no_cylinders.empty()) out += "cylinders: undecided (" + h.no_cylinders + ")\n";
   return out;
-}
-
-std::string text_of(const oracle::OpenDirection& found) {
-  if (!found.open)
-    return "closed: each way in this direction meets an obstacle, or is no wider than a line\n";
-  if (!found.way) return "open: this direction is along the layer, and nothing stands beside it\n";
-  const oracle::Cylinder& way = *found.way;
-  return fmt::format("open: a cylinder of radius {:.6g} through {}\n{}", way.radius,
-                     point_text(way.point, way.inside, 3),
-                     way.inside ? "" : "* too narrow there: the rounded point is not inside\n");
 }
 
 namespace {
@@ -207,16 +171,6 @@ void add_cylinders(json::Members& object, const oracle::Horizon& h) {
              json::objects(h.families, family, kOwnLine));
 }
 
-auto end_members(const oracle::ArcEnd& end) {
-  return [&end](json::Members& one) {
-    const auto obstacle = [](json::Members& object, const ObstacleId& id) {
-      object.add("lattice", id.lattice, "atom", id.atom, "cell", components(id.cell, 1));
-    };
-    one.add("angle", end.angle, "cotangent", json::finite(end.cotangent), "vector", components(end.vector, 2),
-            "between", json::objects(end.between, obstacle));
-  };
-}
-
 }  // namespace
 
 std::string json_of(const oracle::Horizon& h, const std::string& scene, bool limited) {
@@ -224,14 +178,6 @@ std::string json_of(const oracle::Horizon& h, const std::string& scene, bool lim
   const bool is_finite = h.is_finite() && !limited;
   const auto channel = [d](json::Members& one, const oracle::Channel& c) { add_channel(one, c, d); };
   const auto undecided = [d](std::string& out, const Indices& i) { json::append(out, components(i, d)); };
-  const auto arc = [](json::Members& one, const oracle::ClosedArc& a) {
-    one.add("from", end_members(a.from), "to", end_members(a.to));
-  };
-  if (h.closed)
-    return json::line_of([&](json::Members& object) {
-      object.add("scene", scene, "dimension", d, "horizon", "infinite", "closed",
-                 json::objects(*h.closed, arc, kOwnLine));
-    });
   return json::line_of([&](json::Members& object) {
     object.add("scene", scene, "dimension", d, "horizon",
                h.is_infinite() ? "infinite" : (is_finite ? "finite" : "undecided"), "directions", h.normals);
@@ -242,14 +188,6 @@ std::string json_of(const oracle::Horizon& h, const std::string& scene, bool lim
       object.add("tail_constant", *h.tail_constant);
     else
       object.add("no_tail_constant", h.no_tail_constant);
-  });
-}
-
-std::string json_of(const oracle::OpenDirection& found, const std::string& scene, const Vec& direction) {
-  return json::line_of([&](json::Members& object) {
-    object.add("scene", scene, "dimension", 3, "direction", direction, "open", found.open);
-    if (const auto& way = found.way)
-      object.add("point", way->point, "point_inside", way->inside, "radius", way->radius);
   });
 }
 

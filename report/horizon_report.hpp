@@ -1,4 +1,4 @@
-// Reports on the channels of a scene, and on the closed directions of rows.
+// Reports on the channels of a scene.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,5 @@ std::string text_of(const oracle::Horizon& horizon, std::size_t limit, bool limi
 
 /// The whole report as one JSON object, for a scene of this name.
 std::string json_of(const oracle::Horizon& horizon, const std::string& scene, bool limited);
-
-/// The report on one direction through a layer.
-std::string text_of(const oracle::OpenDirection& found);
-std::string json_of(const oracle::OpenDirection& found, const std::string& scene, const Vec& direction);
 
 }  // namespace lorentz::report

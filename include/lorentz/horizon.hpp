@@ -50,28 +50,9 @@ struct CylinderFamily {
   double directions = 0;           ///< if not `infinite`: about how many directions need to be examined
 };
 
-/// An end of an arc of closed directions: along the row itself, or where a gap in its shadow opens.
-struct ArcEnd {
-  double angle = 0;                 ///< in radians, counterclockwise from the row's vector: 0 to pi
-  double cotangent = 0;             ///< of the angle, correctly rounded; infinite along the row
-  Vec vector{};                     ///< in this direction, about as long as the row's vector
-  std::vector<ObstacleId> between;  ///< the two obstacles beside the gap; empty along the row
-};
-
-/// An arc of directions along which rows in the plane leave no way open. The ends belong to the arc, because
-/// a way of width 0 is not open; the direction of the row does not, because it is open. An arc may be a
-/// single direction.
-struct ClosedArc {
-  ArcEnd from, to;
-};
-
 /// All ways through a scene that are free for ever.
 struct Horizon {
   int dimension = 0;
-
-  /// The closed directions of a scene of rows, in the order of their angles; all other directions are open.
-  /// Only a scene of rows sets this member, and it sets nothing else.
-  std::optional<std::vector<ClosedArc>> closed;
 
   std::vector<Channel> channels;  ///< the widest first
   std::size_t normals = 0;        ///< number of different directions (3D: normals) among the channels
@@ -109,40 +90,15 @@ using SearchProgress = std::function<void(const std::string& what, std::size_t d
 /// corridors and planar channels at least that wide. The search for cylinders can be left out: among small
 /// obstacles it is the longer one.
 ///
-/// For a scene of rows (parallel ones in the plane, any in space), also with single obstacles, the result is
-/// its closed directions.
-///
 /// Throws TooManyChannels, in most cases at once, because candidate directions are counted before any is
 /// examined. A search among very many directions takes half a minute; it calls `progress`.
 ///
-/// Throws InputError for all other scenes with lattices that do not repeat in all directions; for rows with
-/// too many pairs of obstacles; for a `min_width` that is negative or not finite; and for rows if `min_width`
-/// is above 0.
+/// Throws InputError for scenes with lattices that do not repeat in all directions, and for a `min_width` that is
+/// negative or not finite.
 ///
 /// held by "Horizon: square and cubic lattices by their closed forms",
-///         "Horizon: the oracle flies for ever in a channel, and nowhere else",
-///         "Horizon: the closed directions of rows, by looking at drawn ones"
+///         "Horizon: the oracle flies for ever in a channel, and nowhere else"
 Horizon horizon_of(const Scene& scene, double min_width = 0, bool with_cylinders = true,
                    const SearchProgress& progress = {});
-
-/// Whether a layer leaves a way open along one direction. The directions that a layer closes are regions of
-/// the sphere, often with infinitely many edges: docs/horizon.md.
-struct OpenDirection {
-  bool open = false;
-  /// A way along the direction, without its indices in lattice vectors. Empty if the direction is closed, or
-  /// if it is along the layer, where everything beside the obstacles is open.
-  std::optional<Cylinder> way;
-};
-
-/// Decides exactly whether a layer leaves a way open along `direction`.
-///
-/// `scene` must be valid, and its lattices must be layers with the same vectors. Throws InputError for other
-/// scenes, for ellipsoids of different shapes, for a direction that is 0 or not finite, and, for a layer with
-/// several obstacles per cell, for a direction so nearly along it that very many of them lie beside each
-/// other in the shadow.
-///
-/// held by "Horizon: directions through layers, by closed forms",
-///         "Horizon: directions through layers, by the oracle and in other words"
-OpenDirection look_along(const Scene& scene, const Vec& direction);
 
 }  // namespace lorentz::oracle

@@ -56,16 +56,6 @@ Polynomial primitive(const Polynomial& p) {
   return Polynomial(std::move(terms));
 }
 
-Polynomial exact_quotient(const Polynomial& a, const Polynomial& b) {
-  std::vector<Z> rest, result(a.size() - b.size() + 1);
-  for (std::size_t i = 0; i < a.size(); ++i) rest.push_back(a[i]);
-  for (std::size_t k = result.size(); k-- > 0;) {
-    result[k] = rest[k + b.size() - 1] / b.back();
-    for (std::size_t i = 0; i < b.size(); ++i) rest[k + i].subtract_product(result[k], b[i]);
-  }
-  return Polynomial(std::move(result));
-}
-
 std::vector<Polynomial> remainders(const Polynomial& a, const Polynomial& b) {
   std::vector<Polynomial> chain{a};
   for (Polynomial next = primitive(b); !next.is_zero();) {

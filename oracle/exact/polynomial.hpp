@@ -37,9 +37,6 @@ Polynomial derivative(const Polynomial& p);
 /// Divided by the greatest common divisor of its coefficients.
 Polynomial primitive(const Polynomial& p);
 
-/// a / b, where b divides a.
-Polynomial exact_quotient(const Polynomial& a, const Polynomial& b);
-
 /// a, b, and the remainders of Euclid's algorithm with alternating signs, each times a positive number. The
 /// last one is the greatest common divisor. For p and its derivative this is Sturm's chain: the number of
 /// different roots of p between two points is the number of sign changes of the chain at the first point

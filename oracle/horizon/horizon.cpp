@@ -11,7 +11,6 @@
 #include "oracle/exact/exact_query.hpp"
 #include "oracle/exact/quadratic.hpp"
 #include "oracle/exact/root_sums.hpp"
-#include "oracle/horizon/closed_directions.hpp"
 #include "oracle/horizon/cylinders.hpp"
 #include "oracle/horizon/slabs.hpp"
 #include "oracle/integers/dyadic.hpp"
@@ -187,8 +186,7 @@ Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders,
 
 bool Horizon::is_infinite() const {
   const auto infinite = [](const CylinderFamily& family) { return family.infinite; };
-  return closed || !channels.empty() || !cylinders.empty() ||
-         std::any_of(families.begin(), families.end(), infinite);
+  return !channels.empty() || !cylinders.empty() || std::any_of(families.begin(), families.end(), infinite);
 }
 
 bool Horizon::is_finite() const {
@@ -200,13 +198,10 @@ Horizon horizon_of(const Scene& scene, double min_width, bool with_cylinders,
   if (!(min_width >= 0 && std::isfinite(min_width)))
     throw InputError("min_width: needs a number, 0 or above");
   checked_exactly(scene);
-  if (!is_crystal(scene)) {
-    if (min_width > 0) throw InputError("min_width: supports crystals only");
-    Horizon horizon;
-    horizon.dimension = scene.dimension;
-    horizon.closed = closed_directions(scene);
-    return horizon;
-  }
+  if (!is_crystal(scene))
+    throw InputError(
+        "horizon: of crystals only; rows, layers and single obstacles leave nearly all directions "
+        "open");
   return scene.dimension == 2 ? horizon_in<2>(scene, min_width, false, progress)
                               : horizon_in<3>(scene, min_width, with_cylinders, progress);
 }

@@ -15,7 +15,7 @@ from ._answers import Floats
 from ._columns import same
 from ._first_hit import floats_of
 from ._lorentz import Error
-from ._numbers import Vector, finite, vector, whole, word
+from ._numbers import finite, whole, word
 from ._scene import Scene, SceneLike, native
 
 
@@ -134,32 +134,23 @@ def mean_free_path(scene: SceneLike, radius: float | None = None) -> float | Non
 
 
 def horizon(scene: SceneLike, radius: float | None = None, *, min_width: float = 0.0,
-            cylinders: bool = True, direction: Vector | None = None) -> dict[str, Any]:
+            cylinders: bool = True) -> dict[str, Any]:
     """The infinite channels that a scene leaves open, decided exactly (docs/horizon.md).
 
     Returns the report of `lorentz horizon --json`: ``horizon`` ("finite", "infinite" or "undecided"),
     ``channels`` with their widths, ``cylinders`` in 3D, ``tail_constant`` C in P(path > t) ~ C / t; and
-    ``verdict``, a summary in words. A scene of rows has no channels and no tail, but ``closed``: the arcs of
-    closed directions.
+    ``verdict``, a summary in words.
 
     Args:
         min_width: the least width of the corridors and planar channels to find.
         cylinders: search for cylindrical channels, too (3D; this is the longer search among small obstacles).
-        direction: for a layer, three floats: whether a channel is ``open`` in this direction. If so,
-            ``point`` and ``radius`` describe a cylinder along it, except for directions along the layer.
 
     Raises:
-        Error: the obstacles are so small that there are too many channels to list, or the scene is unsupported
-            (single obstacles, layers without a direction, crystals beside other lattices, rows in different
-            directions).
+        Error: the obstacles are so small that there are too many channels to list, or the scene is not a
+            crystal.
     """
     if not finite(min_width, "min_width") >= 0:
         raise Error(f"min_width: {min_width} is below 0")
     place = Scene(scene, radius)
-    if direction is not None:
-        numbers = [finite(number, "direction") for number in vector(direction, "direction")]
-        if len(numbers) != 3:
-            raise Error(f"direction: has {len(numbers)} components, not 3")
-        return report_of(_lorentz.open_direction(native(place), numbers), place)
     text, verdict = _lorentz.horizon(native(place), min_width, cylinders)
     return report_of(text, place) | {"verdict": verdict}

@@ -28,7 +28,7 @@ class Scene:
 
     Raises:
         Error: the scene is invalid; the message names the place, such as ``lattices[0].atoms[1].radius``.
-        FileError: there is no such file, and no such name in the catalogue.
+        Error: no scene of the catalogue has this name. FileError: there is no such file.
     """
 
     __slots__ = ("_scene", "_oracle", "_name")

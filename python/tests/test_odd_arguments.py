@@ -33,7 +33,7 @@ CALLS = [
      "scene radius count start seed engine jobs"),
     (lorentz.laws, dict(scene=SCENE, times=[1.0], start="uniform"), "scene times start"),
     (lorentz.mean_free_path, dict(scene=SCENE, radius=0.1), "scene radius"),
-    (lorentz.horizon, dict(scene=SCENE, radius=0.3, min_width=0.1, direction=None), "scene radius min_width direction"),
+    (lorentz.horizon, dict(scene=SCENE, radius=0.3, min_width=0.1), "scene radius min_width"),
     (lorentz.lyapunov, dict(scene=SCENE, radius=0.2, collisions=10, seed=1, jobs=1), "scene radius collisions seed jobs"),
     (lorentz.diffusion, dict(scene=SCENE, radius=0.2, count=5, max_time=2.0, start="uniform", seed=1, jobs=1),
      "scene radius count max_time start seed jobs"),

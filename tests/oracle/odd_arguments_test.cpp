@@ -117,10 +117,6 @@ std::vector<Class> exact_classes() {
           {"Itinerary", [](const Scene& s) { oracle::Itinerary{rational(s)}; }},
           {"Surroundings", [](const Scene& s) { oracle::Surroundings{s}; }},
           {"horizon_of", [](const Scene& s) { (void)oracle::horizon_of(s); }},
-          {"look_along",
-           [](const Scene& s) {
-             (void)oracle::look_along(s, {1, 2, 3});
-           }},
           {"contacts_in", [](const Scene& s) { (void)oracle::contacts_in(s, 3); }}};
 }
 
