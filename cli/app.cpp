@@ -55,7 +55,6 @@ void add(CLI::App& app, const Command& command, NumbersGiven& numbers) {
     CLI::Option* added = add_option(app, option, numbers);
     if (!option.default_text().empty() && added->get_default_str().empty()) added->capture_default_str();
     if (option.traits & kRequired) added->required();
-    if (option.traits & kCommas) added->delimiter(',');
     if (option.traits & kOneAtATime) added->allow_extra_args(false);
     if (option.is_hidden()) added->group("");
   }
@@ -137,6 +136,8 @@ const Action& parse(CLI::App& app, const Command& program, const NumbersGiven& n
   check_files(command);
   for (const NumberGiven& number : numbers)
     if (number.text) take_number(number.option, *number.text);
+  for (const Option& option : command.options)
+    if (option.traits & kCommas) split_at_commas(option);
   return command.act;
 }
 

@@ -11,6 +11,7 @@
 #include "golden/production.hpp"
 #include "question/engines.hpp"
 #include "report/claim_words.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -58,7 +59,7 @@ std::string queries_of(const std::vector<ExportedCase>& examples) {
 // Explains each tag that no finding explains yet by the aim of its target.
 void explain_targets(const std::vector<fuzz::Campaign>& campaigns, std::map<std::string, std::string>& tags) {
   for (const fuzz::Campaign& campaign : campaigns)
-    for (const std::string& name : question::names_in({campaign.manifest.targets}))
+    for (const std::string& name : items_of(campaign.manifest.targets, "targets"))
       if (const cases::Target* target = cases::target_named(name)) tags.emplace(name, target->description());
 }
 

@@ -55,7 +55,7 @@ std::vector<const cases::Target*> targets_of(const FuzzOptions& options) {
   std::vector<std::string> names;
   for (const cases::Target& target : cases::targets()) names.emplace_back(target.name());
   std::vector<const cases::Target*> targets;
-  for (const std::string& name : names_in(options.targets)) {
+  for (const std::string& name : options.targets) {
     const cases::Target* target = cases::target_named(name);
     if (!target) index_of_name(name, names, "--target");  // throws: not a target
     if (std::find(targets.begin(), targets.end(), target) != targets.end())

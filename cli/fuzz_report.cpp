@@ -11,6 +11,7 @@
 #include "report/reason.hpp"
 #include "report/share.hpp"
 #include "report/table.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -94,7 +95,7 @@ void say_left_out(const std::string& message) {
 FuzzReport report_of(const fuzz::Store& store, const fuzz::Campaign& campaign) {
   FuzzReport report;
   report.manifest = campaign.manifest;
-  report.targets = question::names_in({campaign.manifest.targets});
+  report.targets = items_of(campaign.manifest.targets, "targets");
   for (const std::string& target : report.targets) report.tallies.push_back(store.tally(campaign.id, target));
   for (fuzz::Stored& one : store.findings())
     if (one.campaign == campaign.id) report.findings.push_back(std::move(one));

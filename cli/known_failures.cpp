@@ -45,8 +45,24 @@ void say_first(const std::vector<std::string>& lines) {
   if (lines.size() > kMost) say("and {} more", lines.size() - kMost);
 }
 
+// A file of another kind has words, too.
+void check_is_list(const std::string& text, const std::string& name) {
+  const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  const bool is_binary = std::ranges::any_of(
+      text, [](unsigned char c) { return c < ' ' && c != '\n' && c != '\t' && c != '\r'; });
+  const char begin = first < text.size() ? text[first] : '#';
+  const char* kind = is_binary                      ? "is a binary file"
+                     : begin == '{' || begin == '[' ? "is JSON"
+                     : begin == '<'                 ? "is XML"
+                                                    : nullptr;
+  if (kind)
+    throw InputError(fmt::format(
+        "--baseline: {} {}, not a list of known failures as --write-baseline writes it", name, kind));
+}
+
 // The records that a baseline names.
 std::set<RecordKey> records_in(const std::string& text, const std::string& name) {
+  check_is_list(text, name);
   std::set<RecordKey> records;
   std::istringstream lines(text);
   std::size_t number = 0;

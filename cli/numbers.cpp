@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <sstream>
+#include <iterator>
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
+#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -81,13 +83,11 @@ PictureSize picture_size(const std::string& text) {
   return {pixels(text.substr(0, cross)), pixels(text.substr(cross + 1))};
 }
 
-Vec vector_in(const std::string& text, const char* option) {
+std::vector<double> numbers_in(const std::string& list, const char* option) {
   std::vector<double> numbers;
-  std::istringstream parts(text);
-  for (std::string part; std::getline(parts >> std::ws, part, ',');) numbers.push_back(number(part, option));
-  if (numbers.size() != 3 || text.ends_with(','))
-    throw InputError(fmt::format("{}: {} is not three numbers, like 1,0,2", option, json_quoted(text)));
-  return {numbers[0], numbers[1], numbers[2]};
+  for (const std::string& item : items_of(list, option))
+    numbers.push_back(number(item.substr(std::min(item.find_first_not_of(' '), item.size())), option));
+  return numbers;
 }
 
 void take_number(const Option& option, const std::string& text) {
@@ -99,6 +99,14 @@ void take_number(const Option& option, const std::string& text) {
     *positive->to = positive_number(text, name.c_str());
   else if (const auto* k = std::get_if<Tolerance>(&option.target))
     *k->to = tolerance(text, name.c_str());
+}
+
+void split_at_commas(const Option& option) {
+  auto& values = *std::get<std::vector<std::string>*>(option.target);
+  std::vector<std::string> all;
+  for (const std::string& list : values)
+    std::ranges::copy(items_of(list, option.name()), std::back_inserter(all));
+  values = std::move(all);
 }
 
 }  // namespace lorentz::cli

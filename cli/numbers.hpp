@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include <lorentz/vec.hpp>
 #include "cli/command.hpp"
 
 namespace lorentz::cli {
@@ -33,10 +33,14 @@ struct PictureSize {
 };
 PictureSize picture_size(const std::string& text);
 
-/// Three numbers separated by commas. Throws InputError with the option's name.
-Vec vector_in(const std::string& text, const char* option);
+/// The numbers of a list with commas between them. Throws InputError with the option's name.
+std::vector<double> numbers_in(const std::string& list, const char* option);
 
 /// Stores the given number in the option's destination. Throws InputError with the option's name.
 void take_number(const Option& option, const std::string& text);
+
+/// Makes each given list with commas in it several values. Throws InputError with the option's name if an item is
+/// empty.
+void split_at_commas(const Option& option);
 
 }  // namespace lorentz::cli

@@ -80,7 +80,7 @@ std::string horizon_verdict(const Scene& scene) {
     return verdict;
   } catch (const oracle::TooManyChannels& error) {
     return std::string("not searched: ") + error.what() + "; see `lorentz horizon --min-width`";
-  } catch (const InputError& error) {  // "horizon: unsupported for .."
+  } catch (const InputError& error) {  // of crystals only
     return "not searched" + std::string(error.what()).substr(std::string("horizon").size());
   }
 }

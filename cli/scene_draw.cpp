@@ -93,15 +93,8 @@ std::vector<DrawnFlight> flights_of(QueryStream& stream, std::optional<Scene>& s
 
 std::optional<std::array<double, 4>> window_of(const SceneDrawOptions& options) {
   if (!options.window) return std::nullopt;
-  std::vector<double> numbers;
-  std::istringstream parts(*options.window);
-  try {
-    for (std::string part; std::getline(parts, part, ',');) numbers.push_back(parse_number(part));
-  } catch (const InputError&) {
-    numbers.clear();
-  }
-  if (numbers.size() != 4 || options.window->ends_with(',') || !(numbers[0] < numbers[2]) ||
-      !(numbers[1] < numbers[3]))
+  const std::vector<double> numbers = numbers_in(*options.window, "--window");
+  if (numbers.size() != 4 || !(numbers[0] < numbers[2]) || !(numbers[1] < numbers[3]))
     throw InputError(fmt::format("--window: {} is not X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1",
                                  json_quoted(*options.window)));
   if (!(numbers[2] - numbers[0] < 1e300) || !(numbers[3] - numbers[1] < 1e300))

@@ -16,7 +16,7 @@ namespace {
 struct SurvivalOptions : ScanOptions {
   std::string engine = "reduction";
   std::uint64_t count = 100, collisions = 500;
-  std::vector<std::string> bits{"53,106,128,256"};
+  std::vector<std::string> bits{"53", "106", "128", "256"};
   std::optional<std::string> html;
 };
 
@@ -28,7 +28,7 @@ survival::SurvivalPlan plan_of(const SurvivalOptions& options) {
         "--engine: survival is of engines of this program (lorentz trajectory --engine takes others)");
   plan.count = options.count, plan.collisions = options.collisions, plan.seed = options.seed;
   plan.bits.clear();
-  for (const std::string& name : question::names_in(options.bits))
+  for (const std::string& name : options.bits)
     plan.bits.push_back(static_cast<long>(whole_number(name, "--bits", 24, 100'000)));
   return plan;
 }

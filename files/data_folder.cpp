@@ -22,7 +22,7 @@ std::vector<fs::path>& added_folders() {
 std::vector<fs::path> data_folders() {
   std::vector<fs::path> folders;
   std::error_code error;
-  if (const char* data = std::getenv("LORENTZ_DATA")) {
+  if (const char* data = std::getenv("LORENTZ_DATA"); data && *data) {
     folders.emplace_back(data);
     if (!fs::is_directory(folders[0] / "scenes", error) && !fs::is_directory(folders[0] / "golden", error))
       throw FileError(
@@ -62,7 +62,11 @@ std::vector<std::string> data_files(const std::string& folder, const std::string
 std::string data_places(const std::string& folder) {
   std::set<std::string> places;
   for (const fs::path& data : data_folders()) places.insert((data / folder).lexically_normal().string());
-  return fmt::format("{}", fmt::join(places, ", "));
+  std::error_code error;
+  const bool knows_itself = fs::exists("/proc/self/exe", error);
+  return fmt::format(
+      "{}{}", fmt::join(places, ", "),
+      knows_itself ? "" : "; where the program lies is not known without /proc; set LORENTZ_DATA");
 }
 
 }  // namespace lorentz

@@ -48,8 +48,10 @@ std::string find_scene(const std::string& name_or_file) {
   if (names.empty())
     throw FileError(fmt::format("{}: no such file, and no catalogue of scenes (looked for in {})", shown,
                                 data_places("scenes")));
-  throw FileError(fmt::format("{}: no such file, and no scene of the catalogue{}; it has {}", shown,
-                              did_you_mean(shown, names), fmt::join(names, ", ")));
+  const std::string missing = fmt::format("{}: no such file, and no scene of the catalogue{}; it has {}",
+                                          shown, did_you_mean(shown, names), fmt::join(names, ", "));
+  if (is_name && fs::path(name_or_file).extension().empty()) throw InputError(missing);  // a mistyped name
+  throw FileError(missing);
 }
 
 namespace {

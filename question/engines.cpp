@@ -221,22 +221,12 @@ EngineInfo engine_named(const std::string& name, std::optional<double> timeout) 
                   json_quoted(name), did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
-std::vector<std::string> names_in(const std::vector<std::string>& arguments) {
-  std::vector<std::string> names;
-  for (const std::string& argument : arguments)
-    for (std::size_t begin = 0; begin <= argument.size();) {
-      const bool whole = is_somebody_elses(std::string_view(argument).substr(begin));
-      const std::size_t end = whole ? argument.size() : std::min(argument.find(',', begin), argument.size());
-      names.push_back(argument.substr(begin, end - begin));
-      begin = end + 1;
-    }
-  return names;
-}
-
 std::vector<EngineInfo> engines_named(const std::vector<std::string>& arguments,
                                       std::optional<double> timeout) {
   std::vector<EngineInfo> named;
-  for (const std::string& name : names_in(arguments)) named.push_back(engine_named(name, timeout));
+  for (const std::string& argument : arguments)
+    for (const std::string& name : items_of(argument, "--engine", is_somebody_elses))
+      named.push_back(engine_named(name, timeout));
   return named;
 }
 

@@ -81,9 +81,6 @@ std::vector<EngineInfo> engines_named(const std::vector<std::string>& arguments,
 /// Their names.
 std::vector<std::string> names_of(const std::vector<EngineInfo>& engines);
 
-/// The names in the same arguments.
-std::vector<std::string> names_in(const std::vector<std::string>& arguments);
-
 /// A function of the caller, as an engine with a name of its own. Throws InputError if the name is taken.
 EngineInfo guest_engine(std::string name,
                         std::function<std::unique_ptr<Answerer>(const AnswererOptions&)> make);

@@ -8,6 +8,7 @@
 
 #include <lorentz/errors.hpp>
 #include "fuzz/campaign/store.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::fuzz {
 namespace {
@@ -17,16 +18,6 @@ struct Shard {
   std::vector<Campaign> campaigns;
   std::vector<Stored> findings;
 };
-
-std::vector<std::string> names_in(const std::string& list) {
-  std::vector<std::string> names;
-  for (std::size_t begin = 0; begin <= list.size();) {
-    const std::size_t end = std::min(list.find(',', begin), list.size());
-    names.push_back(list.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return names;
-}
 
 std::string number_of_shards(const std::string& shard) {
   const auto slash = shard.find('/');
@@ -111,7 +102,7 @@ void merge(const std::vector<std::string>& paths, Store& into) {
     CampaignManifest manifest = shards.front().campaigns[c].manifest;
     bool even = std::to_string(shards.size()) == number_of_shards(manifest.shard);
     std::map<std::string, TargetTally> sums;
-    for (const std::string& target : names_in(manifest.targets)) {
+    for (const std::string& target : items_of(manifest.targets, "targets")) {
       TargetTally& sum = sums[target];
       for (std::size_t s = 0; s < shards.size(); ++s) {
         const TargetTally one = stores[s]->tally(shards[s].campaigns[c].id, target);

@@ -75,8 +75,8 @@ std::string text_of(const std::string& path) {
   LineReader reader(path);
   std::string text;
   for (LineReader::Line line; reader.next(line);) {
-    if (line.too_long)
-      throw InputError("a line is longer than " + std::to_string(LineReader::kMaxLine >> 20) + " MiB");
+    if (line.too_long || text.size() + line.text.size() >= LineReader::kMaxLine)
+      throw InputError("is longer than " + std::to_string(LineReader::kMaxLine >> 20) + " MiB; no scene is");
     text.append(line.text);
     text += '\n';
   }

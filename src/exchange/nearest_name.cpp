@@ -64,4 +64,17 @@ std::size_t index_of_name(const std::string& name, const std::vector<std::string
                    did_you_mean(name, names));
 }
 
+std::vector<std::string> items_of(std::string_view list, std::string_view what,
+                                  bool (*is_rest)(std::string_view)) {
+  std::vector<std::string> items;
+  for (std::size_t begin = 0; begin <= list.size(); begin += items.back().size() + 1) {
+    const std::string_view rest = list.substr(begin);
+    items.emplace_back(is_rest && is_rest(rest) ? rest : rest.substr(0, rest.find(',')));
+    if (!items.back().empty()) continue;
+    throw InputError(std::string(what) + ": " +
+                     (list.empty() ? "is empty" : "an item is empty in the list " + json_quoted(list)));
+  }
+  return items;
+}
+
 }  // namespace lorentz

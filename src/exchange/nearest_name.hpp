@@ -21,4 +21,9 @@ std::string did_you_mean(std::string_view typed, const std::vector<std::string>&
 std::size_t index_of_name(const std::string& name, const std::vector<std::string>& names,
                           std::string_view what);
 
+/// The items of a list with commas between them. From an item on of which `is_rest` is true, the whole rest is one
+/// item, commas included. Throws InputError, which begins with `what`, if an item is empty.
+std::vector<std::string> items_of(std::string_view list, std::string_view what,
+                                  bool (*is_rest)(std::string_view) = nullptr);
+
 }  // namespace lorentz
