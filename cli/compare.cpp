@@ -3,7 +3,6 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/compare_parts.hpp"
 #include "cli/compare_questions.hpp"
 #include "cli/compare_table.hpp"
 #include "cli/disagreement_file.hpp"
@@ -34,16 +33,13 @@ auto spread_of(const std::vector<double>& values) {
 }
 
 void add_tally(json::Members& object, const Tally& t, bool judged) {
-  const auto count = [&](std::size_t n) { return judged ? std::optional(n) : std::nullopt; };
   const auto if_timed = [&](double ulps) { return t.timed_hits > 0 ? std::optional(ulps) : std::nullopt; };
   const auto if_fast = [&](double ns) { return t.speed.ns_per_query > 0 ? std::optional(ns) : std::nullopt; };
-  object.add("engine", t.name, "queries", t.queries, "agree", count(t.agree), "ill_posed", count(t.ill_posed),
-             "wrong", count(t.wrong), "undecided", count(t.undecided), "unsupported", count(t.unsupported),
-             "error", count(t.error), "missing", count(t.missing));
+  object.add("engine", t.name, "queries", t.queries);
+  add_counts(object, t.counts, Counted::examinations, judged);
   object.add("max_ulp", if_timed(t.max_ulp()), "mean_ulp", if_timed(t.mean_ulp()), "ns_per_query",
              if_fast(t.speed.ns_per_query), "ns_median", if_fast(t.speed.ns_median), "engine_ns",
-             t.speed.own_ns, "wrong_time", count(t.wrong_time), "other_quantity", count(t.other_quantity),
-             "wrong_time_ulps", spread_of(t.wrong_ulps), "wrong_time_conditions",
+             t.speed.own_ns, "wrong_time_ulps", spread_of(t.wrong_ulps), "wrong_time_conditions",
              spread_of(t.wrong_conditions));
 }
 
@@ -68,6 +64,7 @@ struct Compared {
   std::optional<EngineInfo> engine = {};             // either this
   LoggedAnswers* logged = nullptr;                   // or this: then it is the answerer
   Tally tally = {};
+  std::vector<std::string> wrong = {};  // the first wrong answers, for people
 };
 
 std::unique_ptr<LoggedAnswers> logged_in(const std::string& path, const ComparedQuestions& questions,
@@ -104,8 +101,9 @@ int exit_status(const std::vector<Tally>& tallies, const CompareOptions& options
     if (t.failed) return kFailed;
   if (bad_input) return kBadInput;
   for (const Tally& t : tallies)
-    if (t.wrong > 0 || (options.times && t.wrong_time > 0) ||
-        (options.strict && t.ill_posed + t.undecided + t.error + t.missing > 0))
+    if (t[Count::wrong] > 0 || (options.times && t[Count::wrong_time] > 0) ||
+        (options.strict &&
+         t.counts.sum({Count::ill_posed, Count::undecided, Count::error, Count::missing}) > 0))
       return kDisagreement;
   return kDone;
 }
@@ -122,15 +120,6 @@ std::string description(const Judged& judged) {
                                        judged.reply.answer, judged.judgement.obstacle, "    "));
 }
 
-// The first wrong answers of the i-th engine or file, for people; empty if there are none.
-std::string first_wrong(const ComparedParts& parts, std::size_t i, std::size_t most) {
-  std::string text;
-  for (const auto& [number, part] : parts.all())
-    for (const std::string& one : part.wrong[i])
-      if (most > 0) text += one, --most;
-  return text;
-}
-
 // The line on questions that were not asked; empty if all were asked.
 std::string not_asked_of(const ComparedQuestions& questions) {
   const std::size_t count = questions.not_asked();
@@ -139,31 +128,26 @@ std::string not_asked_of(const ComparedQuestions& questions) {
 }
 
 void show(const CompareOptions& options, const ComparedQuestions& questions,
-          const std::vector<Tally>& tallies, const ComparedParts& parts) {
+          const std::vector<Tally>& tallies, const std::vector<Compared>& compared) {
   if (options.json) {
     print(json_of(title(options, questions), options, questions.not_asked(), tallies));
     return;
   }
   const bool drawn = !options.queries;
-  const bool is_whole = options.no_oracle || tallies[0].queries == questions.count();
-  print(fmt::format("{}: {}{} {} queries{}{}{}\n{}\n{}", title(options, questions),
-                    is_whole ? "" : fmt::format("{} of ", tallies[0].queries), questions.count(),
+  print(fmt::format("{}: {} {} queries{}{}{}\n{}\n{}", title(options, questions), questions.count(),
                     drawn ? "drawn" : "given", drawn ? ", seed " + std::to_string(options.seed) : "",
                     options.judge == "oracle" ? "" : ", judged by " + options.judge,
                     report::words_of(options.claim.claim()), not_asked_of(questions),
                     table_of(tallies, !options.no_oracle)));
   if (options.no_oracle) return;
   for (std::size_t i = 0; i < tallies.size(); ++i) {
-    const std::string text = first_wrong(parts, i, options.failures);
+    const std::vector<std::string>& wrong = compared[i].wrong;
     print(fmt::format("\n{}\n{}{}", verdict_of(tallies[i]),
-                      text.empty() ? "" : "  The first wrong answers:\n", text));
+                      wrong.empty() ? "" : "  The first wrong answers:\n", fmt::join(wrong, "")));
   }
 }
 
 void check(const CompareOptions& options, const std::vector<EngineInfo>& engines) {
-  const bool has_parts = options.store || !options.parts.empty() || options.shard != CompareOptions().shard;
-  if (options.no_oracle && has_parts)
-    throw InputError("--store, --add and --shard are of what is judged; leave --no-oracle out");
   const Truth truth = truth_named(options.judge, engines);
   if (options.no_oracle && truth != Truth::oracle)
     throw InputError("--judge: has no effect with --no-oracle; leave one of them out");
@@ -195,56 +179,36 @@ void pass_over(const std::vector<Question>& questions, std::vector<Compared>& co
     if (one.logged) ask_all(all_of(questions), *one.answerers[0], [](const Question&, Reply&) {});
 }
 
-// Judges one part: keeps all answers that differ from the exact ones for the file, and describes the first
-// wrong ones for people.
-ComparedPart examine_part(const CompareOptions& options, std::uint64_t number,
-                          std::vector<Question>& questions, std::vector<Compared>& compared,
-                          DisagreementFile& file) {
+// Judges some questions: all answers that differ from the exact ones go to the file, the first wrong ones are described
+// for people.
+void examine_part(const CompareOptions& options, std::vector<Question>& questions,
+                  std::vector<Compared>& compared, DisagreementFile& file) {
   const double ulps = options.ulps.value_or(oracle::kDefaultUlps);
-  ComparedPart part{number, check_of(questions), {}, {}, {}};
   answer_exactly(questions, truth_named(options.judge, {}), terminal(), static_cast<int>(options.jobs));
-  for (Compared& one : compared) {
-    Tally& tally = part.tallies.emplace_back();
-    std::vector<std::string>& wrong = part.wrong.emplace_back();
+  for (Compared& one : compared)
     examine(questions, one.answerers, ulps, [&](const Judged& judged) {
       const oracle::Judgement& judgement = judged.judgement;
-      tally.count(judgement);
+      one.tally.count(judgement);
       if (!departs(judgement) || (judgement.wrong_time && !options.times)) return;
       file.add(judged, one.name);
-      if (judgement.verdict == oracle::Verdict::wrong && !options.json && wrong.size() < options.failures)
-        wrong.push_back(description(judged));
+      if (judgement.verdict == oracle::Verdict::wrong && !options.json && one.wrong.size() < options.failures)
+        one.wrong.push_back(description(judged));
     });
-  }
-  part.disagreements = file.take();
-  return part;
 }
 
 // Asks part after part, so that memory does not grow with the number of queries. Returns the first questions,
 // for the race.
 std::vector<Question> examine_all(const CompareOptions& options, ComparedQuestions& questions,
-                                  std::vector<Compared>& compared, ComparedParts& parts,
-                                  DisagreementFile& file) {
+                                  std::vector<Compared>& compared, DisagreementFile& file) {
   constexpr std::size_t kTogether = 10'000;
-  std::vector<Question> first;
-  std::vector<Question> some;
-  for (std::uint64_t number = 0; !(some = questions.next(kTogether)).empty(); ++number) {
+  std::vector<Question> first, some;
+  while (!(some = questions.next(kTogether)).empty()) {
     pass_over(questions.passed_over(), compared);
-    if (!options.no_oracle && !parts.is_to_do(number, check_of(some))) {
-      pass_over(some, compared);
-    } else if (!options.no_oracle) {
-      ComparedPart part = examine_part(options, number, some, compared, file);
-      const bool is_whole = std::none_of(compared.begin(), compared.end(),
-                                         [](const Compared& one) { return one.answerers[0]->failed(); });
-      parts.add(std::move(part), is_whole);
-    }
+    if (!options.no_oracle) examine_part(options, some, compared, file);
     if (first.empty() || options.no_oracle)
       first.insert(first.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
   }
   pass_over(questions.passed_over(), compared);
-  for (const auto& [number, part] : parts.all()) {
-    for (std::size_t i = 0; i < compared.size(); ++i) compared[i].tally.add(part.tallies[i]);
-    file.put(part.disagreements);
-  }
   return first;
 }
 
@@ -277,11 +241,7 @@ int act(CompareOptions options) {
   DisagreementFile file(options.disagreements);
   ComparedQuestions questions(options, file);
   std::vector<Compared> compared = all_compared(options, engines, questions);
-  std::vector<std::string> names;
-  for (const Compared& one : compared) names.push_back(one.name);
-  if (options.store) goes_on_when_repeated();
-  ComparedParts parts(options, names);
-  const std::vector<Question> first = examine_all(options, questions, compared, parts, file);
+  const std::vector<Question> first = examine_all(options, questions, compared, file);
   race_all(options, first, compared);
   bool bad_input = questions.had_bad_input();
   for (Compared& one : compared) {
@@ -293,7 +253,7 @@ int act(CompareOptions options) {
   file.close();
   std::vector<Tally> tallies;
   for (Compared& one : compared) tallies.push_back(std::move(one.tally));
-  show(options, questions, tallies, parts);
+  show(options, questions, tallies, compared);
   return exit_status(tallies, options, bad_input);
 }
 
@@ -324,10 +284,6 @@ Command compare_command() {
           {"--count", Whole{&options->count, 0, 1'000'000'000}, "N", "how many queries to draw", kPlain,
            "--queries"},
           {"--seed", Whole{&options->seed}, "N", "of the drawn queries"},
-          {"--store", &options->store, "FILE",
-           "where parts of 10 000 queries that are judged are kept, and gone on from", kOutput},
-          {"--shard", &options->shard, "I/N", "only the parts I modulo N"},
-          {"--add", &options->parts, "FILE", "add what the stores of other shards have"},
           {"--disagreements", &options->disagreements, "FILE",
            "write each wrong or ill-posed answer there (--times: and wrong time), as a query stream",
            kOutput},

@@ -17,11 +17,10 @@ namespace lorentz::cli {
 
 struct CompareOptions {
   std::vector<std::string> engines, answers;
-  std::vector<std::string> parts;  // stores of other shards
-  std::optional<std::string> scene, queries, disagreements, store;
+  std::optional<std::string> scene, queries, disagreements;
   std::optional<double> radius, ulps, timeout;
   std::uint64_t jobs = 1, count = 10'000, seed = starts::kDefaultSeed, failures = 3;
-  std::string judge = "oracle", shard = "0/1";
+  std::string judge = "oracle";
   ClaimOptions claim;
   bool json = false, strict = false, times = false, no_oracle = false;
 

@@ -59,12 +59,14 @@ class DemoReport {
     const std::vector<Speed> speeds = race(questions, engines, options);
     for (std::size_t i = 0; i < engines.size(); ++i) {
       const Tally t = tally_of(engines[i], questions);
-      table_.add({i == 0 ? what : "", i == 0 ? std::to_string(t.queries) : "", engines[i].name,
-                  std::to_string(t.agree), std::to_string(t.ill_posed), std::to_string(t.wrong),
-                  std::to_string(t.wrong_time), std::to_string(t.undecided),
-                  t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-",
-                  t.timed_hits ? fmt::format("{:.3g}", t.max_ulp()) : "-",
-                  fmt::format("{:.2f}", speeds[i].ns_per_query / 1000)});
+      const auto error = [&](double ulps) { return t.timed_hits ? fmt::format("{:.3g}", ulps) : "-"; };
+      std::vector<std::string> row{i == 0 ? what : "", i == 0 ? std::to_string(t.queries) : "",
+                                   engines[i].name};
+      for (const Count count : kShown) row.push_back(std::to_string(t[count]));
+      for (const std::string& cell :
+           {error(t.mean_ulp()), error(t.max_ulp()), fmt::format("{:.2f}", speeds[i].ns_per_query / 1000)})
+        row.push_back(cell);
+      table_.add(row);
       if (engines[i].name == kPublished) published_.add(t);
     }
   }
@@ -80,11 +82,14 @@ class DemoReport {
         "error: of the time of the hits it got right, in units in the last place (ulp) of a binary64.\n"
         "The published algorithm was wrong {} times in {}; docs/published.md says why. To check it:\n"
         "lorentz demo --disagreements FILE writes these {} cases for any program to run again.\n",
-        published_.wrong, published_.agree + published_.ill_posed + published_.wrong, published_.wrong));
+        published_[Count::wrong], published_.counts.answers(), published_[Count::wrong]));
   }
 
  private:
   static constexpr const char* kPublished = "published";
+  // As the table's header has them; "right" is what agrees.
+  static constexpr Count kShown[] = {Count::agree, Count::ill_posed, Count::wrong, Count::wrong_time,
+                                     Count::undecided};
 
   Tally tally_of(const EngineInfo& engine, const std::vector<Question>& questions) {
     Tally tally;

@@ -18,21 +18,18 @@ class DisagreementFile {
 
   /// Writes the scene of the first place, so that the file is a stream even if nothing disagrees.
   void begin(const std::shared_ptr<question::Place>& place);
+  /// Writes an answer, and before it the scene, unless that is the one that was written last.
   void add(const question::Judged& judged, const std::string& engine);
 
-  /// Returns the answers added since the last call as a stream of its own. Only put() writes it to the file.
-  std::string take();
-  /// Writes a stream from take(). A scene line equal to the previous one is not repeated.
-  void put(std::string_view stream);
-
-  /// Writes the answers that were added and not taken, and moves the file to its final name. Throws FileError
-  /// if something was not written.
+  /// Moves the file to its final name. Throws FileError if something was not written.
   void close();
 
  private:
+  void enter(const std::shared_ptr<question::Place>& place);
+
   std::optional<WholeFile> file_;
-  std::string added_, scene_;               // the line of the scene that was written last
-  std::shared_ptr<question::Place> place_;  // of the scene that was added last
+  std::string scene_;                       // the line of the scene that was written last
+  std::shared_ptr<question::Place> place_;  // of that scene
 };
 
 }  // namespace lorentz::cli

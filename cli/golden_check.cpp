@@ -207,17 +207,13 @@ class EngineCheck {
 };
 
 std::vector<std::string> cells_of(const std::string& set, const std::string& tag, const Tally& t) {
-  std::vector<std::string> cells{set, tag, std::to_string(t.queries)};
-  for (const std::size_t n :
-       {t.agree, t.ill_posed, t.wrong, t.wrong_time, t.undecided, t.unsupported, t.error})
-    cells.push_back(n ? std::to_string(n) : "-");
-  return cells;
+  return cells_counted(t.counts, Counted::examinations, {set, tag, std::to_string(t.queries)}, {},
+                       dash_for_none);
 }
 
 void add_counts(json::Members& object, const Tally& t) {
-  object.add("records", t.queries, "agree", t.agree, "ill_posed", t.ill_posed, "wrong", t.wrong, "wrong_time",
-             t.wrong_time, "other_quantity", t.other_quantity, "undecided", t.undecided, "unsupported",
-             t.unsupported, "error", t.error);
+  object.add("records", t.queries);
+  question::add_counts(object, t.counts, Counted::examinations);
 }
 
 void add_set(json::Members& object, const SetTally& set) {
@@ -252,8 +248,7 @@ std::string json_of(const std::string& engine, const Claim& claim, const std::ve
 
 void show(const std::string& engine, const Claim& claim, const std::vector<SetTally>& tallies,
           const std::vector<std::string>& failures, std::size_t not_asked) {
-  report::Table table({"set", "tag", "records", "agree", "ill-posed", "wrong", "wrong time", "undecided",
-                       "unsupported", "error"});
+  report::Table table(titles_counted(Counted::examinations, {"set", "tag", "records"}, {}));
   for (const SetTally& set : tallies) {
     table.add(cells_of(set.label, "all", set.all));
     for (const auto& [tag, tally] : set.by_tag) table.add(cells_of("", tag, tally));
@@ -283,13 +278,8 @@ void show(const std::string& engine, const Claim& claim, const std::vector<SetTa
 
 // For example "12 wrong, 3 ill-posed"; empty if all answers agree.
 std::string troubles(const Tally& t) {
-  std::vector<std::string> all;
-  if (t.wrong > 0) all.push_back(fmt::format("{} wrong", t.wrong));
-  if (t.wrong_time > 0)
-    all.push_back(fmt::format("{} {}", t.wrong_time, t.wrong_time == 1 ? "wrong time" : "wrong times"));
-  if (t.other_quantity > 0) all.push_back(fmt::format("{} of another quantity", t.other_quantity));
-  if (const std::string others = others_of(t); !others.empty()) all.push_back(others);
-  return fmt::format("{}", fmt::join(all, ", "));
+  return text_of(t.counts, {Count::wrong, Count::wrong_time, Count::other_quantity, Count::ill_posed,
+                            Count::undecided, Count::unsupported, Count::error, Count::missing});
 }
 
 // Text for a table cell: printable, without characters that end a cell or begin markup.
@@ -324,7 +314,7 @@ std::string faults_page(const std::string& engine, const std::vector<SetTally>& 
   for (const SetTally& set : tallies)
     for (const auto& [tag, note] : set.notes) {
       const auto found = set.by_tag.find(tag);
-      if (found == set.by_tag.end() || found->second.wrong + found->second.error == 0) continue;
+      if (found == set.by_tag.end() || found->second.counts.sum({Count::wrong, Count::error}) == 0) continue;
       rows += fmt::format("| {} | {} | {} | {} | {} |\n", in_markdown(set.all.name), in_markdown(tag),
                           found->second.queries, troubles(found->second), in_markdown(note));
     }

@@ -29,6 +29,8 @@ using judge::JudgeReport;
 
 namespace {
 
+using question::Count;
+
 struct JudgeOptions {
   std::string engine;
   std::uint64_t seed = starts::kDefaultSeed, jobs = 1;
@@ -42,8 +44,9 @@ struct JudgeOptions {
 
 int exit_status(const JudgeReport& report, const JudgeOptions& options) {
   const question::Tally t = report.total();
-  if (t.wrong + t.error > 0 || (options.times && t.wrong_time > 0) ||
-      (options.strict && t.ill_posed + t.undecided + t.missing + report.nonsense() > 0))
+  if (t.counts.sum({Count::wrong, Count::error}) > 0 || (options.times && t[Count::wrong_time] > 0) ||
+      (options.strict &&
+       t.counts.sum({Count::ill_posed, Count::undecided, Count::missing, Count::nonsense}) > 0))
     return kDisagreement;
   return kDone;
 }

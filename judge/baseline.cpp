@@ -12,7 +12,7 @@ std::string text_in(json::Object object, const char* key) {
 }
 
 std::size_t failed_of(const question::Tally& tally) {
-  return tally.wrong + tally.error + tally.missing;
+  return tally.counts.sum({Count::wrong, Count::error, Count::missing});
 }
 
 std::pair<std::string, std::string> fault_of(const Finding& finding) {

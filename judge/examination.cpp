@@ -116,7 +116,7 @@ void Examination::run(ExaminedRow of, const Source& source, double seconds, cons
     if (tell_) tell_(row.name);
     const double took = ask(questions);
     row.seconds += took;
-    if (!most_) at_once = row.too_slow > 0 ? 1 : next_number(questions.size(), took);
+    if (!most_) at_once = row.tally[Count::too_slow] > 0 ? 1 : next_number(questions.size(), took);
     for (std::size_t i = 0; i < replies_.size(); ++i) {
       if (!most_) questions[i].place->note_time(took / static_cast<double>(replies_.size()));
       take(questions[i], replies_[i], row);
@@ -133,8 +133,6 @@ void Examination::take_over(const Examination& other) {
     ExaminedRow& its = add({.name = more.name, .explanation = more.explanation, .is_hard = more.is_hard});
     its.tally.add(more.tally);
     if (more.max_radii) its.max_radii = std::max(its.max_radii.value_or(0), *more.max_radii);
-    its.nonsense += more.nonsense;
-    its.too_slow += more.too_slow;
     its.seconds += more.seconds;
     its.scenes_given_up += more.scenes_given_up;
     if (its.last_failure.empty()) its.last_failure = more.last_failure;
@@ -180,9 +178,9 @@ void Examination::take(const Question& question, const Reply& reply, ExaminedRow
   const bool is_nonsense = example && example->diagnosis.severity == Severity::nonsense;
   const bool is_slowness = silence_is_slowness_ && has_answered_ && reply.origin == Origin::silent;
   if (is_slowness)
-    ++row.too_slow, question.place->note_silence();
+    ++row.tally.counts[Count::too_slow], question.place->note_silence();
   else if (is_nonsense)
-    ++row.nonsense;
+    ++row.tally.counts[Count::nonsense];
   else
     row.tally.count(judgement);
   if (on_judged_ && !is_nonsense) on_judged_(row.name, question, judgement);
@@ -204,7 +202,7 @@ void Examination::take(const Question& question, const Reply& reply, ExaminedRow
 std::vector<Finding> Examination::findings() const {
   Asked asked;
   for (const ExaminedRow& row : rows_)
-    asked[row.name] = {asked[row.name].number + row.asked() - row.tally.unsupported, row.is_hard};
+    asked[row.name] = {asked[row.name].number + row.asked() - row.tally[Count::unsupported], row.is_hard};
   return findings_.all(asked);
 }
 

@@ -20,6 +20,8 @@
 
 namespace lorentz::judge {
 
+using question::Count;
+using question::Counted;
 using question::Reply;
 using question::Source;
 
@@ -44,18 +46,14 @@ struct ExaminedRow {
   std::string name, explanation;
   bool is_hard = true;         ///< chosen to be difficult, in contrast to drawn flights
   question::Tally tally = {};  ///< with the mean ns_per_query; wall-clock time for an external program
-  /// Invalid questions that were answered as if they were valid; these are not in the tally.
-  std::size_t nonsense = 0;
   std::optional<double> max_radii = {};       ///< the largest radii_off of a right obstacle
   std::optional<std::uint64_t> records = {};  ///< the size of a golden set
   bool is_exhausted = false;                  ///< its source had no more questions that the engine supports
   std::size_t scenes_given_up = 0;  ///< scenes in which an external engine failed until it was given up
   std::string last_failure = {};    ///< in the last of these
-  /// Questions on which an external engine was silent for longer than one may take; not in the tally.
-  std::size_t too_slow = 0;
-  double seconds = 0;  ///< that the answers took
+  double seconds = 0;               ///< that the answers took
 
-  std::size_t asked() const { return tally.queries + nonsense + too_slow; }
+  std::size_t asked() const { return tally.queries + tally.counts.sum({Count::nonsense, Count::too_slow}); }
 };
 
 class Examination {

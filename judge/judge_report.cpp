@@ -224,25 +224,18 @@ void add_finding(json::Members& object, const Finding& finding, const JudgeRepor
 
 constexpr double kSlowStart = 0.05;  // seconds; less is not worth a line
 
-const std::vector<std::string> kColumns{"questions",  "number",    "agree",       "ill-posed", "wrong",
-                                        "wrong time", "undecided", "unsupported", "error",     "missing",
-                                        "nonsense",   "radii off", "max ulp",     "ns/query"};
-
 // For times near 0, ulps are not informative.
 std::string largest_ulp(const question::Tally& t) {
   if (!t.timed_hits) return "-";
   return t.max_ulp() < oracle::kLargestMargin ? fmt::format("{:.3g}", t.max_ulp()) : "> 2^20";
 }
 
-std::vector<std::string> cells_of(const question::Tally& t, std::size_t nonsense,
-                                  const std::optional<double>& radii) {
-  std::vector<std::string> cells{t.name, std::to_string(t.queries)};
-  for (const std::size_t number : {t.agree, t.ill_posed, t.wrong, t.wrong_time, t.undecided, t.unsupported,
-                                   t.error, t.missing, nonsense})
-    cells.push_back(number ? std::to_string(number) : "-");
-  cells.insert(cells.end(), {radii ? fmt::format("{:.2g}", *radii) : "-", largest_ulp(t),
-                             t.speed.ns_per_query > 0 ? fmt::format("{:.0f}", t.speed.ns_per_query) : "-"});
-  return cells;
+std::vector<std::string> cells_of(const question::Tally& t, const std::optional<double>& radii) {
+  return question::cells_counted(
+      t.counts, Counted::judge, {t.name, std::to_string(t.queries)},
+      {radii ? fmt::format("{:.2g}", *radii) : "-", largest_ulp(t),
+       t.speed.ns_per_query > 0 ? fmt::format("{:.0f}", t.speed.ns_per_query) : "-"},
+      question::dash_for_none);
 }
 
 enum class RowState { asked, unsupported, no_time, too_slow, given_up, other_numbers };
@@ -251,12 +244,13 @@ constexpr const char* kRowStates[] = {"asked",    "unsupported", "no time",
 
 RowState state_of(const ExaminedRow& row, const JudgeReport& report) {
   if (row.scenes_given_up > 0) return RowState::given_up;
-  if (row.too_slow > 0) return RowState::too_slow;
-  if (row.asked() > 0) return row.tally.unsupported == row.asked() ? RowState::unsupported : RowState::asked;
+  if (row.tally[Count::too_slow] > 0) return RowState::too_slow;
+  if (row.asked() > 0)
+    return row.tally[Count::unsupported] == row.asked() ? RowState::unsupported : RowState::asked;
   // Its scenes had been left before: either all were unsupported, or some were too slow to be asked again.
   const question::Tally all = report.total();
   if (!row.is_exhausted) return RowState::no_time;
-  if (all.queries == all.unsupported) return RowState::unsupported;
+  if (all.queries == all[Count::unsupported]) return RowState::unsupported;
   return report.claim.precision == NumberFormat::binary64 ? RowState::too_slow : RowState::other_numbers;
 }
 
@@ -281,12 +275,13 @@ std::string line_of(RowState state, const std::string& what, const JudgeReport& 
 }
 
 std::string table_of(const JudgeReport& report) {
-  report::Table table(kColumns);
+  report::Table table(question::titles_counted(Counted::judge, {"questions", "number"},
+                                               {"radii off", "max ulp", "ns/query"}));
   for (const ExaminedRow& row : report.rows)
-    if (row.tally.unsupported < row.asked()) table.add(cells_of(row.tally, row.nonsense, row.max_radii));
+    if (row.tally[Count::unsupported] < row.asked()) table.add(cells_of(row.tally, row.max_radii));
   question::Tally total = report.total();
   total.name = "all";
-  table.add(cells_of(total, report.nonsense(), report.max_radii()));
+  table.add(cells_of(total, report.max_radii()));
   return table.text() + line_of(RowState::unsupported, "unsupported", report) +
          line_of(RowState::no_time, "not asked, no time", report) +
          line_of(RowState::too_slow,
@@ -301,12 +296,10 @@ std::string table_of(const JudgeReport& report) {
 void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& report) {
   const question::Tally& t = row.tally;
   object.add("name", row.name, "explanation", row.explanation, "state",
-             kRowStates[static_cast<int>(state_of(row, report))], "too_slow", row.too_slow, "scenes_given_up",
-             row.scenes_given_up, "why",
-             row.scenes_given_up == 0 ? std::nullopt : std::optional(row.last_failure));
-  object.add("queries", t.queries, "agree", t.agree, "ill_posed", t.ill_posed, "wrong", t.wrong, "wrong_time",
-             t.wrong_time, "other_quantity", t.other_quantity, "undecided", t.undecided, "unsupported",
-             t.unsupported, "error", t.error, "missing", t.missing, "nonsense", row.nonsense);
+             kRowStates[static_cast<int>(state_of(row, report))], "scenes_given_up", row.scenes_given_up,
+             "why", row.scenes_given_up == 0 ? std::nullopt : std::optional(row.last_failure));
+  object.add("queries", t.queries);
+  question::add_counts(object, t.counts, Counted::judge);
   object.add("max_radii", json::finite(row.max_radii), "records", row.records);
   object.add("max_ulp", t.timed_hits ? json::finite(t.max_ulp()) : std::nullopt, "ns_per_query",
              t.speed.ns_per_query > 0 ? json::finite(t.speed.ns_per_query) : std::nullopt);
@@ -323,7 +316,7 @@ std::string JudgeReport::text() const {
   if (ns_per_query) text += fmt::format("Speed: {}.\n", speed_of);
   if (start_up >= kSlowStart)
     text += fmt::format("Start: {:.2g} s until the first answer, which is in no other figure.\n", start_up);
-  if (misbehaved && total().missing == 0)
+  if (misbehaved && total()[Count::missing] == 0)
     text += "It did what it should not, and lost no answer by it: stderr has it.\n";
   int number = 0;
   for (const Blame group : kBlames) {
@@ -349,10 +342,9 @@ std::string JudgeReport::json() const {
       object.add("what", its.what, "how_bad", its.how_bad, "worst", its.worst, "finding",
                  its.finding ? std::optional(its.finding - findings.data()) : std::nullopt);
     });
-    page.add("queries", t.queries, "wrong", t.wrong, "ill_posed", t.ill_posed, "wrong_time", t.wrong_time,
-             "other_quantity", t.other_quantity, "undecided", t.undecided, "unsupported", t.unsupported,
-             "error", t.error, "missing", t.missing, "nonsense", nonsense(), "ns_per_query",
-             json::finite(ns_per_query), "ns_of_reduction", json::finite(ns_of_reduction),
+    page.add("queries", t.queries);
+    question::add_counts(page, t.counts, Counted::judge);
+    page.add("ns_per_query", json::finite(ns_per_query), "ns_of_reduction", json::finite(ns_of_reduction),
              "processor_ns_per_query", json::finite(processor_ns), "processor_ns_of_reduction",
              json::finite(processor_ns_of_reduction), "engine_ns", json::finite(own_ns), "start_up_seconds",
              json::finite(start_up));

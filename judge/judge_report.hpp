@@ -51,8 +51,6 @@ struct JudgeReport : JudgeTerms {
   /// "Ball 1.2", if the engine reports its name.
   std::optional<std::string> library() const;
   question::Tally total() const;
-  /// Answers to invalid questions, which are not in the total.
-  std::size_t nonsense() const;
   /// Rows in which an external engine was given up.
   std::size_t rows_given_up() const;
   /// Rows in which it was silent for longer than one may take.

@@ -27,13 +27,9 @@ std::optional<std::string> JudgeReport::library() const {
 
 namespace {
 
-std::size_t answers(const question::Tally& t) {
-  return t.agree + t.ill_posed + t.wrong;
-}
-
 // The answers to which all shares refer.
 std::size_t judged_of(const question::Tally& t) {
-  return t.queries - t.unsupported;
+  return t.queries - t[Count::unsupported];
 }
 
 std::string percent(std::size_t part, std::size_t whole) {
@@ -57,19 +53,18 @@ question::Tally sum_of(const std::vector<ExaminedRow>& rows, bool hard) {
 }
 
 // "undecided 0.2 % of drawn flights, 16 % of hard ones"; nothing if there are none.
-std::string shares_text(const char* what, const std::vector<ExaminedRow>& rows,
-                        std::size_t question::Tally::*count) {
+std::string shares_text(const char* what, const std::vector<ExaminedRow>& rows, Count count) {
   const question::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
-  if (drawn.*count + hard.*count == 0) return "";
+  if (drawn[count] + hard[count] == 0) return "";
   return fmt::format("; {} {} of drawn flights, {} of hard ones", what,
-                     percent(drawn.*count, judged_of(drawn)), percent(hard.*count, judged_of(hard)));
+                     percent(drawn[count], judged_of(drawn)), percent(hard[count], judged_of(hard)));
 }
 
 // "; wrong times 0.2 % (0.1 % are another quantity), by up to 0.003 radii along the ray"
 std::string times_text(const JudgeReport& report) {
   question::Tally drawn = sum_of(report.rows, false), hard = sum_of(report.rows, true);
   if (drawn.timed_hits + hard.timed_hits == 0) return "";
-  const bool is_right = drawn.wrong_time + hard.wrong_time == 0;
+  const bool is_right = drawn[Count::wrong_time] + hard[Count::wrong_time] == 0;
   if (is_right && drawn.timed_hits == 0) return "";
   const auto radii = json::finite(is_right ? largest_radii(report.rows, false) : report.max_radii());
   if (is_right && radii == 0) return "; times exact on drawn flights";
@@ -78,9 +73,10 @@ std::string times_text(const JudgeReport& report) {
     return fmt::format("; times within {} ({}) on drawn flights, no wrong time", along,
                        report::ulps_text(drawn.max_ulp()));
   drawn.add(hard);
-  std::string text = fmt::format("; wrong times {}", percent(drawn.wrong_time, judged_of(drawn)));
-  if (drawn.other_quantity > 0)
-    text += fmt::format(" ({} are another quantity)", percent(drawn.other_quantity, judged_of(drawn)));
+  std::string text = fmt::format("; wrong times {}", percent(drawn[Count::wrong_time], judged_of(drawn)));
+  if (drawn[Count::other_quantity] > 0)
+    text +=
+        fmt::format(" ({} are another quantity)", percent(drawn[Count::other_quantity], judged_of(drawn)));
   return along.empty() ? text : text + ", by up to " + along;
 }
 
@@ -141,25 +137,25 @@ std::string heading(const JudgeReport& report) {
   const question::Tally total = report.total();
   const std::string verdict = report.verdict(), faults = faults_text(report);
   if (verdict == "broken")
-    return fmt::format("broken: {} of {} {} without an answer that could be read", total.missing,
+    return fmt::format("broken: {} of {} {} without an answer that could be read", total[Count::missing],
                        total.queries, total.queries == 1 ? "query" : "queries") +
            (faults.empty() ? "" : "; wrong: " + faults);
   if (verdict == "wrong") return "wrong: " + faults;
   if (verdict == "ill-posed")
     return fmt::format("ill-posed: no wrong answer in {}; {} that rounding of the inputs explains",
-                       answers(total), total.ill_posed);
+                       total.counts.answers(), total[Count::ill_posed]);
   if (verdict == "undecided")
-    return fmt::format("undecided: it decided {} of {} queries, none of them wrong", answers(total),
+    return fmt::format("undecided: it decided {} of {} queries, none of them wrong", total.counts.answers(),
                        total.queries);
-  return fmt::format("right: no wrong answer in {}", answers(total));
+  return fmt::format("right: no wrong answer in {}", total.counts.answers());
 }
 
 // The number of missing answers, and of rows in which it was given up or too slow; empty if there are none.
 std::string missing_text(const JudgeReport& report) {
   const question::Tally total = report.total();
   std::string text;
-  if (total.missing > 0 && !report.is_broken())
-    text += fmt::format("; {} of {} answers missing", total.missing, total.queries);
+  if (total[Count::missing] > 0 && !report.is_broken())
+    text += fmt::format("; {} of {} answers missing", total[Count::missing], total.queries);
   if (const std::size_t rows = report.rows_given_up(); rows > 0)
     text += fmt::format("; given up in {} of {} rows", rows, report.rows.size());
   if (const std::size_t rows = report.rows_too_slow(); rows > 0)
@@ -168,7 +164,7 @@ std::string missing_text(const JudgeReport& report) {
 }
 
 std::string nonsense_text(const JudgeReport& report) {
-  const std::size_t number = report.nonsense();
+  const std::size_t number = report.total()[Count::nonsense];
   return number == 0
              ? ""
              : fmt::format("; {} invalid {} answered", number, number == 1 ? "question" : "questions");
@@ -201,7 +197,7 @@ std::string grouped(std::size_t number) {
 }
 
 std::string wrong_text(const question::Tally& t) {
-  const std::size_t wrong = t.wrong + t.error;
+  const std::size_t wrong = t.counts.sum({Count::wrong, Count::error});
   return wrong == 0 ? "none wrong" : percent(wrong, judged_of(t)) + " wrong";
 }
 
@@ -212,8 +208,8 @@ std::string how_bad_text(const JudgeReport& report) {
   if (judged_of(all) == 0 && report.rows_too_slow() > 0) return "nothing was judged: it is too slow to ask";
   if (judged_of(all) == 0)
     return all.queries > 0 ? "nothing was judged: all is unsupported" : "nothing was asked";
-  if (all.missing == judged_of(all))
-    return fmt::format("nothing was judged: {} questions, and no answer", grouped(all.missing));
+  if (all[Count::missing] == judged_of(all))
+    return fmt::format("nothing was judged: {} questions, and no answer", grouped(all[Count::missing]));
   std::vector<std::string> parts;
   if (judged_of(drawn) > 0)
     parts.push_back(fmt::format("{} of {} drawn", wrong_text(drawn), grouped(judged_of(drawn))));
@@ -222,18 +218,18 @@ std::string how_bad_text(const JudgeReport& report) {
   const auto add = [&](std::size_t number, const char* what) {
     if (number > 0) parts.push_back(percent(number, judged_of(all)) + " of all " + what);
   };
-  add(all.missing, "without an answer");
-  add(all.wrong_time, "with a wrong time");
-  add(all.undecided, "undecided");
+  add(all[Count::missing], "without an answer");
+  add(all[Count::wrong_time], "with a wrong time");
+  add(all[Count::undecided], "undecided");
   if (report.was_stopped) parts.push_back("interrupted");
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 std::string nothing_wrong_text(const JudgeReport& report) {
   const question::Tally drawn = sum_of(report.rows, false);
-  if (answers(drawn) == 0) return "nothing wrong was found";
+  if (drawn.counts.answers() == 0) return "nothing wrong was found";
   return fmt::format("nothing wrong was found: of all drawn flights fewer than {} % are wrong (with 95 %)",
-                     two_digits(100 * report::bound_of_none(answers(drawn))));
+                     two_digits(100 * report::bound_of_none(drawn.counts.answers())));
 }
 
 }  // namespace
@@ -244,12 +240,6 @@ question::Tally JudgeReport::total() const {
   return total;
 }
 
-std::size_t JudgeReport::nonsense() const {
-  std::size_t number = 0;
-  for (const ExaminedRow& row : rows) number += row.nonsense;
-  return number;
-}
-
 std::size_t JudgeReport::rows_given_up() const {
   return static_cast<std::size_t>(std::count_if(
       rows.begin(), rows.end(), [](const ExaminedRow& row) { return row.scenes_given_up > 0; }));
@@ -257,7 +247,7 @@ std::size_t JudgeReport::rows_given_up() const {
 
 std::size_t JudgeReport::rows_too_slow() const {
   return static_cast<std::size_t>(
-      std::ranges::count_if(rows, [](const ExaminedRow& row) { return row.too_slow > 0; }));
+      std::ranges::count_if(rows, [](const ExaminedRow& row) { return row.tally[Count::too_slow] > 0; }));
 }
 
 std::optional<double> JudgeReport::max_radii() const {
@@ -267,24 +257,25 @@ std::optional<double> JudgeReport::max_radii() const {
 
 bool JudgeReport::is_broken() const {
   const question::Tally t = total();
-  return 100 * t.missing > t.queries;
+  return 100 * t[Count::missing] > t.queries;
 }
 
 std::string JudgeReport::verdict() const {
   const question::Tally t = total();
   if (is_broken()) return "broken";
-  if (t.wrong + t.error > 0 || (times && t.wrong_time > 0) || (strict && nonsense() > 0)) return "wrong";
-  if (t.agree + t.ill_posed <= t.undecided) return "undecided";
-  return t.ill_posed > 0 ? "ill-posed" : "right";
+  if (t.counts.sum({Count::wrong, Count::error}) > 0 || (times && t[Count::wrong_time] > 0) ||
+      (strict && t[Count::nonsense] > 0))
+    return "wrong";
+  if (t[Count::agree] + t[Count::ill_posed] <= t[Count::undecided]) return "undecided";
+  return t[Count::ill_posed] > 0 ? "ill-posed" : "right";
 }
 
 std::string JudgeReport::line() const {
   const std::string words = report::words_of(claim);
   return heading(*this) + (words.empty() ? "" : "; judged" + words.substr(1)) +
          (was_stopped ? "; interrupted before all was asked" : "") + missing_text(*this) +
-         shares_text("ill-posed", rows, &question::Tally::ill_posed) +
-         shares_text("undecided", rows, &question::Tally::undecided) + times_text(*this) + paths_text(flown) +
-         speed_text(*this) + nonsense_text(*this);
+         shares_text("ill-posed", rows, Count::ill_posed) + shares_text("undecided", rows, Count::undecided) +
+         times_text(*this) + paths_text(flown) + speed_text(*this) + nonsense_text(*this);
 }
 
 ThreeLines JudgeReport::summary() const {

@@ -7,21 +7,10 @@
 
 namespace lorentz::question {
 
-namespace {
-
-// In the order of oracle::Verdict.
-constexpr std::size_t Tally::*kCounts[] = {&Tally::agree,     &Tally::ill_posed,   &Tally::wrong,
-                                           &Tally::undecided, &Tally::unsupported, &Tally::error,
-                                           &Tally::missing};
-
-}  // namespace
-
 void Tally::count(const oracle::Judgement& judgement) {
   ++queries;
-  ++(this->*kCounts[static_cast<int>(judgement.verdict)]);
+  counts.add(judgement);
   if (judgement.wrong_time) {
-    ++wrong_time;
-    other_quantity += judgement.other_quantity;
     wrong_ulps.push_back(judgement.ulps.value_or(std::numeric_limits<double>::infinity()));
     wrong_conditions.push_back(judgement.departs);
   }
@@ -39,9 +28,8 @@ double quantile(std::vector<double> values, double share) {
 }
 
 void Tally::add(const Tally& other) {
-  for (const auto count : kCounts) this->*count += other.*count;
-  for (const auto count : {&Tally::queries, &Tally::wrong_time, &Tally::other_quantity, &Tally::timed_hits})
-    this->*count += other.*count;
+  counts += other.counts;
+  queries += other.queries, timed_hits += other.timed_hits;
   failed |= other.failed;
   for (const auto errors : {&Tally::ulps, &Tally::wrong_ulps, &Tally::wrong_conditions})
     (this->*errors).insert((this->*errors).end(), (other.*errors).begin(), (other.*errors).end());

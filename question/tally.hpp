@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <lorentz/verdict.hpp>
+#include "question/counts.hpp"
 
 namespace lorentz::question {
 
@@ -28,17 +28,16 @@ struct Speed {
 /// What one engine did over some questions.
 struct Tally {
   std::string name;
-  std::size_t queries = 0, agree = 0, ill_posed = 0, wrong = 0, undecided = 0, unsupported = 0, error = 0,
-              missing = 0;
-  std::size_t wrong_time = 0;      ///< of those that agree: the time is beyond its tolerance
-  std::size_t other_quantity = 0;  ///< of the wrong times: no rounding explains them
-  bool failed = false;             ///< an external engine that broke on the way
-  std::size_t timed_hits = 0;      ///< hits of the right obstacle with a time that could be measured
-  std::vector<double> ulps;        ///< errors of these times
+  std::size_t queries = 0;
+  Counts counts;
+  bool failed = false;         ///< an external engine that broke on the way
+  std::size_t timed_hits = 0;  ///< hits of the right obstacle with a time that could be measured
+  std::vector<double> ulps;    ///< errors of these times
   std::vector<double> wrong_ulps, wrong_conditions;  ///< errors of wrong times: in ulps, in units of the
                                                      ///< condition
   Speed speed;
 
+  std::size_t operator[](Count count) const { return counts[count]; }
   void count(const oracle::Judgement& judgement);
   void add(const Tally& other);  ///< adds counts and errors, but not name and speed
   double mean_ulp() const;       ///< 0 without errors, like max_ulp()

@@ -162,10 +162,10 @@ class Summary {
   std::string edge_text() const {
     std::optional<int> last;
     for (const auto& [decade, call] : calls_.by_decade())
-      if (call.wrong > 0) last = decade;
+      if (call.counts[question::Count::wrong] > 0) last = decade;
     if (!last) return "";
     std::size_t beyond = 0;
-    for (const auto& [decade, call] : calls_.by_decade()) beyond += decade > *last ? call.total() : 0;
+    for (const auto& [decade, call] : calls_.by_decade()) beyond += decade > *last ? call.counts.total() : 0;
     return fmt::format(
         "  wrong only where the obstacle is met or missed by less than 1e{:+03} radii, not in {} beyond\n",
         *last + 1, beyond);

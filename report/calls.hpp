@@ -6,20 +6,16 @@
 #include <string>
 #include <tuple>
 
-#include <lorentz/verdict.hpp>
+#include "question/counts.hpp"
 
 namespace lorentz::report {
 
 /// Answers from 10^decade to 10^(decade + 1).
 struct Call {
-  std::size_t right = 0, ill_posed = 0, wrong = 0, undecided = 0;
-  double radii_off = 0;  ///< the largest error of a time, along the ray, in radii
-
-  std::size_t total() const { return right + ill_posed + wrong + undecided; }
+  question::Counts counts;  ///< of Counted::curves
+  double radii_off = 0;     ///< the largest error of a time, along the ray, in radii
   friend bool operator==(const Call&, const Call&) = default;
-  friend auto members_of(Call& self) {
-    return std::tie(self.right, self.ill_posed, self.wrong, self.undecided, self.radii_off);
-  }
+  friend auto members_of(Call& self) { return std::tie(self.counts, self.radii_off); }
 };
 
 /// Answers by decade. A tolerance shows as an edge: wrong below, right above.
@@ -27,7 +23,7 @@ class Calls {
  public:
   /// Adds an answer. For a right or undecided answer the obstacle in question is the one that is hit; for
   /// others it is the one that is passed over or named. Ignores an answer without a size, with size 0, or
-  /// with another verdict than the four.
+  /// with a verdict that is not of Counted::curves.
   void add(std::optional<double> size, oracle::Verdict verdict, std::optional<double> radii_off = {});
   void add(const Calls& others);
   void add(int decade, const Call& call);

@@ -153,13 +153,13 @@ report::Cell named_cell(const BenchGroup& group, const Scene& scene, const std::
 
 void fill(report::Cell& cell, const Tally& t) {
   cell.queries = t.queries;
-  cell.undecided = report::share_of(t.undecided, t.queries);
-  cell.ill_posed = report::share_of(t.ill_posed, t.queries);
-  cell.wrong = report::share_of(t.wrong, t.queries);
-  cell.wrong_time = report::share_of(t.wrong_time, t.queries);
-  cell.unsupported = t.unsupported;
-  cell.error = t.error;
-  cell.missing = t.missing;
+  cell.undecided = report::share_of(t[Count::undecided], t.queries);
+  cell.ill_posed = report::share_of(t[Count::ill_posed], t.queries);
+  cell.wrong = report::share_of(t[Count::wrong], t.queries);
+  cell.wrong_time = report::share_of(t[Count::wrong_time], t.queries);
+  cell.unsupported = t[Count::unsupported];
+  cell.error = t[Count::error];
+  cell.missing = t[Count::missing];
   cell.ulps = report::histogram_of(t.ulps);
   cell.skipped = cell.unsupported == cell.queries;  // the speed of refusals means nothing
 }

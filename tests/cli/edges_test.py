@@ -41,7 +41,7 @@ class Edge:
 
 EDGES = {
     "first-hit": Edge("q.ndjson", "many.ndjson -e published-256", missing="/no/such/file"),
-    "compare": Edge("--count 100", "--count 9 --disagreements OUT -e cmd:sleep${IFS}99", ["--disagreements", "--store"],
+    "compare": Edge("--count 100", "--count 9 --disagreements OUT -e cmd:sleep${IFS}99", ["--disagreements"],
                     "--queries /no/such/file"),
     "judge": Edge("-e reduction --questions 1", "-e published",
                   ["--html", "--golden", "--write-baseline", "--junit"],

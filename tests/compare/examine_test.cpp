@@ -11,7 +11,7 @@
 
 using namespace lorentz;
 using oracle::Verdict;
-using question::Place, question::Question, question::Tally;
+using question::Count, question::Place, question::Question, question::Tally;
 
 TEST_CASE("A tally counts each verdict, and wrong times among those that agree", "[compare][examine]") {
   Tally tally;
@@ -20,16 +20,18 @@ TEST_CASE("A tally counts each verdict, and wrong times among those that agree",
     tally.count({verdict});
   tally.count({.verdict = Verdict::agree, .ulps = 9, .departs = 7, .wrong_time = true});
   CHECK(tally.queries == 9);
-  for (const std::size_t once : {tally.ill_posed, tally.undecided, tally.unsupported, tally.error,
-                                 tally.missing, tally.wrong_time, tally.timed_hits})
+  for (const std::size_t once :
+       {tally[Count::ill_posed], tally[Count::undecided], tally[Count::unsupported], tally[Count::error],
+        tally[Count::missing], tally[Count::wrong_time], tally.timed_hits})
     CHECK(once == 1);
-  CHECK(tally.wrong == 2);
-  CHECK(tally.agree == 2);
+  CHECK(tally[Count::wrong] == 2);
+  CHECK(tally[Count::agree] == 2);
   CHECK(tally.wrong_ulps == std::vector<double>{9});
   CHECK(tally.wrong_conditions == std::vector<double>{7});
   Tally twice = tally;
   twice.add(tally);
-  CHECK((twice.queries == 18 && twice.agree == 4 && twice.wrong == 4 && twice.wrong_time == 2));
+  CHECK((twice.queries == 18 && twice[Count::agree] == 4 && twice[Count::wrong] == 4 &&
+         twice[Count::wrong_time] == 2));
   CHECK((twice.timed_hits == 2 && twice.mean_ulp() == 9 && twice.max_ulp() == 9));
   CHECK(twice.wrong_ulps == std::vector<double>{9, 9});
 }
@@ -157,7 +159,8 @@ TEST_CASE("Answers that come late are judged with their own questions, and what 
     CHECK(question::departs(judged.judgement) == (ids.size() < 10 && ids.size() % 3 == 0));
   });
   CHECK(lazy.dimensions == std::vector<int>{3, 2, 3});
-  CHECK((tally.agree == 6 && tally.wrong == 3 && tally.missing == 32 && tally.queries == 41));
+  CHECK((tally[Count::agree] == 6 && tally[Count::wrong] == 3 && tally[Count::missing] == 32 &&
+         tally.queries == 41));
   CHECK((ids.size() == 41 && ids[0] == "10" && ids[1] == "0" && ids[40] == "19"));
 }
 

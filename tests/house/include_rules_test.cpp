@@ -115,7 +115,7 @@ const std::vector<Room> kHouse{
     {"pictures", {"src/problem", "oracle/margin", "oracle/surroundings"}, {"src/problem"}, {"fmt/"}},
     {"report",
      {"src/problem", "src/exchange", "src/engines/batch", "oracle/horizon", "oracle/margin"},
-     {"src/problem", "src/exchange", "files"},
+     {"src/problem", "src/exchange", "files", "question"},
      {"fmt/", "boost/math/ share.cpp", "sys/utsname.h manifest.cpp"}},
     {"runs",
      {"src/problem", "src/exchange"},

@@ -71,17 +71,17 @@ TEST_CASE("A program is given up for a scene, not for the run, and the row says 
   const std::vector<ExaminedRow>& rows = examination.rows();
   REQUIRE(rows.size() == 4);
   for (const std::size_t i : {0, 2}) {
-    CHECK(rows[i].tally.agree == 20);
+    CHECK(rows[i].tally[Count::agree] == 20);
     CHECK(rows[i].scenes_given_up == 0);
     CHECK(rows[i].is_exhausted);
   }
   CHECK(rows[1].tally.queries == 5);  // what was not asked is not counted
-  CHECK(rows[1].tally.missing == 5);
-  CHECK(rows[1].tally.error == 0);
+  CHECK(rows[1].tally[Count::missing] == 5);
+  CHECK(rows[1].tally[Count::error] == 0);
   CHECK(rows[1].scenes_given_up == 1);
   CHECK(rows[1].last_failure == "cmd died (exit 3) on this query");
-  CHECK(rows[3].tally.agree == 20);
-  CHECK(rows[3].tally.missing == 10);
+  CHECK(rows[3].tally[Count::agree] == 20);
+  CHECK(rows[3].tally[Count::missing] == 10);
   CHECK(rows[3].scenes_given_up == 2);
   const std::vector<Finding> findings = examination.findings();
   REQUIRE(findings.size() == 1);
@@ -117,7 +117,7 @@ TEST_CASE("A program that never answered is not asked on and on", "[judge][exami
   examination.run({"first", ""}, questions({2, 3}, 20), kForEver);
   examination.run({"second", ""}, questions({2, 3}, 20), kForEver);
   examination.finish();
-  CHECK(examination.rows()[0].tally.missing == 5);
+  CHECK(examination.rows()[0].tally[Count::missing] == 5);
   CHECK(examination.rows()[1].tally.queries == 0);
   CHECK(examination.rows()[1].scenes_given_up > 0);
 }
@@ -209,10 +209,10 @@ TEST_CASE("Silence is slowness, if the run is told so, of an engine that has ans
   };
   const auto slow = examined(true, "hangs 10"), broken = examined(false, "hangs 10");
   CHECK(slow->rows()[0].tally.missing == 0);
-  CHECK(slow->rows()[0].too_slow > 0);
+  CHECK(slow->rows()[0].tally[Count::too_slow] > 0);
   CHECK(slow->rows()[0].is_exhausted);  // the scene is left
   CHECK(slow->findings().size() == 1);  // with the question
-  CHECK(broken->rows()[0].too_slow == 0);
+  CHECK(broken->rows()[0].tally[Count::too_slow] == 0);
   CHECK(broken->rows()[0].tally.missing > 0);
 }
 
@@ -224,8 +224,8 @@ TEST_CASE("The first 500 questions of each row are compared, and a row without a
   whole.run({"row", ""}, questions({2}, 510), kForEver);
   long calls = 0;
   for (const auto& [decade, call] : whole.curves()[0].by_decade())
-    calls += static_cast<long>(call.right + call.ill_posed + call.wrong + call.undecided);
-  CHECK(whole.rows()[0].tally.agree == 510);
+    calls += static_cast<long>(call.counts.answers() + call.counts[Count::undecided]);
+  CHECK(whole.rows()[0].tally[Count::agree] == 510);
   CHECK(calls == 500);
   none.run({"row", ""}, questions({2}, 0), kForEver);
   Examination more(question::engine_named("oracle"), {}, 4, stop);

@@ -109,9 +109,9 @@ std::string text_of(const Finding& finding) {
 std::string text_of(const report::Calls& calls) {
   std::string text;
   for (const auto& [decade, call] : calls.by_decade())
-    text += std::to_string(decade) + ": " + std::to_string(call.right) + ' ' +
-            std::to_string(call.ill_posed) + ' ' + std::to_string(call.wrong) + ' ' +
-            std::to_string(call.undecided) + '\n';
+    text += std::to_string(decade) + ": " +
+            question::text_of(call.counts, {Count::agree, Count::ill_posed, Count::wrong, Count::undecided}) +
+            '\n';
   return text;
 }
 
@@ -206,7 +206,7 @@ TEST_CASE("Two threads of a judge's campaign ask different questions, and all of
   const judge::ExaminedRow& last = report.rows.back();
   CHECK(last.name == "campaign");
   CHECK(last.asked() > second);
-  CHECK(last.tally.wrong > 0);
+  CHECK(last.tally[Count::wrong] > 0);
   // Both of its faults are told, each with what sets it apart.
   std::map<Cause, const Finding*> worst;
   for (const Finding& finding : report.findings)
@@ -251,9 +251,9 @@ TEST_CASE("What several examinations come to is what one comes to", "[judge][exa
     REQUIRE(one->rows().size() == 1);
     const question::Tally &its = one->rows()[0].tally, &all = whole.rows()[0].tally;
     CHECK(its.queries == 3 * 2 * 30);
-    CHECK(its.agree == all.agree);
-    CHECK(its.wrong == all.wrong);
-    CHECK(all.wrong > 30);
+    CHECK(its.agree == all[Count::agree]);
+    CHECK(its.wrong == all[Count::wrong]);
+    CHECK(all[Count::wrong] > 30);
     CHECK(its.speed.ns_per_query > 0);
     CHECK(text_of(one->curves()[0]) == text_of(whole.curves()[0]));
     const auto found = one->findings(), expected = whole.findings();
@@ -318,7 +318,7 @@ TEST_CASE("What another program failed in, and what was nonsense, is added up, t
   fine->take_over(*also);
   CHECK(fine->rows()[0].scenes_given_up == 2);
   CHECK(fine->findings().size() == 1);
-  CHECK(fine->findings()[0].count == fine->rows()[0].tally.missing);
+  CHECK(fine->findings()[0].count == fine->rows()[0].tally[Count::missing]);
   const question::EngineInfo gullible = question::guest_engine(
       "gullible", [](const question::AnswererOptions&) { return std::make_unique<Gullible>(); });
   const auto nonsense = [&](std::size_t number) {
@@ -334,7 +334,7 @@ TEST_CASE("What another program failed in, and what was nonsense, is added up, t
   };
   const auto two = nonsense(2), three = nonsense(3);
   two->take_over(*three);
-  CHECK(two->rows()[0].nonsense == 5);
+  CHECK(two->rows()[0].tally[Count::nonsense] == 5);
   CHECK(two->rows()[0].asked() == 5);
   CHECK(two->findings()[0].count == 5);
 }

@@ -13,13 +13,13 @@ namespace {
 judge::ExaminedRow row(bool hard, std::size_t queries) {
   judge::ExaminedRow row{hard ? "hard" : "plain", "", hard};
   row.tally.name = row.name;
-  row.tally.queries = row.tally.agree = queries;
+  row.tally.queries = row.tally[Count::agree] = queries;
   return row;
 }
 
 // Gives `number` answers that agreed another verdict.
 void turn(judge::ExaminedRow& row, std::size_t question::Tally::*verdict, std::size_t number) {
-  row.tally.agree -= number;
+  row.tally[Count::agree] -= number;
   row.tally.*verdict += number;
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("The verdict line: wrong times are told with the share of answers, and
   CHECK(report.line() ==
         "right: no wrong answer in 1000; times within 2.5e-16 radii along the ray (3.14159 ulps) on drawn "
         "flights, no wrong time");
-  report.rows[0].tally.wrong_time = 2;
+  report.rows[0].tally[Count::wrong_time] = 2;
   report.rows[0].tally.wrong_ulps = {12, 1234567};
   report.rows[0].max_radii = 0.003;
   CHECK(report.line() ==
@@ -185,7 +185,7 @@ TEST_CASE("Findings are told in groups, the engine's own faults first", "[judge]
 TEST_CASE("Answers to invalid questions are counted apart, told last, and count if they are to",
           "[judge][verdict_line]") {
   JudgeReport report = report_of({row(false, 1000), row(true, 300)});
-  report.rows[1].nonsense = 115;
+  report.rows[1].tally.counts[Count::nonsense] = 115;
   CHECK(report.line() == "right: no wrong answer in 1300; 115 invalid questions answered");
   CHECK(contains(report.json(), R"("queries":1300,"wrong":0,)"));
   CHECK(contains(report.json(), R"("missing":0,"nonsense":115,)"));

@@ -15,6 +15,7 @@
 namespace json = lorentz::json;
 using lorentz::InputError, lorentz::Integer, lorentz::ObstacleId, lorentz::Query;
 using namespace lorentz::report;
+using lorentz::question::Count;
 
 TEST_CASE("Histograms count errors by their binary exponent", "[report][histogram]") {
   const Histogram histogram = histogram_of({0, 0.25, 0.4999, 0.5, 0, 1, 1.99, 6});
@@ -92,8 +93,10 @@ TEST_CASE("Calls are counted by decade and verdict", "[report][calls]") {
   calls.add(more);
   REQUIRE(calls.by_decade().size() == 2);
   const Call& close = calls.by_decade().at(-10);
-  CHECK(close.wrong + close.right * 10 + close.ill_posed * 100 + close.undecided * 1000 == 111);
-  CHECK(calls.by_decade().at(-3).undecided == 1);
+  CHECK((close.counts[Count::wrong] == 1 && close.counts[Count::agree] == 1 &&
+         close.counts[Count::ill_posed] == 1));
+  CHECK(close.counts[Count::undecided] == 0);
+  CHECK(calls.by_decade().at(-3).counts[Count::undecided] == 1);
   Calls read;
   json::read_piece(json::piece_of(calls), read);
   CHECK(read == calls);

@@ -279,9 +279,9 @@ function cell(draw, scene, radius, difficulty, [engine, ns, wrong, slope, ulps])
     ulps: histogram(draw, queries, ulps),
     conditions: histogram(draw, queries, ulps / 3),
     calls: [
-      { decade: -10, right: 0, ill_posed: 0, wrong: Math.min(faults, queries), undecided: 0, radii_off: 0 },
-      { decade: -1, right: 2 * queries, ill_posed: 0, wrong: 0, undecided: 4, radii_off: 1e-9 },
-    ].filter((call) => call.wrong + call.right > 0),
+      { decade: -10, agree: 0, ill_posed: 0, wrong: Math.min(faults, queries), undecided: 0, radii_off: 0 },
+      { decade: -1, agree: 2 * queries, ill_posed: 0, wrong: 0, undecided: 4, radii_off: 1e-9 },
+    ].filter((call) => call.wrong + call.agree > 0),
     worst: {
       ulps: ulps * 7,
       query: { x: ["0x1p-1", "0x1p-3"], v: ["0x1p+0", "0x1.8p-4"] },

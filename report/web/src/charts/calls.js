@@ -11,7 +11,7 @@ const PARTS = [
   ["wrong", "wrong"],
   ["ill_posed", "ill-posed"],
   ["undecided", "undecided"],
-  ["right", "right"],
+  ["agree", "right"],
 ].map(([key, name]) => ({ key, verdict: verdictOf(name) }));
 const LOWEST = -20; // closer ones are drawn together
 
@@ -21,7 +21,7 @@ function gathered(calls) {
   const decades = new Map();
   for (const call of calls) {
     const decade = Math.max(call.decade, LOWEST);
-    const its = decades.get(decade) ?? { decade, right: 0, ill_posed: 0, wrong: 0, undecided: 0, off: 0 };
+    const its = decades.get(decade) ?? { decade, agree: 0, ill_posed: 0, wrong: 0, undecided: 0, off: 0 };
     for (const { key } of PARTS) its[key] += call[key];
     its.off = Math.max(its.off, call.radii_off ?? 0);
     decades.set(decade, its);
@@ -136,7 +136,7 @@ function chartOf(label, curves) {
       summary: said(all, by),
       numbers: {
         columns: ["from", "right", "ill-posed", "wrong", "undecided", "times off by, radii"],
-        rows: all.map((c) => [10 ** c.decade, c.right, c.ill_posed, c.wrong, c.undecided, c.off]),
+        rows: all.map((c) => [10 ** c.decade, c.agree, c.ill_posed, c.wrong, c.undecided, c.off]),
       },
     };
   }
