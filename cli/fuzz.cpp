@@ -57,8 +57,9 @@ void take_down(const FuzzReport& report, bool times, FailureLedger& ledger) {
     bool failed = false;
     for (const fuzz::Stored& stored : report.findings) {
       const fuzz::Finding& finding = stored.finding;
-      const bool counts = finding.kind == name_of(Kind::wrong) || finding.kind == name_of(Kind::error) ||
-                          (times && finding.kind == name_of(Kind::wrong_time));
+      const bool counts = finding.kind == name_of(Kind::wrong).words ||
+                          finding.kind == name_of(Kind::error).words ||
+                          (times && finding.kind == name_of(Kind::wrong_time).words);
       if (!counts || finding.target != target) continue;
       const fuzz::ReadCase found = fuzz::case_in(finding.text);
       ledger.take(target, golden::id_of(found.scene, found.query), tag_of(finding.kind));

@@ -81,9 +81,9 @@ fuzz::Plan plan_of(FuzzOptions options, const question::EngineInfo& engine) {
   options.claim.ask({engine});
   plan.claim = options.claim.claim();
   plan.truth = truth_named(options.judge, {engine});
-  plan.counts.times = options.times;
-  plan.counts.undecided = options.undecided || (!options.no_undecided && !engine.traits.leaves_undecided);
-  plan.counts.ulps = options.ulps.value_or(oracle::kDefaultUlps);
+  plan.sought.times = options.times;
+  plan.sought.undecided = options.undecided || (!options.no_undecided && !engine.traits.leaves_undecided);
+  plan.sought.ulps = options.ulps.value_or(oracle::kDefaultUlps);
   return plan;
 }
 
@@ -107,9 +107,9 @@ fuzz::CampaignManifest manifest_of(const fuzz::Plan& plan, const std::string& en
   // Part of the identity of a stored campaign: a different text would be a different campaign. "mutants" is
   // the former name of variants.
   manifest.options =
-      fmt::format("ulps {}, mutants of 1 in {}, reworded 1 in {}, {} kept{}{}{}", plan.counts.ulps,
-                  plan.mutate, plan.reword, plan.keep, plan.counts.times ? ", times" : "",
-                  plan.counts.undecided ? "" : ", without undecided",
+      fmt::format("ulps {}, mutants of 1 in {}, reworded 1 in {}, {} kept{}{}{}", plan.sought.ulps,
+                  plan.mutate, plan.reword, plan.keep, plan.sought.times ? ", times" : "",
+                  plan.sought.undecided ? "" : ", without undecided",
                   plan.truth == fuzz::Truth::certified ? ", judged by certified" : "");
   if (plan.scope.dimension != 0) manifest.options += fmt::format(", {}D", plan.scope.dimension);
   if (plan.scope.scenes != fuzz::Scope::Scenes::any)

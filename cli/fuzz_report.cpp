@@ -19,17 +19,9 @@ namespace {
 using fuzz::Kind;
 using fuzz::TargetTally;
 
-std::uint64_t number_of(const TargetTally& tally, Kind kind) {
-  return tally.kinds[static_cast<std::size_t>(kind)];
-}
-
-// In the order of fuzz::rank_of.
-constexpr Kind kCounted[] = {Kind::wrong,     Kind::wrong_time, Kind::error,
-                             Kind::undecided, Kind::slow,       Kind::unsupported};
-
 // The number of cases, without variants, that the engine answered. Rates refer to these cases.
 std::uint64_t answered(const TargetTally& tally) {
-  const std::uint64_t unsupported = number_of(tally, Kind::unsupported);
+  const std::uint64_t unsupported = tally.counts[Kind::unsupported];
   return tally.cases > unsupported ? tally.cases - unsupported : 0;
 }
 
@@ -61,14 +53,10 @@ std::string bounds(const FuzzReport& report) {
 
 void add_target(json::Members& object, const std::string& name, const TargetTally& tally) {
   object.add("target", name, "next", tally.next, "cases", tally.cases, "variants", tally.variants, "reworded",
-             tally.reworded, "fine", number_of(tally, Kind::fine));
-  for (const Kind kind : kCounted) {
-    std::string key(name_of(kind));
-    std::replace(key.begin(), key.end(), ' ', '_');
-    object.add_named(key, number_of(tally, kind));
-  }
+             tally.reworded);
+  question::add_counts(object, tally.counts, question::Counted::campaigns);
   const std::uint64_t n = answered(tally);
-  const bool none = number_of(tally, Kind::wrong) == 0 && n > 0;
+  const bool none = tally.counts[Kind::wrong] == 0 && n > 0;
   object.add("binary64", tally.stages[0], "double_double", tally.stages[1], "exact", tally.stages[2],
              "smallest_margin", json::finite(tally.margin), "wrong_at_most",
              none ? std::optional(3.0 / static_cast<double>(n)) : std::nullopt);
@@ -104,20 +92,21 @@ FuzzReport report_of(const fuzz::Store& store, const fuzz::Campaign& campaign) {
 
 std::uint64_t FuzzReport::total(Kind kind) const {
   std::uint64_t sum = 0;
-  for (const TargetTally& tally : tallies) sum += number_of(tally, kind);
+  for (const TargetTally& tally : tallies) sum += tally.counts[kind];
   return sum;
 }
 
 std::string FuzzReport::target_table() const {
-  report::Table table({"target", "cases", "variants", "reworded", "wrong", "times", "error", "undecided",
-                       "slow", "unsupported", "smallest margin"});
+  constexpr auto kBy = question::Counted::campaigns;
+  report::Table table(
+      question::titles_counted(kBy, {"target", "cases", "variants", "reworded"}, {"smallest margin"}));
   TargetTally all;
   const auto add = [&](const std::string& name, const TargetTally& tally) {
-    std::vector<std::string> row{name, std::to_string(tally.cases), std::to_string(tally.variants),
-                                 std::to_string(tally.reworded)};
-    for (const Kind kind : kCounted) row.push_back(std::to_string(number_of(tally, kind)));
-    row.push_back(std::isfinite(tally.margin) ? fmt::format("{:.2g}", tally.margin) : "-");
-    table.add(std::move(row));
+    table.add(question::cells_counted(
+        tally.counts, kBy,
+        {name, std::to_string(tally.cases), std::to_string(tally.variants), std::to_string(tally.reworded)},
+        {std::isfinite(tally.margin) ? fmt::format("{:.2g}", tally.margin) : "-"},
+        [](Kind, std::size_t number) { return std::to_string(number); }));
   };
   for (std::size_t t = 0; t < targets.size(); ++t) {
     add(targets[t], tallies[t]);

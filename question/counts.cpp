@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace lorentz::question {
 
@@ -30,9 +31,12 @@ std::size_t Counts::sum(std::initializer_list<Count> some) const {
 }
 
 std::size_t Counts::total() const {
-  std::size_t total = 0;
-  for (std::size_t i = 0; i <= static_cast<std::size_t>(Count::missing); ++i) total += number_[i];
-  return total;
+  return std::accumulate(number_.begin(), number_.begin() + static_cast<int>(Count::missing) + 1,
+                         std::size_t{0});
+}
+
+std::size_t Counts::all() const {
+  return std::accumulate(number_.begin(), number_.end(), std::size_t{0});
 }
 
 std::vector<CountName> names_counted(Counted by) {

@@ -46,7 +46,7 @@ struct CountName {
 /// In the order of reports.
 inline constexpr std::array kCountNames{
     CountName{Count::agree, "agree", "agree"},
-    CountName{Count::ill_posed, "ill_posed", "ill-posed"},
+    CountName{Count::ill_posed, "ill_posed", "ill-posed", {}, 1 + 2 + 8},
     CountName{Count::wrong, "wrong", "wrong"},
     CountName{Count::wrong_time, "wrong_time", "wrong time", "wrong times", 7},
     CountName{Count::other_quantity, "other_quantity", "of another quantity", {}, 3 + 16},
@@ -54,7 +54,7 @@ inline constexpr std::array kCountNames{
     CountName{Count::slow, "slow", "slow", {}, 4},
     CountName{Count::unsupported, "unsupported", "unsupported", {}, 7},
     CountName{Count::error, "error", "error", "errors", 7},
-    CountName{Count::missing, "missing", "missing", {}, 7},
+    CountName{Count::missing, "missing", "missing", {}, 1 + 2},
     CountName{Count::nonsense, "nonsense", "nonsense", {}, 2},
     CountName{Count::too_slow, "too_slow", "too slow", {}, 2 + 16}};
 
@@ -70,6 +70,7 @@ class Counts {
 
   std::size_t sum(std::initializer_list<Count> some) const;
   std::size_t total() const;  ///< of all verdicts
+  std::size_t all() const;    ///< of everything that is counted
   /// Those that name an outcome.
   std::size_t answers() const { return sum({Count::agree, Count::ill_posed, Count::wrong}); }
 

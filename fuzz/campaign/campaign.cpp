@@ -52,7 +52,7 @@ void TargetTally::add(const TargetTally& other) {
   cases += other.cases;
   variants += other.variants;
   reworded += other.reworded;
-  for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] += other.kinds[k];
+  counts += other.counts;
   for (std::size_t s = 0; s < stages.size(); ++s) stages[s] += other.stages[s];
   for (const auto& [sort, number] : other.sorts) sorts[sort] += number;
   if (std::tie(other.margin, other.margin_index) < std::tie(margin, margin_index))

@@ -45,7 +45,7 @@ struct Plan {
   Scope scope;  ///< cases beyond it, and other words that lead there, are left out; shrinking stays within
   std::uint64_t seed = 0;
   std::uint64_t shard = 0, shards = 1;  ///< only indices that are `shard` modulo `shards`
-  Counts counts;
+  Sought sought;
   std::uint64_t keep = 3;     ///< findings of each sort and target that are kept and shrunk; all are counted
   std::uint64_t mutate = 32;  ///< a climb starts from one in `mutate` cases; 0: from none
   std::uint64_t reword =
@@ -59,7 +59,7 @@ struct TargetTally {
   std::uint64_t next = 0;  ///< the first index that is not done
   std::uint64_t cases = 0, variants = 0;
   std::uint64_t reworded = 0;                               ///< of both, asked in other words and answered
-  std::array<std::uint64_t, kKinds> kinds{};                ///< replies to all of these, by Kind
+  question::Counts counts;                                  ///< replies to all of these, by Kind
   std::array<std::uint64_t, 3> stages{};                    ///< the same, by Stage, if the reply names it
   std::map<std::string, std::uint64_t> sorts;               ///< findings met, by sort, kept or not
   double margin = std::numeric_limits<double>::infinity();  ///< the smallest above 0 that a climb reached,

@@ -168,18 +168,18 @@ std::string flaw_of(const Finding& f) {
 }
 
 int rank_of(std::string_view kind) {
-  const auto found =
-      std::find_if(std::begin(kInOrder), std::end(kInOrder), [&](Kind one) { return name_of(one) == kind; });
+  const auto found = std::find_if(std::begin(kInOrder), std::end(kInOrder),
+                                  [&](Kind one) { return name_of(one).words == kind; });
   return static_cast<int>(found - kInOrder);
 }
 
 std::string sort_of(const Scene& scene, const Query& query, const Examined& examined) {
-  return std::string(name_of(examined.kind)) + dimension_of(scene) + ", " + outcomes_of(examined) +
+  return std::string(name_of(examined.kind).words) + dimension_of(scene) + ", " + outcomes_of(examined) +
          (query.from ? ", leaving" : "");
 }
 
 std::string cause_of(const Scene& scene, const Query& query, const Examined& examined) {
-  std::string text(name_of(examined.kind));
+  std::string text(name_of(examined.kind).words);
   if (examined.is_misreading) return text + ", read otherwise than written";
   const Answer &given = examined.given, &exact = examined.exact;
   if (examined.kind == Kind::wrong && given.outcome == Outcome::hit && exact.outcome == Outcome::hit)

@@ -32,7 +32,7 @@ struct Finding {
   std::uint64_t index = 0;
   int step = 0;       ///< 0: the case itself; otherwise the number of its variant
   std::string words;  ///< the other words in which the case was asked; empty if in its own
-  std::string kind;   ///< name_of(Kind)
+  std::string kind;   ///< name_of(Kind).words
   std::string sort;   ///< of each sort (sort_of) and target only the first few are kept
   std::string cause;  ///< of the shrunk case (cause_of)
   CaseText text;      ///< as found

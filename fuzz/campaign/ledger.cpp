@@ -36,7 +36,7 @@ double most_shrinking(const Plan& plan, const Bounds& bounds, std::size_t thread
 }
 
 bool is_wrong(int rank) {
-  return rank < rank_of(name_of(Kind::undecided));
+  return rank < rank_of(name_of(Kind::undecided).words);
 }
 
 }  // namespace

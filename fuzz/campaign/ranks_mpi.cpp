@@ -46,8 +46,12 @@ void serialize(Archive& archive, Stint& s, unsigned) {
   archive& s.target& s.begin& s.end;
 }
 template <class Archive>
+void serialize(Archive& archive, question::Counts& counts, unsigned) {
+  for (const question::CountName& name : question::kCountNames) archive& counts[name.count];
+}
+template <class Archive>
 void serialize(Archive& archive, TargetTally& a, unsigned) {
-  archive& a.next& a.cases& a.variants& a.reworded& a.kinds& a.stages& a.sorts& a.margin& a.margin_index;
+  archive& a.next& a.cases& a.variants& a.reworded& a.counts& a.stages& a.sorts& a.margin& a.margin_index;
 }
 template <class Archive>
 void serialize(Archive& archive, CaseText& t, unsigned) {

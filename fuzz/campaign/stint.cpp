@@ -29,7 +29,7 @@ constexpr double kShrinkWork = 1.5e7;
 constexpr std::uint64_t kWordings = 3, kCasesPerLimit = 4, kCasesPerNotation = 8;
 
 Examiner examiner_in(const Scene& scene, Answerer& answerer, const Plan& plan) {
-  return {answerer, std::make_shared<Place>(scene, plan.truth, plan.claim), plan.counts.ulps};
+  return {answerer, std::make_shared<Place>(scene, plan.truth, plan.claim), plan.sought.ulps};
 }
 
 // Does a case fail as another one did, in the same kind and with the same two outcomes?
@@ -262,9 +262,9 @@ void StintRunner::take(Questions& questions, const std::map<std::string, std::ui
     // That an engine does not support the other words is not a finding.
     if (in_other_words && examined.kind == Kind::unsupported) continue;
     result.met.reworded += in_other_words;
-    ++result.met.kinds[static_cast<std::size_t>(examined.kind)];
+    ++result.met.counts[examined.kind];
     if (examined.stage) ++result.met.stages[static_cast<std::size_t>(*examined.stage)];
-    if (!plan_.counts.is_finding(examined.kind)) continue;
+    if (!plan_.sought.is_finding(examined.kind)) continue;
     const std::string sort = sort_of(one.context->scene(), one.question.query, examined) +
                              (in_other_words ? ", in other words" : "");
     std::uint64_t& number = result.met.sorts[sort];
@@ -283,7 +283,7 @@ Finding StintRunner::finding_of(const Target& target, const Case& one, const std
   finding.index = one.index;
   finding.step = one.step;
   finding.words = one.words;
-  finding.kind = name_of(examined.kind);
+  finding.kind = name_of(examined.kind).words;
   finding.sort = sort;
   take_for_shrunk(finding, *one.context->place(), one.question.query, examined);
   finding.text = finding.shrunk;
@@ -299,7 +299,7 @@ std::optional<Finding> StintRunner::shrink(Finding finding, double seconds) {
   const LimitAt limit = limit_in(finding.words);
   const Examined examined = examiner_in(found.scene, *answerer_, plan_).examine(found.query, limit);
   finding.shrinking = Shrinking::done;
-  if (!answerer_->failed() && name_of(examined.kind) == finding.kind) {
+  if (!answerer_->failed() && name_of(examined.kind).words == finding.kind) {
     SameFailure fails(*answerer_, plan_, examined, limit);
     const auto is_up = [&] { return stop_ || fails.is_over() || is_late(); };
     const Shrunk shrunk = fuzz::shrink(found.scene, found.query, std::ref(fails),
@@ -310,7 +310,7 @@ std::optional<Finding> StintRunner::shrink(Finding finding, double seconds) {
       Examiner examiner = examiner_in(shrunk.scene, *answerer_, plan_);  // beyond the budget
       const Examined after = examiner.examine(shrunk.query, limit);
       // Otherwise the engine's answers vary, and the finding stays as it was found.
-      if (name_of(after.kind) == finding.kind)
+      if (name_of(after.kind).words == finding.kind)
         take_for_shrunk(finding, *examiner.place(), shrunk.query, after);
     }
   }

@@ -6,6 +6,7 @@
 
 #include "fuzz/campaign/stint.hpp"
 #include "runs/database.hpp"
+#include "src/exchange/json_piece.hpp"
 
 namespace lorentz::fuzz {
 
@@ -23,8 +24,7 @@ constexpr const char* kSchema = R"sql(
     UNIQUE (version, engine, targets, seed, options, keep, shard));
   CREATE TABLE account (
     campaign INTEGER NOT NULL, target TEXT NOT NULL, next INTEGER NOT NULL, cases INTEGER NOT NULL,
-    mutants INTEGER NOT NULL, reworded INTEGER NOT NULL, fine INTEGER NOT NULL,
-    unsupported INTEGER NOT NULL, wrong INTEGER NOT NULL, wrong_time INTEGER NOT NULL, undecided INTEGER NOT NULL, slow INTEGER NOT NULL, error INTEGER NOT NULL,
+    mutants INTEGER NOT NULL, reworded INTEGER NOT NULL, counts TEXT NOT NULL,
     binary64 INTEGER NOT NULL, double_double INTEGER NOT NULL, exact INTEGER NOT NULL,
     margin REAL, margin_index INTEGER NOT NULL,
     PRIMARY KEY (campaign, target)) WITHOUT ROWID;
@@ -44,7 +44,7 @@ constexpr const char* kSchema = R"sql(
 const runs::FileKind& kind() {
   static const runs::FileKind kind{
       "store of lorentz fuzz", 0x6c6f667a,  // "lofz"
-      3, kSchema,                           // format 2 had no findings that are still to be shrunk
+      4, kSchema,                           // format 3 had a column for each count
       "another process is running a campaign on this store; wait for it, stop it, or use another store "
       "(shards have one each, `lorentz fuzz merge` joins them)"};
   return kind;
@@ -120,8 +120,8 @@ bool fits(const TargetTally& tally) {
   const auto sum = [](const auto& numbers) {
     return std::accumulate(numbers.begin(), numbers.end(), std::uint64_t{0});
   };
-  return sum(tally.kinds) == tally.cases + tally.variants + tally.reworded &&
-         sum(tally.stages) <= sum(tally.kinds) && tally.margin > 0;
+  const std::uint64_t replies = tally.cases + tally.variants + tally.reworded;
+  return tally.counts.all() == replies && sum(tally.stages) <= replies && tally.margin > 0;
 }
 
 }  // namespace
@@ -131,14 +131,18 @@ TargetTally Store::tally(std::int64_t campaign, std::string_view target) const {
   TargetTally tally;
   Statement row(
       database_.connection(),
-      "SELECT next, cases, mutants, reworded, fine, unsupported, wrong, wrong_time, undecided, slow, error, "
-      "binary64, double_double, exact, margin, margin_index FROM account WHERE campaign = ? AND target = ?");
+      "SELECT next, cases, mutants, reworded, counts, binary64, double_double, exact, margin, margin_index "
+      "FROM account WHERE campaign = ? AND target = ?");
   row.bind(campaign).bind(target);
   if (!row.step()) return tally;
   tally.next = row.count();
   for (std::uint64_t* number : {&tally.cases, &tally.variants, &tally.reworded})
     *number = row.count(kMostCases);
-  for (std::uint64_t& number : tally.kinds) number = row.count(kMostCases);
+  try {
+    json::read_piece(row.text(), tally.counts);
+  } catch (const InputError& error) {
+    throw FileError(path() + ": the counts of " + std::string(target) + ": " + error.what());
+  }
   for (std::uint64_t& number : tally.stages) number = row.count(kMostCases);
   tally.margin = row.real_or_null().value_or(tally.margin);
   tally.margin_index = row.count();
@@ -199,13 +203,12 @@ std::vector<Stored> Store::findings() const {
 
 void Store::put(std::int64_t campaign, std::string_view target, const TargetTally& tally) {
   database_.begin();
-  Statement row(
-      database_.connection(),
-      "INSERT OR REPLACE INTO account VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement row(database_.connection(),
+                "INSERT OR REPLACE INTO account VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   row.bind(campaign).bind(target);
   for (const std::uint64_t number : {tally.next, tally.cases, tally.variants, tally.reworded})
     row.bind(number);
-  for (const std::uint64_t number : tally.kinds) row.bind(number);
+  row.bind(json::piece_of(tally.counts));
   for (const std::uint64_t number : tally.stages) row.bind(number);
   row.bind(std::isfinite(tally.margin) ? std::optional(tally.margin) : std::nullopt)
       .bind(tally.margin_index)

@@ -13,13 +13,7 @@ namespace lorentz::fuzz {
 
 using namespace cases;
 
-std::string_view name_of(Kind kind) {
-  constexpr std::string_view kNames[] = {"fine",      "unsupported", "wrong", "wrong time",
-                                         "undecided", "slow",        "error"};
-  return kNames[static_cast<int>(kind)];
-}
-
-bool Counts::is_finding(Kind kind) const {
+bool Sought::is_finding(Kind kind) const {
   if (kind == Kind::wrong_time) return times;
   if (kind == Kind::undecided) return undecided;
   return kind == Kind::wrong || kind == Kind::slow || kind == Kind::error;
@@ -57,7 +51,7 @@ Examined Examiner::judge(const Question& question, Reply& reply, bool is_carried
 
 Examined Examiner::judge_exact(const Question& question, Reply& reply) {
   // By Verdict. Right answers may still be slow, or their times wrong.
-  constexpr Kind kKindOf[] = {Kind::fine,        Kind::fine,  Kind::wrong, Kind::undecided,
+  constexpr Kind kKindOf[] = {Kind::agree,       Kind::agree, Kind::wrong, Kind::undecided,
                               Kind::unsupported, Kind::error, Kind::error};
   static_assert(std::size(kKindOf) == static_cast<std::size_t>(oracle::Verdict::missing) + 1);
   const oracle::Judgement judgement = question::judgement_of(question, reply.answer, ulps_);
@@ -69,10 +63,10 @@ Examined Examiner::judge_exact(const Question& question, Reply& reply) {
   one.exact = says && question.has_limit() && is_later(question) ? Answer::later() : question.exact;
   one.given = std::move(reply.answer);
   one.kind = kKindOf[static_cast<int>(judgement.verdict)];
-  if (one.kind == Kind::fine)
+  if (one.kind == Kind::agree)
     one.kind = one.work && is_slow(*one.work) ? Kind::slow
                : judgement.wrong_time         ? Kind::wrong_time
-                                              : Kind::fine;
+                                              : Kind::agree;
   return one;
 }
 

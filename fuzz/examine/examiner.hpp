@@ -3,28 +3,17 @@
 
 #include <memory>
 #include <optional>
-#include <string_view>
 
 #include "fuzz/examine/time_limit.hpp"
 #include "question/answerer.hpp"
+#include "question/counts.hpp"
 #include "question/question.hpp"
 
 namespace lorentz::fuzz {
 
-/// The judgement of a reply.
-enum class Kind {
-  fine,         ///< right, or ill-posed
-  unsupported,  ///< the engine says that it does not support this
-  wrong,        ///< another obstacle or outcome, which no error of k ulps in the inputs explains
-  wrong_time,   ///< the right obstacle, at a wrong time
-  undecided,    ///< the engine gave up
-  slow,  ///< the right obstacle, but with more than kSlowFactor times the work of a drawn flight in the same
-         ///< scene
-  error  ///< the engine says that the query is invalid, or it broke
-};
-inline constexpr int kKinds = 7;
-
-std::string_view name_of(Kind kind);
+/// The judgement of a reply: one of agree (also ill-posed), wrong, wrong_time, undecided, slow, unsupported, error (also
+/// missing).
+using Kind = question::Count;
 
 /// An answer is slow if it takes more than kSlowFactor times the median work of kDrawnFlights drawn flights
 /// in the scene, and at least kLeastWork.
@@ -32,7 +21,7 @@ inline constexpr double kSlowFactor = 100, kLeastWork = 500;
 inline constexpr int kDrawnFlights = 33;
 
 /// Which kinds are findings.
-struct Counts {
+struct Sought {
   bool times = false;                  ///< wrong_time
   bool undecided = true;               ///< undecided
   double ulps = oracle::kDefaultUlps;  ///< the tolerance; at 0 an answer is exact or wrong
@@ -46,7 +35,7 @@ using question::Reply;
 using question::Truth;
 
 struct Examined {
-  Kind kind = Kind::fine;
+  Kind kind = Kind::agree;
   Answer given, exact;
   double departs = 0;  ///< as in oracle::Judgement
   std::optional<double> work = {};

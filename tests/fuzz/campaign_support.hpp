@@ -49,7 +49,7 @@ inline std::string text_of(const fuzz::TargetTally& a) {
   std::ostringstream out;
   out << a.next << ' ' << a.cases << ' ' << a.variants << ' ' << a.reworded << ' ' << a.margin << ' '
       << a.margin_index;
-  for (const std::uint64_t n : a.kinds) out << ' ' << n;
+  for (const question::CountName& name : question::kCountNames) out << ' ' << a.counts[name.count];
   for (const std::uint64_t n : a.stages) out << ' ' << n;
   for (const auto& [sort, number] : a.sorts)
     if (number > 0) out << '\n' << sort << ": " << number;

@@ -113,7 +113,7 @@ class Parochial final : public question::Answerer {
 // What a campaign of a few targets finds in an engine that errs in other words alone.
 std::vector<fuzz::Stored> findings_in_other_words(std::uint64_t reword, TargetTally& all) {
   Plan plan = plan_of({"generic", "grazing", "superpositions"});
-  plan.counts.ulps = 0;
+  plan.sought.ulps = 0;
   plan.reword = reword;
   fuzz::Store store(":memory:", fuzz::Store::Access::write);
   run_in(store, plan, 128, 2, [](const auto&) { return std::make_unique<Parochial>(); });
@@ -195,9 +195,7 @@ TEST_CASE("Stopped on the way, it has whole stretches of cases, and goes on from
   for (const TargetTally& tally : tallies) {
     CHECK(tally.next > 0);
     CHECK(tally.cases == tally.next);
-    std::uint64_t judged = 0;
-    for (const std::uint64_t number : tally.kinds) judged += number;
-    CHECK(judged == tally.cases + tally.variants + tally.reworded);
+    CHECK(tally.counts.all() == tally.cases + tally.variants + tally.reworded);
   }
 }
 
@@ -386,9 +384,8 @@ TEST_CASE("A target keeps the first few findings of each sort, and counts all", 
     CHECK(kept[sort].size() == std::min<std::uint64_t>(number, 2));
     all += number;
   }
-  CHECK(all == tally.kinds[static_cast<std::size_t>(Kind::wrong)] +
-                   tally.kinds[static_cast<std::size_t>(Kind::error)]);  // of the readers
-  CHECK(all > 40);                                                       // 52 seen
+  CHECK(all == tally.counts[Kind::wrong] + tally.counts[Kind::error]);  // of the readers
+  CHECK(all > 40);                                                      // 52 seen
 
   plan.mutate = 1;  // a case and its variants, which usually fail alike, are one finding
   fuzz::Store mutated(":memory:", fuzz::Store::Access::write);
@@ -410,11 +407,11 @@ TEST_CASE("Undecided, slow and erroneous answers are told apart, and findings as
   bounds.count = 100;
   for (const bool undecided : {true, false}) {
     tallies = {{}};
-    plan.counts.undecided = undecided;
+    plan.sought.undecided = undecided;
     fuzz::StoreJournal journal(store, undecided);
     fuzz::run(plan, bounds, working_answerers(), tallies, journal);
   }
-  const auto number = [&](Kind kind) { return tallies[0].kinds[static_cast<std::size_t>(kind)]; };
+  const auto number = [&](Kind kind) { return tallies[0].counts[kind]; };
   CHECK(number(Kind::undecided) > 30);  // 40 seen
   CHECK(number(Kind::error) > 40);      // 55 seen
   CHECK(number(Kind::slow) > 3);        // 10 seen
@@ -450,13 +447,13 @@ TEST_CASE("With no ulp forgiven a tie decided the other way is wrong, and so is 
     if (one.right.outcome != Outcome::undecided) REQUIRE(same_obstacle(right, one.right));
     Answer wrong = one.wrong;
     if (right.time && wrong.time) wrong.time = right.time;
-    CHECK(kind_of(one.scene, one.query, right, 0) == Kind::fine);
+    CHECK(kind_of(one.scene, one.query, right, 0) == Kind::agree);
     CHECK(kind_of(one.scene, one.query, wrong, 0) == Kind::wrong);
-    CHECK(kind_of(one.scene, one.query, wrong, 4) == Kind::fine);
+    CHECK(kind_of(one.scene, one.query, wrong, 4) == Kind::agree);
     if (!right.time) continue;
     right.time = std::nextafter(*right.time, 10);
     CHECK(kind_of(one.scene, one.query, right, 0) == Kind::wrong_time);
-    CHECK(kind_of(one.scene, one.query, right, 4) == Kind::fine);
+    CHECK(kind_of(one.scene, one.query, right, 4) == Kind::agree);
   }
 }
 

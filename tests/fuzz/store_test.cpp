@@ -73,9 +73,10 @@ TEST_CASE("What is put in a store comes out of it", "[fuzz][store]") {
   const Folder folder;
   fuzz::TargetTally tally;
   tally.next = 1ull << 60;
-  tally.cases = 85;  // with the variants as many as there are kinds
+  tally.cases = 85;  // with the variants as many as there are counts
   tally.variants = 6;
-  for (std::size_t k = 0; k < tally.kinds.size(); ++k) tally.kinds[k] = k * k;
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(question::Count::missing); ++k)
+    tally.counts[static_cast<question::Count>(k)] = k * k;
   tally.sorts = {{"one", 1}, {"two", 2}};
   tally.margin = 4.9e-324;
   tally.margin_index = 17;
@@ -354,7 +355,7 @@ TEST_CASE("Counts and campaigns that no campaign came to are refused", "[fuzz][s
   const Folder folder;
   const std::string path = folder.file("store"), copy = folder.file("copy");
   fuzz::TargetTally tally;
-  tally.next = tally.cases = tally.kinds[0] = 7;
+  tally.next = tally.cases = tally.counts[question::Count::agree] = 7;
   tally.sorts = {{"a sort", 2}};
   {
     Store store(path, Store::Access::write);
@@ -363,9 +364,10 @@ TEST_CASE("Counts and campaigns that no campaign came to are refused", "[fuzz][s
     store.commit();
   }
   for (const std::string sql :
-       {"UPDATE account SET cases = 8", "UPDATE account SET next = -1", "UPDATE account SET wrong = 1",
-        "UPDATE account SET fine = -7", "UPDATE account SET exact = 8", "UPDATE account SET margin = -1.0",
-        "UPDATE account SET cases = 9223372036854775807", "UPDATE account SET fine = 'x'",
+       {"UPDATE account SET cases = 8", "UPDATE account SET next = -1",
+        "UPDATE account SET counts = replace(counts, '0', '1')", "UPDATE account SET counts = '[[1]]'",
+        "UPDATE account SET exact = 8", "UPDATE account SET margin = -1.0",
+        "UPDATE account SET cases = 9223372036854775807", "UPDATE account SET counts = 'x'",
         "UPDATE sort SET number = -1", "UPDATE campaign SET seed = '5x'", "UPDATE campaign SET seed = ''",
         "UPDATE campaign SET keep = -1", "UPDATE campaign SET engine = x'00'"}) {
     fs::copy_file(path, copy, fs::copy_options::overwrite_existing);
