@@ -16,6 +16,8 @@
 
 namespace lorentz::report {
 
+using question::Count;
+
 namespace {
 
 constexpr double kSmall = 0.01;
@@ -87,17 +89,17 @@ std::string table_of(const std::vector<Cell>& cells) {
             ? ""
             : fmt::format("{}, r = {}, {}", cell.scene, radius_of(cell), cell.difficulty);
     if (cell.skipped) {
-      table.add({what, cell.engine, "-", cell.unsupported > 0 ? "unsupported" : "too slow", "", "", "", "",
-                 "", "", "", ""});
+      table.add({what, cell.engine, "-", cell.counts[Count::unsupported] > 0 ? "unsupported" : "too slow", "",
+                 "", "", "", "", "", "", ""});
       continue;
     }
+    const auto number = [&](Count count) { return std::to_string(cell.counts[count]); };
     table.add({what, cell.engine, std::to_string(cell.queries),
                cell.ns ? fmt::format("{:.0f}", cell.ns->median) : "-",
                cell.ns ? fmt::format("{:.0f}-{:.0f}", cell.ns->q1, cell.ns->q3) : "-",
-               std::to_string(cell.undecided.count), std::to_string(cell.ill_posed.count),
-               std::to_string(cell.wrong.count), std::to_string(cell.wrong_time.count),
-               fmt::format("{:.3g}", cell.ulps.mean), fmt::format("{:.3g}", cell.ulps.p99),
-               fmt::format("{:.3g}", cell.ulps.max)});
+               number(Count::undecided), number(Count::ill_posed), number(Count::wrong),
+               number(Count::wrong_time), fmt::format("{:.3g}", cell.ulps.mean),
+               fmt::format("{:.3g}", cell.ulps.p99), fmt::format("{:.3g}", cell.ulps.max)});
   }
   return table.text();
 }
@@ -117,7 +119,7 @@ class Summary {
  public:
   void add(const Cell& cell) {
     if (cell.skipped) {
-      ++(cell.unsupported > 0 ? beyond_ : skipped_);
+      ++(cell.counts[Count::unsupported] > 0 ? beyond_ : skipped_);
       return;
     }
     if (cell.ns) {
@@ -125,9 +127,7 @@ class Summary {
       slowest_ = std::max(slowest_, cell.ns->median);
     }
     queries_ += cell.queries;
-    wrong_ += cell.wrong.count, ill_posed_ += cell.ill_posed.count, undecided_ += cell.undecided.count;
-    wrong_time_ += cell.wrong_time.count;
-    unsupported_ += cell.unsupported, failed_ += cell.error + cell.missing;
+    counts_ += cell.counts;
     has_times_ |= cell.ulps.exact > 0 || !cell.ulps.counts.empty();
     max_ulp_ = std::max(max_ulp_, cell.ulps.max);
     max_condition_ = std::max(max_condition_, cell.conditions.max);
@@ -139,15 +139,12 @@ class Summary {
       return fmt::format("{}: too slow for {} cells of this table, {} unsupported\n", name, skipped_,
                          beyond_);
     std::string text = name + ": " + wrong_text();
-    for (const auto& [count, what] : {std::pair{ill_posed_, "ill-posed"},
-                                      {undecided_, "undecided"},
-                                      {unsupported_, "unsupported"},
-                                      {failed_, "without an answer"}})
-      if (count > 0) text += fmt::format("; {} {}", count, what);
+    const std::string others = text_of(
+        counts_, {Count::ill_posed, Count::undecided, Count::unsupported, Count::error, Count::missing});
+    if (!others.empty()) text += "; " + others;
     text += '\n' + edge_text();
-    if (wrong_time_ > 0)
-      text +=
-          fmt::format("  {} wrong {} of right obstacles\n", wrong_time_, wrong_time_ == 1 ? "time" : "times");
+    if (counts_[Count::wrong_time] > 0)
+      text += fmt::format("  {} of right obstacles\n", text_of(counts_, {Count::wrong_time}));
     text += fastest_ ? fmt::format("  {:.0f} to {:.0f} ns", *fastest_, slowest_) : "  no times, for it broke";
     if (has_times_)
       text += fmt::format("; times at worst {:.3g} ulps off, {:.3g} times the condition", max_ulp_,
@@ -162,7 +159,7 @@ class Summary {
   std::string edge_text() const {
     std::optional<int> last;
     for (const auto& [decade, call] : calls_.by_decade())
-      if (call.counts[question::Count::wrong] > 0) last = decade;
+      if (call.counts[Count::wrong] > 0) last = decade;
     if (!last) return "";
     std::size_t beyond = 0;
     for (const auto& [decade, call] : calls_.by_decade()) beyond += decade > *last ? call.counts.total() : 0;
@@ -172,18 +169,18 @@ class Summary {
   }
 
   std::string wrong_text() const {
-    const std::size_t answers = queries_ - undecided_ - unsupported_ - failed_;
+    const std::size_t answers = counts_.answers(), wrong = counts_[Count::wrong];
     if (answers == 0) return "no answer to judge";
-    const Share share = share_of(wrong_, answers);
-    if (wrong_ == 0)
+    const Share share = share_of(wrong, answers);
+    if (wrong == 0)
       return fmt::format("no wrong answer in {} (0 to {:.2g} % of all, with 95 %)", answers,
                          100 * share.high);
-    return fmt::format("wrong in {} of {} answers ({:.2g} to {:.2g} % of all, with 95 %)", wrong_, answers,
+    return fmt::format("wrong in {} of {} answers ({:.2g} to {:.2g} % of all, with 95 %)", wrong, answers,
                        100 * share.low, 100 * share.high);
   }
 
-  std::size_t queries_ = 0, wrong_ = 0, ill_posed_ = 0, undecided_ = 0, wrong_time_ = 0, unsupported_ = 0,
-              failed_ = 0, skipped_ = 0, beyond_ = 0;
+  std::size_t queries_ = 0, skipped_ = 0, beyond_ = 0;
+  question::Counts counts_;
   bool has_times_ = false;
   std::optional<double> fastest_;
   double slowest_ = 0, max_ulp_ = 0, max_condition_ = 0;
@@ -220,10 +217,13 @@ std::string bench_csv(const std::vector<Cell>& cells) {
                        cell.ns ? fmt::format("{:.1f},{:.1f},{:.1f},{:.1f}", cell.ns->mean, cell.ns->median,
                                              cell.ns->q1, cell.ns->q3)
                                : ",,,",
-                       cell.undecided.count, cell.wrong.count, cell.wrong_time.count, cell.ulps.mean,
-                       cell.ulps.p99, cell.ulps.max, cell.mean_path, cell.ill_posed.count);
-    for (const Share& share : {cell.undecided, cell.ill_posed, cell.wrong, cell.wrong_time})
+                       cell.counts[Count::undecided], cell.counts[Count::wrong],
+                       cell.counts[Count::wrong_time], cell.ulps.mean, cell.ulps.p99, cell.ulps.max,
+                       cell.mean_path, cell.counts[Count::ill_posed]);
+    for (const Count count : {Count::undecided, Count::ill_posed, Count::wrong, Count::wrong_time}) {
+      const Share share = share_of(cell.counts[count], cell.queries);
       csv += fmt::format(",{:.4g},{:.4g}", share.low, share.high);
+    }
     csv += fmt::format(",{:.4g},{:.4g},{}\n", cell.conditions.p99, cell.conditions.max,
                        cell.instructions ? fmt::format("{:.1f}", *cell.instructions) : "");
   }

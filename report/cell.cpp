@@ -56,26 +56,23 @@ void append_json(std::string& out, const Cell& cell) {
   const auto measured = [&](const auto& value) { return cell.skipped ? std::nullopt : std::optional(value); };
   json::append(out, [&](json::Members& object) {
     object.add("scene", cell.scene, "radius", cell.radius, "dimension", cell.dimension, "difficulty",
-               cell.difficulty, "engine", cell.engine, "queries", cell.queries, "skipped", cell.skipped,
-               "unsupported", cell.unsupported);
+               cell.difficulty, "engine", cell.engine, "queries", cell.queries, "skipped", cell.skipped);
+    for (const question::CountName& name : question::names_counted(question::Counted::examinations))
+      object.add_named(name.key, cell.skipped && name.count != question::Count::unsupported
+                                     ? std::nullopt
+                                     : std::optional(share_of(cell.counts[name.count], cell.queries)));
     object.add("ns",
                cell.ns && !cell.skipped ? std::optional([&](json::Members& ns) { add_times(ns, *cell.ns); })
                                         : std::nullopt,
                "instructions", cell.skipped ? std::nullopt : cell.instructions, "mean_path",
-               measured(cell.mean_path), "undecided", measured(cell.undecided), "ill_posed",
-               measured(cell.ill_posed), "wrong", measured(cell.wrong), "wrong_time",
-               measured(cell.wrong_time), "error", measured(cell.error), "missing", measured(cell.missing),
-               "ulps", measured(members_of(cell.ulps)), "conditions", measured(members_of(cell.conditions)),
-               "calls", measured(cell.calls), "worst",
+               measured(cell.mean_path), "ulps", measured(members_of(cell.ulps)), "conditions",
+               measured(members_of(cell.conditions)), "calls", measured(cell.calls), "worst",
                cell.worst && !cell.skipped
                    ? std::optional([&](json::Members& worst) { add_worst(worst, *cell.worst); })
                    : std::nullopt);
   });
 }
 
-static auto members_of(Share& self) {
-  return std::tie(self.count, self.low, self.high);
-}
 static auto members_of(CellTimes& self) {
   return std::tie(self.median, self.q1, self.q3, self.mean);
 }
@@ -87,8 +84,7 @@ static auto members_of(Worst& self) {
 }
 static auto members_of(Cell& self) {
   return std::tie(self.scene, self.radius, self.dimension, self.difficulty, self.engine, self.queries,
-                  self.skipped, self.ns, self.instructions, self.mean_path, self.undecided, self.ill_posed,
-                  self.wrong, self.wrong_time, self.unsupported, self.error, self.missing, self.ulps,
+                  self.skipped, self.ns, self.instructions, self.mean_path, self.counts, self.ulps,
                   self.conditions, self.calls, self.worst);
 }
 

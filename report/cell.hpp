@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "question/counts.hpp"
 #include "report/calls.hpp"
 #include "report/share.hpp"
 
@@ -50,15 +51,14 @@ struct Cell {
   int dimension = 2;
   std::string difficulty, engine;
   std::size_t queries = 0;
-  bool skipped = false;         ///< too slow, or all unsupported: of the members below only this is known
-  std::optional<CellTimes> ns;  ///< empty if the program failed
+  bool skipped = false;                ///< too slow, or all unsupported: nothing was measured
+  std::optional<CellTimes> ns;         ///< empty if the program failed
   std::optional<double> instructions;  ///< per query, if the processor counts them
   double mean_path = 0;                ///< mean time of the flights that hit; 0 if none does
-  Share undecided, ill_posed, wrong, wrong_time;
-  std::size_t unsupported = 0, error = 0, missing = 0;
-  Histogram ulps;        ///< errors of the times of right hits, in ulps
-  Histogram conditions;  ///< the same in units of the condition (lorentz/margin.hpp)
-  Calls calls;           ///< by how many radii the line enters or misses the obstacle in question
+  question::Counts counts;             ///< of Counted::examinations
+  Histogram ulps;                      ///< errors of the times of right hits, in ulps
+  Histogram conditions;                ///< the same in units of the condition (lorentz/margin.hpp)
+  Calls calls;  ///< by how many radii the line enters or misses the obstacle in question
   std::optional<Worst> worst;
 
   friend bool operator==(const Cell&, const Cell&) = default;

@@ -153,15 +153,9 @@ report::Cell named_cell(const BenchGroup& group, const Scene& scene, const std::
 
 void fill(report::Cell& cell, const Tally& t) {
   cell.queries = t.queries;
-  cell.undecided = report::share_of(t[Count::undecided], t.queries);
-  cell.ill_posed = report::share_of(t[Count::ill_posed], t.queries);
-  cell.wrong = report::share_of(t[Count::wrong], t.queries);
-  cell.wrong_time = report::share_of(t[Count::wrong_time], t.queries);
-  cell.unsupported = t[Count::unsupported];
-  cell.error = t[Count::error];
-  cell.missing = t[Count::missing];
+  cell.counts = t.counts;
   cell.ulps = report::histogram_of(t.ulps);
-  cell.skipped = cell.unsupported == cell.queries;  // the speed of refusals means nothing
+  cell.skipped = t[Count::unsupported] == cell.queries;  // the speed of refusals means nothing
 }
 
 // Asks an engine the questions and judges its answers.

@@ -109,13 +109,13 @@ TEST_CASE("What a store keeps of cells reads back as the same cells, or is refus
   cell.ns = {1.5, 1, 2, 1.75};
   cell.instructions = 812.5;
   cell.mean_path = 1.0 / 3;
-  cell.undecided = share_of(1, 50);
-  cell.ill_posed = share_of(2, 50);
-  cell.wrong = share_of(3, 50);
-  cell.wrong_time = share_of(4, 50);
-  cell.unsupported = 5;
-  cell.error = 6;
-  cell.missing = 7;
+  cell.counts[Count::undecided] = 1;
+  cell.counts[Count::ill_posed] = 2;
+  cell.counts[Count::wrong] = 3;
+  cell.counts[Count::wrong_time] = 4;
+  cell.counts[Count::unsupported] = 5;
+  cell.counts[Count::error] = 6;
+  cell.counts[Count::missing] = 7;
   cell.ulps = histogram_of({0, 1, 1e9});
   cell.conditions = histogram_of({0.1});
   cell.calls.add(3e-10, lorentz::oracle::Verdict::wrong);
@@ -129,7 +129,7 @@ TEST_CASE("What a store keeps of cells reads back as the same cells, or is refus
   Cell skipped;
   skipped.scene = "ellipse", skipped.dimension = 2, skipped.difficulty = "grazing", skipped.engine = "oracle";
   skipped.skipped = true;
-  skipped.unsupported = 3;
+  skipped.counts[Count::unsupported] = 3;
   for (const Cell& one : {cell, skipped}) {
     const std::string text = piece_of(one);
     CHECK(cell_of(text) == one);
