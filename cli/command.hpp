@@ -43,11 +43,12 @@ using Destination = std::variant<std::monostate, bool*, std::string*, std::optio
 enum Trait : unsigned {
   kPlain = 0,
   kRequired = 1,
-  kOutput = 2,       ///< names a file that is written, or a store, which is written and read
-  kCommas = 4,       ///< several values are separated by commas
-  kOneAtATime = 8,   ///< each of several values follows the option's name
-  kHidden = 16,      ///< not in help: for tests
-  kToldDefault = 32  ///< its help line states the default
+  kOutput = 2,        ///< names a file that is written, or a store, which is written and read
+  kCommas = 4,        ///< several values are separated by commas
+  kOneAtATime = 8,    ///< each of several values follows the option's name
+  kHidden = 16,       ///< not in help: for tests
+  kToldDefault = 32,  ///< its help line states the default
+  kTakesStdout = 64   ///< an output that may be `-`, standard output
 };
 
 /// One option, or one argument.

@@ -2,6 +2,9 @@
 #include "golden/find_sets.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -9,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <lorentz/errors.hpp>
+#include "files/beside.hpp"
 #include "files/scene_file.hpp"
 
 namespace lorentz::cli {
@@ -23,7 +27,70 @@ constexpr const char* kStandardOutput = "/dev/stdout";
 struct NamedFile {
   std::string by, path;
   bool is_output;
+  std::optional<FileKind> kind = {};  // of what replaces it
 };
+
+// What a file of a kind begins with, in small letters and without white space, and what is in its beginning.
+struct KindMarks {
+  const char *words, *beginning, *or_beginning, *content;
+};
+
+const KindMarks& marks_of(FileKind kind) {
+  static constexpr KindMarks kMarks[] = {
+      {"a golden set", "{\"golden\"", "{\"golden\"", ""},
+      {"a query stream", "{\"scene\"", "{\"golden\"", ""},
+      {"an SVG", "<svg", "<?xml", "<svg"},
+      {"a page", "<!doctypehtml", "<html", ""},
+      {"a report of JUnit", "<?xml", "<testsuite", "<testsuite"},
+      {"a list of known failures", "#knownfailures", "#knownfailures", ""},
+      {"a CSV table", "", "", ","},
+  };
+  return kMarks[static_cast<std::size_t>(kind)];
+}
+
+// The first 4096 bytes.
+std::string beginning_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FileError(path + ": " + std::strerror(errno));
+  std::string start(4096, '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  return start;
+}
+
+// The first line of a table names its columns; a sentence has blanks after its commas.
+bool names_columns(std::string_view line) {
+  return !line.empty() && std::isalpha(static_cast<unsigned char>(line[0])) && line.find(',') != line.npos &&
+         line.find(", ") == line.npos;
+}
+
+bool is_of_kind(std::string start, FileKind kind) {
+  if (kind == FileKind::table) return names_columns(start.substr(0, start.find('\n')));
+  std::erase_if(start, [](unsigned char c) { return std::isspace(c); });
+  std::ranges::transform(start, start.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (start.starts_with("\xef\xbb\xbf")) start.erase(0, 3);
+  const KindMarks& its = marks_of(kind);
+  return (start.starts_with(its.beginning) || start.starts_with(its.or_beginning)) &&
+         start.find(its.content) != start.npos;
+}
+
+bool is_set(const Command& command, const std::string& flag) {
+  const Option* option = command.option_called(flag);
+  const auto* target = option ? std::get_if<bool*>(&option->target) : nullptr;
+  return target && **target;
+}
+
+// Nothing for stores and for what merges them, which look at these files themselves.
+std::optional<FileKind> kind_of(const Command& command, const std::string& option) {
+  if (option.ends_with("svg") || command.name == "draw") return FileKind::picture;
+  if (option == "--html") return FileKind::page;
+  if (option == "--junit") return FileKind::test_report;
+  if (option == "--csv") return FileKind::table;
+  if (option == "--write-baseline") return FileKind::known_failures;
+  if (option == "--disagreements") return FileKind::queries;
+  if (option == "--store" || command.name == "merge") return std::nullopt;
+  return is_set(command, "--queries") ? FileKind::queries : FileKind::golden_set;
+}
 
 // The program's or the library's file, and files among the program's words: its source, its scene.
 std::vector<std::string> files_of_engine(const std::string& engine) {
@@ -62,7 +129,8 @@ void add_companions(const std::string& store, std::vector<NamedFile>& files) {
 }
 
 std::vector<NamedFile> files_of(const Command& command) {
-  std::vector<NamedFile> files{{"standard output", kStandardOutput, true}};
+  std::vector<NamedFile> files{{"standard output", kStandardOutput, true},
+                               {"the running program", "/proc/self/exe", false}};
   for (const Option& option : command.options) {
     const std::string name = option.name();
     const bool makes_set = option.type == "SET" && !option.is_argument();  // names a recipe, not a file
@@ -70,7 +138,9 @@ std::vector<NamedFile> files_of(const Command& command) {
       if (option.traits & kOutput) {
         if (value.empty())
           throw InputError(name + ": the name is empty; give the file one, or leave the option out");
-        if (value != "-") files.push_back({name, value, true});
+        if (value == "-" && !(option.traits & kTakesStdout))
+          throw InputError(name + ": needs a file; - is none");
+        if (value != "-") files.push_back({name, value, true, kind_of(command, name)});
         if (name == "--store") add_companions(value, files);
       } else if (!makes_set && !value.empty()) {
         for (const std::string& path : files_read(option.type, value)) files.push_back({name, path, false});
@@ -80,42 +150,23 @@ std::vector<NamedFile> files_of(const Command& command) {
   return files;
 }
 
-// An option replaces files of its own kind only, so that a slip of the finger loses no run and no queries.
-void refuse_other_kinds(const NamedFile& output) {
-  if (!output.is_output || output.by == "--store") return;
-  const std::string start = beginning_of(output.path);
-  if (start.empty()) return;
-  const bool wants_markup = output.by.ends_with("svg") || output.by == "--html" || output.by == "--junit";
-  const bool is_other =
-      wants_markup ? start[0] != '<' : output.by == "--csv" && (start[0] == '{' || start[0] == '<');
-  if (start.starts_with("SQLite format 3"))
-    throw InputError(
-        fmt::format("{}: {} is a store, and is left as it is; name another file", output.by, output.path));
-  if (is_other)
-    throw InputError(
-        fmt::format("{}: {} is a file of another kind, and is left as it is; remove it, or name another",
-                    output.by, output.path));
-}
-
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   const fs::file_status there = fs::status(a, error);
   if (fs::exists(there)) return fs::is_regular_file(there) && fs::equivalent(a, b, error);
   // A name that is too long has no path; opening the file reports that.
-  const fs::path place = fs::weakly_canonical(fs::absolute(a), error);
-  return !error && place == fs::weakly_canonical(fs::absolute(b), error) && !error;
+  const fs::path place = fs::weakly_canonical(fs::absolute(place_of(a)), error);
+  return !error && place == fs::weakly_canonical(fs::absolute(place_of(b)), error) && !error;
 }
 
 }  // namespace
 
-std::string beginning_of(const std::string& path) {
+void refuse_other_kinds(const std::string& path, FileKind kind, const std::string& by) {
   std::error_code error;
-  if (!fs::is_regular_file(path, error)) return "";
-  std::ifstream in(path, std::ios::binary);
-  std::string start(4096, '\0');
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(in.gcount()));
-  return start.substr(std::min(start.size(), start.find_first_not_of("\xef\xbb\xbf \t\r\n")));
+  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) == 0) return;
+  if (is_of_kind(beginning_of(path), kind)) return;
+  throw InputError(fmt::format("{}{}: is not {}, and is left as it is; remove it, or name another file",
+                               by.empty() ? "" : by + ": ", path, marks_of(kind).words));
 }
 
 void check_files(const Command& command) {
@@ -130,7 +181,8 @@ void check_files(const Command& command) {
       throw InputError(fmt::format("{} and {} name the same file: {}; give each its own", output.by, other.by,
                                    other.path));
     }
-  std::ranges::for_each(files, refuse_other_kinds);
+  for (const NamedFile& output : files)
+    if (output.kind) refuse_other_kinds(output.path, *output.kind, output.by);
 }
 
 }  // namespace lorentz::cli

@@ -8,14 +8,17 @@
 namespace lorentz::cli {
 
 /// Called after the options are parsed and before anything is written. Throws InputError if the name of a
-/// file to be written is empty; if the file, or standard output, is also read, or written by another option;
-/// or if it exists and is a store, or of another kind than what would replace it. Different names of a file
-/// (links, the name of a scene, standard input) count as the same file. The files among the words of an
-/// engine's command count as read. Devices and pipes may be named several times.
+/// file to be written is empty, or `-` where standard output makes no sense; if the file, or standard output,
+/// is also read, or written by another option; if it is the running program; or if it exists and is of
+/// another kind than what would replace it. Different names of a file (links, the name of a scene, standard
+/// input) count as the same file. The files among the words of an engine's command count as read. Devices and
+/// pipes may be named several times.
 void check_files(const Command& command);
 
-/// The first 4096 bytes of a file that is to be replaced, without white space in front. Empty if there is no
-/// such file, if it holds nothing else or cannot be read, and for devices.
-std::string beginning_of(const std::string& path);
+enum class FileKind { golden_set, queries, picture, page, test_report, known_failures, table };
+
+/// Throws InputError if there is a file that holds something and does not begin as one of this kind; the
+/// message begins with `by`, an option. Throws FileError if the file cannot be read.
+void refuse_other_kinds(const std::string& path, FileKind kind, const std::string& by = "");
 
 }  // namespace lorentz::cli

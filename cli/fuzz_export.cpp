@@ -101,6 +101,8 @@ std::string golden_set_of(const std::vector<ExportedCase>& examples,
 }
 
 int act(const ExportOptions& options) {
+  if (options.queries && options.output.ends_with('/'))
+    throw InputError("--queries: is a stream, which needs no folder; name a file");
   std::optional<SetOutput> output;
   if (options.output != "-") output.emplace(options.output, "findings");
   const Store store(options.store, Store::Access::read, say_left_out);
@@ -126,7 +128,7 @@ Command fuzz_export_command() {
               {"--store", &options->store, "FILE", "the store", kRequired},
               {"--all", &options->all, "", "of every finding"},
               {"--queries", &options->queries, "", "a query stream instead"},
-              {"-o,--output", &options->output, "FILE", kSetOutputHelp, kOutput},
+              {"-o,--output", &options->output, "FILE", kSetOutputHelp, kOutput | kTakesStdout},
           },
 
           "Example:\n  lorentz fuzz export --store published.campaign -o mine/; "

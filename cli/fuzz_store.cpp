@@ -154,7 +154,8 @@ int merge_stores(const MergeOptions& options) {
   if (std::filesystem::exists(options.output, error))
     throw InputError(options.output + ": is there already; merge into a new store");
   // An incomplete store would look like a complete one, so the store is built beside its final place.
-  const Beside folder(options.output, Beside::Kind::folder);
+  const std::string place = place_of(options.output);
+  const Beside folder(place, Beside::Kind::folder);
   const std::string store = folder.path() + "/store";
   std::deque<Unfinished> files;
   for (const char* end : {"", "-wal", "-shm", ".lock"}) files.emplace_back(store + end);
@@ -168,7 +169,7 @@ int merge_stores(const MergeOptions& options) {
               ? "; they are not all there, or not equally far: to be read, not gone on with"
               : "");
   }
-  std::filesystem::rename(store, options.output);
+  std::filesystem::rename(store, place);
   return kDone;
 }
 

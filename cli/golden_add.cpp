@@ -69,7 +69,7 @@ Command golden_add_command() {
           joined(joined({{"set", &options->set, "SET", "a file, or the name of a committed set", kRequired}},
                         options->questions.rows()),
                  {{"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads"},
-                  {"-o,--output", &options->output, "FILE", kSetOutputHelp, kOutput}}),
+                  {"-o,--output", &options->output, "FILE", kSetOutputHelp, kOutput | kTakesStdout}}),
           "Example:\n  lorentz sample --scene square --kind grazing --count 20 | lorentz golden add ties "
           "--queries - --tag mine",
           [options] { return act(*options); }};

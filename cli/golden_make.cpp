@@ -1,14 +1,15 @@
 // lorentz golden make: makes one set, or all committed sets.
 #include <cerrno>
 #include <filesystem>
-#include <fstream>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"
+#include "cli/file_options.hpp"
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
+#include "cli/set_output.hpp"
 #include "files/whole_file.hpp"
 #include "golden/index.hpp"
 #include "golden/production.hpp"
@@ -58,21 +59,11 @@ std::string seed_of(const golden::Order& order) {
   return fmt::format(" (seed {})", order.seed);
 }
 
-// Refuses to overwrite a file that is not a golden set, so that no other data is lost.
-void check_place(const std::string& path) {
+golden::RecordCounts make_file(const golden::Order& order, const std::string& path) {
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_regular_file(path, error))
     throw FileError(path + ": is not a regular file; name another, or use standard output");
-  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) == 0) return;
-  const std::string_view kBeginning = "{\"golden\"";
-  std::string start(kBeginning.size(), ' ');
-  std::ifstream(path, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
-  if (start != kBeginning)
-    throw InputError(path + ": is not a golden set, and is left as it is; remove it, or name another file");
-}
-
-golden::RecordCounts make_file(const golden::Order& order, const std::string& path) {
-  check_place(path);
+  refuse_other_kinds(path, FileKind::golden_set);
   goes_on_when_repeated();
   const std::string part = path + ".part";
   if (fs::is_symlink(fs::symlink_status(part))) throw write_error(part, ELOOP);
@@ -112,6 +103,7 @@ int make_all(golden::Order order, const std::string& folder) {
   const auto in_folder = [&](const std::string& name) { return (fs::path(folder) / name).string(); };
   std::error_code error;
   fs::create_directories(in_folder("smoke"), error);
+  check_folder(folder);
   std::vector<std::string> names, wide;
   for (const golden::Set& set : golden::sets()) {
     if (!set.is_committed) continue;
@@ -123,8 +115,9 @@ int make_all(golden::Order order, const std::string& folder) {
     if (is_geometry && set.precision == NumberFormat::binary64) wide.push_back(in_folder(names.back()));
   }
   names.push_back("smoke/smoke.ndjson");
+  refuse_other_kinds(in_folder(names.back()), FileKind::golden_set);
   write_whole(in_folder(names.back()), smoke_of(wide));
-  golden::write_index(folder, names);
+  golden::write_index(folder, golden::index_of(folder, names), names);
   return kDone;
 }
 
@@ -214,7 +207,7 @@ Command golden_make_command() {
                  {"-o,--output", &options->output, "FILE",
                   "file to write (- is standard output); killed in between, the same command goes on where "
                   "it was",
-                  kOutput},
+                  kOutput | kTakesStdout},
                  {"--all", &options->folder, "FOLDER",
                   "make all sets in this folder as they are committed, index.json, smoke/smoke.ndjson (a few "
                   "records of each tag) and SHA256SUMS"},

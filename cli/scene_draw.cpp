@@ -1,16 +1,12 @@
 // lorentz scene draw: the picture of a scene, with flights and open channels.
 #include "cli/app.hpp"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/geometry.hpp>
 #include <lorentz/horizon.hpp>
-#include "cli/file_options.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
@@ -37,23 +33,12 @@ struct SceneDrawOptions {
 
 // Whether the file exists and is not an SVG, so that overwriting it would lose other data. An empty file does
 // not count.
-bool is_other_than_svg(const std::string& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return false;
-  if (!std::ifstream(file)) throw FileError(file + ": " + std::strerror(errno));
-  const std::string start = beginning_of(file);
-  return start.empty() ? std::filesystem::file_size(file) > 0
-                       : start[0] != '<' || start.find("<svg") == std::string::npos;
-}
-
 // No program opens a file x.png that contains an SVG.
 void refuse_other_formats(const std::string& file) {
   const std::string extension = std::filesystem::path(file).extension();
   for (const char* other : {".png", ".jpg", ".jpeg", ".gif", ".pdf", ".eps", ".ps"})
     if (extension == other)
       throw InputError(file + ": pictures are drawn as SVG; name the file so, and convert it (rsvg-convert)");
-  if (file != "-" && is_other_than_svg(file))
-    throw InputError(file + ": is not an SVG, and is left as it is; remove it, or name another file");
 }
 
 // The flights of a query stream, up to the first query in a different scene from that of the first query.
@@ -203,7 +188,7 @@ Command scene_draw_command() {
           {"-o,--output", &options->output, "FILE",
            "file to write, whole or not at all; a file that is not an SVG is left as it is; - is "
            "standard output",
-           kOutput},
+           kOutput | kTakesStdout},
       },
 
       "Example:\n  lorentz scene draw square --queries data/examples/paper-89-directions.queries.ndjson -o "

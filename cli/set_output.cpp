@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include <lorentz/errors.hpp>
+#include "cli/file_options.hpp"
 #include "cli/output.hpp"
 #include "files/data_folder.hpp"
 #include "golden/find_sets.hpp"
@@ -29,15 +30,6 @@ bool is_index(const fs::path& file) {
   }
 }
 
-// Refuses to overwrite checksums of other files. The checksums of sets have an index beside them.
-void check_folder(const fs::path& folder) {
-  if (fs::exists(folder / kIndex) && is_index(folder / kIndex)) return;
-  for (const char* name : {kIndex, kSums})
-    if (fs::exists(folder / name))
-      throw InputError((folder / name).string() +
-                       ": was not written by this command, and is left as it is; move it, or the sets");
-}
-
 // Copies the schema of the project's sets unless the folder has one. Returns its name.
 std::string add_schema(const fs::path& folder) {
   if (fs::exists(folder / kSchema)) return kSchema;
@@ -56,17 +48,30 @@ std::optional<std::string> folder_in(const std::optional<std::string>& path) {
   fs::create_directories(*path, error);
   if (!fs::is_directory(*path)) throw FileError(*path + ": can't be made; name another folder");
   check_folder(*path);
+  for (const fs::directory_entry& file : fs::directory_iterator(*path))
+    if (file.path().extension() == ".ndjson") refuse_other_kinds(file.path(), FileKind::golden_set);
   return path;
 }
 
 }  // namespace
+
+// The checksums of sets have an index beside them.
+void check_folder(const std::string& path) {
+  const fs::path folder = path;
+  if (fs::exists(folder / kIndex) && is_index(folder / kIndex)) return;
+  for (const char* name : {kIndex, kSums})
+    if (fs::exists(folder / name))
+      throw InputError((folder / name).string() +
+                       ": was not written by this command, and is left as it is; move it, or the sets");
+}
 
 void write_beside_sets(const std::string& folder) {
   if (!fs::is_directory(folder)) throw FileError(folder + ": is not a folder");
   check_folder(folder);
   std::vector<std::string> names;
   for (const std::string& file : golden::find_sets({folder})) names.push_back(fs::path(file).filename());
-  golden::write_index(folder, names, {add_schema(folder)});
+  const std::string index = golden::index_of(folder, names);  // reads every set, before anything is written
+  golden::write_index(folder, index, names, {add_schema(folder)});
   say("{}: {}, {} and {} of {}", folder, kIndex, kSchema, kSums, fmt::join(names, ", "));
 }
 

@@ -12,6 +12,9 @@ namespace lorentz::cli {
 /// InputError if the folder has such files of other programs. Throws FileError.
 void write_beside_sets(const std::string& folder);
 
+/// Throws InputError if the folder has an index or checksums of other programs.
+void check_folder(const std::string& folder);
+
 /// The help of an option for such an output.
 inline constexpr const char* kSetOutputHelp =
     "file to write (- is standard output); FOLDER/ gets the set with its schema, an index and checksums";

@@ -67,6 +67,17 @@ void clean_up(const fs::path& place) {
 
 }  // namespace
 
+std::string place_of(const std::string& path) {
+  constexpr int kMostLinks = 40;
+  fs::path place = path;
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(place, error)); ++links) {
+    if (links == kMostLinks) throw write_error(path, ELOOP);
+    place = place.parent_path() / fs::read_symlink(place, error);  // an absolute target stands alone
+  }
+  return place.string();
+}
+
 Beside::Beside(const std::string& place, Kind kind) {
   clean_up(place);
   do {

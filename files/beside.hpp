@@ -9,6 +9,10 @@
 
 namespace lorentz {
 
+/// The file that a path means: links are followed, whether or not their target is there. Throws FileError if
+/// they lead round in a circle.
+std::string place_of(const std::string& path);
+
 class Beside {
  public:
   enum class Kind { file, folder };

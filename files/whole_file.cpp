@@ -13,7 +13,7 @@ namespace lorentz {
 
 namespace fs = std::filesystem;
 
-WholeFile::WholeFile(const std::string& path) : path_(path), place_(path) {
+WholeFile::WholeFile(const std::string& path) : path_(path) {
   if (path == "-") throw FileError("-: this output needs a file; /dev/stdout is one");
   std::error_code error;
   const fs::file_status there = fs::status(path, error);
@@ -22,10 +22,7 @@ WholeFile::WholeFile(const std::string& path) : path_(path), place_(path) {
   if (fs::exists(there) && !fs::is_regular_file(there)) {
     file_ = std::fopen(path.c_str(), "wb");
   } else {
-    if (fs::is_symlink(fs::symlink_status(path, error))) {
-      const fs::path target = fs::weakly_canonical(path, error);
-      if (!error) place_ = target.string();
-    }
+    place_ = place_of(path);
     beside_.emplace(place_, Beside::Kind::file);
     if (fs::exists(there)) ::fchmod(beside_->descriptor(), static_cast<mode_t>(there.permissions()));
     file_ = ::fdopen(::dup(beside_->descriptor()), "wb");

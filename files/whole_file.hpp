@@ -28,7 +28,7 @@ class WholeFile {
   void commit();
 
  private:
-  std::string path_, place_;      // as given; with links resolved
+  std::string path_, place_;      // as given; with links followed
   std::optional<Beside> beside_;  // where it is written
   std::FILE* file_ = nullptr;
 };

@@ -98,15 +98,17 @@ void add_set(json::Members& object, const std::string& folder, const std::string
 
 }  // namespace
 
-void write_index(const std::string& folder, const std::vector<std::string>& names,
+std::string index_of(const std::string& folder, const std::vector<std::string>& names) {
+  return json::line_of([&](json::Members& index) {
+    const auto add = [&](json::Members& one, const std::string& name) { add_set(one, folder, name); };
+    index.add("format", kFormat, "sets", json::objects(names, add, "\n"));
+  });
+}
+
+void write_index(const std::string& folder, const std::string& index, const std::vector<std::string>& names,
                  const std::vector<std::string>& others) {
   const auto path_of = [&](const std::string& name) { return (fs::path(folder) / name).string(); };
-  write_whole(path_of("index.json"), json::line_of([&](json::Members& index) {
-                const auto add = [&](json::Members& one, const std::string& name) {
-                  add_set(one, folder, name);
-                };
-                index.add("format", kFormat, "sets", json::objects(names, add, "\n"));
-              }));
+  write_whole(path_of("index.json"), index);
   std::string sums;
   const auto add_sum = [&](const std::string& name) { sums += sum_of(path_of(name)) + "  " + name + '\n'; };
   std::ranges::for_each(names, add_sum);

@@ -26,13 +26,13 @@ std::size_t entries(const Folder& folder) {
 
 TEST_CASE("Until a file is whole the old one stands", "[cli][whole_file]") {
   const Folder folder;
-  const std::string path = folder.write("f", "old\n");
+  const std::string path = folder.write("f", "old,\n");
   {
     WholeFile file(path);
     file.write("half of the ne");
-    CHECK(folder.read("f") == "old\n");
+    CHECK(folder.read("f") == "old,\n");
   }  // given up
-  CHECK(folder.read("f") == "old\n");
+  CHECK(folder.read("f") == "old,\n");
   CHECK(entries(folder) == 1);
   {
     WholeFile file(path);
@@ -45,7 +45,7 @@ TEST_CASE("Until a file is whole the old one stands", "[cli][whole_file]") {
 
 TEST_CASE("A file is put where a link points to, with the permissions of the old one", "[cli][whole_file]") {
   const Folder folder;
-  const std::string path = folder.write("f", "old\n"), link = folder.file("link");
+  const std::string path = folder.write("f", "old,\n"), link = folder.file("link");
   std::filesystem::create_symlink("f", link);
   std::filesystem::permissions(path,
                                std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
@@ -127,7 +127,7 @@ TEST_CASE("A new file has the permissions of any new file, whatever its name's l
 
 TEST_CASE("What killed processes left is taken away by the next, and nothing else", "[cli][whole_file]") {
   const Folder folder;
-  const std::string path = folder.write("f", "old\n");
+  const std::string path = folder.write("f", "old,\n");
   const pid_t child = ::fork();
   if (child == 0) {
     WholeFile file(path);
@@ -183,22 +183,55 @@ TEST_CASE("Files of another kind are left as they are", "[cli][whole_file]") {
     CHECK(folder.read(name) == before);
   };
   for (const std::string option : {"--csv ", "--html "}) {
-    require_left("flights --count 10 " + option, "store", "is a store, and is left as it is");
-    require_left("flights --count 10 " + option, "queries",
-                 "is a file of another kind, and is left as it is");
+    require_left("flights --count 10 " + option, "store", ", and is left as it is");
+    require_left("flights --count 10 " + option, "queries", ", and is left as it is");
   }
-  require_left("flights --count 10 --csv ", "old", "is a file of another kind");
-  require_left("judge --engine reduction --time 1 --junit ", "queries", "is a file of another kind");
+  require_left("flights --count 10 --csv ", "old", "is not a CSV table");
+  require_left("judge --engine reduction --time 1 --junit ", "queries", "is not a report of JUnit");
   require_left("compare --count 5 -e 'cmd:python3 " + source + " -u' --disagreements ", "engine.py",
                "--engine reads");
   CHECK(folder.lorentz("scene draw square -o " + old).status == 0);
   CHECK(contains(folder.read("old"), "radius"));
-  CHECK(contains(folder.lorentz("flights --count 10 --csv -").err, "needs a file; /dev/stdout is one"));
+  // The outputs that are golden sets, too.
+  require_left("golden add ties --queries /dev/null -o ", "queries", "is not a golden set");
+  require_left("fuzz export --store " + store + " -o ", "engine.py", "is not a golden set");
+}
+
+TEST_CASE("`-` is standard output where that makes sense, and no file", "[cli][whole_file]") {
+  const Folder folder;
+  for (const std::string words : {"flights --count 10 --csv -", "flights --count 10 --store -",
+                                  "fuzz merge a b -o -", "judge --engine reduction --golden -"}) {
+    const Run run = folder.lorentz(words);
+    INFO(words << run.err);
+    CHECK(run.status == 2);
+    CHECK(contains(run.err, "needs a file; - is none"));
+  }
+  CHECK_FALSE(std::filesystem::exists("-"));
+}
+
+TEST_CASE("A link is followed, whether or not its target is there", "[cli][whole_file]") {
+  const Folder folder;
+  const std::string target = folder.file("target"), link = folder.file("link");
+  std::filesystem::create_symlink("target", link);
+  for (const char* text : {"first", "second"}) {
+    write_whole(link, text);
+    CHECK(std::filesystem::is_symlink(link));
+    CHECK(folder.read("target") == text);
+  }
+  std::filesystem::create_symlink("round", folder.file("round"));
+  CHECK_THROWS_AS(write_whole(folder.file("round"), "text"), FileError);
+}
+
+TEST_CASE("The running program is no output", "[cli][whole_file]") {
+  const Folder folder;
+  const Run run = folder.lorentz("flights --count 10 --csv /proc/self/exe");
+  CHECK(run.status == 2);
+  CHECK(contains(run.err, "/proc/self/exe is what the running program reads"));
 }
 
 TEST_CASE("Two options that name one file are refused, whatever they call it", "[cli][whole_file]") {
   const Folder folder;
-  const std::string path = folder.write("f", "old\n"), other = folder.file("g");
+  const std::string path = folder.write("f", "old,\n"), other = folder.file("g");
   std::filesystem::create_symlink(path, folder.file("link"));
   std::filesystem::create_hard_link(path, folder.file("hard"));
   const std::string start = folder.write("start", R"({"x":["1/2","1/7"],"v":[1,2]})");
@@ -210,7 +243,7 @@ TEST_CASE("Two options that name one file are refused, whatever they call it", "
     INFO(options << ": " << run.err);
     CHECK(run.status == 2);
     CHECK(contains(run.err, "give each its own"));
-    CHECK(folder.read("f") == "old\n");
+    CHECK(folder.read("f") == "old,\n");
   };
   CHECK(contains(path_of("--csv " + path + " --svg " + path).err,
                  "--csv and --svg name the same file: " + path + "; give each its own"));
@@ -221,5 +254,5 @@ TEST_CASE("Two options that name one file are refused, whatever they call it", "
   CHECK(contains(path_of("--csv ''").err, "--csv: the name is empty"));
   CHECK(path_of("--csv /dev/null --svg /dev/null").status == 0);
   CHECK(path_of("--csv " + path + " --svg " + other).status == 0);
-  CHECK(folder.read("f") != "old\n");
+  CHECK(folder.read("f") != "old,\n");
 }

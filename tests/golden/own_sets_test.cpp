@@ -169,3 +169,17 @@ TEST_CASE("golden make: tags of each query, but those that the program gives its
   }
   CHECK(made(R"({"x":[0.5,0.3],"v":[1,0.3],"tags":"alpha"})").status == 2);
 }
+
+TEST_CASE("golden index looks at every file before it writes one", "[golden][own_sets]") {
+  const Folder folder;
+  const std::string own = folder.file("own");
+  std::filesystem::create_directory(own);
+  std::filesystem::copy_file(LORENTZ_SOURCE_DIR "/data/golden/smoke/smoke.ndjson", own + "/smoke.ndjson");
+  folder.write("own/zz.ndjson", "{\"x\":[0,0],\"v\":[1,0]}\n");
+  const Run run = folder.lorentz("golden index " + own);
+  INFO(run.err);
+  CHECK(run.status == 2);
+  CHECK(contains(run.err, "zz.ndjson"));
+  for (const char* name : {"/index.json", "/SHA256SUMS", "/schema.json"})
+    CHECK_FALSE(std::filesystem::exists(own + name));
+}
