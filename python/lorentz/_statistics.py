@@ -180,7 +180,8 @@ def diffusion(scene: SceneLike, radius: Number | None = None, *, count: int = 10
     place = Scene(scene, radius)
     until = time_limit(max_time, "max_time")
     return Diffusion(place, report_of(_lorentz.diffusion(
-        native(place), whole(count, "count", 1, 2**52), finite(until, "max_time"), word(start, "start"), _seed(seed), _jobs(jobs)), place))
+        native(place), whole(count, "count", 1, 2**52), finite(until, "max_time"), word(start, "start"), _seed(seed),
+        _jobs(jobs)), place))
 
 
 def survival(scene: SceneLike, radius: Number | None = None, *, count: int = 100, collisions: int = 500,
