@@ -27,7 +27,7 @@ constexpr const char* kStandardOutput = "/dev/stdout";
 struct NamedFile {
   std::string by, path;
   bool is_output;
-  std::optional<FileKind> kind = {};  // of what replaces it
+  std::optional<OutputKind> kind = {};  // of what replaces it
 };
 
 // What a file of a kind begins with, in small letters and without white space, and what is in its beginning.
@@ -35,7 +35,7 @@ struct KindMarks {
   const char *words, *beginning, *or_beginning, *content;
 };
 
-const KindMarks& marks_of(FileKind kind) {
+const KindMarks& marks_of(OutputKind kind) {
   static constexpr KindMarks kMarks[] = {
       {"a golden set", "{\"golden\"", "{\"golden\"", ""},
       {"a query stream", "{\"scene\"", "{\"golden\"", ""},
@@ -64,8 +64,8 @@ bool names_columns(std::string_view line) {
          line.find(", ") == line.npos;
 }
 
-bool is_of_kind(std::string start, FileKind kind) {
-  if (kind == FileKind::table) return names_columns(start.substr(0, start.find('\n')));
+bool is_of_kind(std::string start, OutputKind kind) {
+  if (kind == OutputKind::table) return names_columns(start.substr(0, start.find('\n')));
   std::erase_if(start, [](unsigned char c) { return std::isspace(c); });
   std::ranges::transform(start, start.begin(), [](unsigned char c) { return std::tolower(c); });
   if (start.starts_with("\xef\xbb\xbf")) start.erase(0, 3);
@@ -81,15 +81,15 @@ bool is_set(const Command& command, const std::string& flag) {
 }
 
 // Nothing for stores and for what merges them, which look at these files themselves.
-std::optional<FileKind> kind_of(const Command& command, const std::string& option) {
-  if (option.ends_with("svg") || command.name == "draw") return FileKind::picture;
-  if (option == "--html") return FileKind::page;
-  if (option == "--junit") return FileKind::test_report;
-  if (option == "--csv") return FileKind::table;
-  if (option == "--write-baseline") return FileKind::known_failures;
-  if (option == "--disagreements") return FileKind::queries;
+std::optional<OutputKind> kind_of(const Command& command, const std::string& option) {
+  if (option.ends_with("svg") || command.name == "draw") return OutputKind::picture;
+  if (option == "--html") return OutputKind::page;
+  if (option == "--junit") return OutputKind::test_report;
+  if (option == "--csv") return OutputKind::table;
+  if (option == "--write-baseline") return OutputKind::known_failures;
+  if (option == "--disagreements") return OutputKind::queries;
   if (option == "--store" || command.name == "merge") return std::nullopt;
-  return is_set(command, "--queries") ? FileKind::queries : FileKind::golden_set;
+  return is_set(command, "--queries") ? OutputKind::queries : OutputKind::golden_set;
 }
 
 // The program's or the library's file, and files among the program's words: its source, its scene.
@@ -161,7 +161,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-void refuse_other_kinds(const std::string& path, FileKind kind, const std::string& by) {
+void refuse_other_kinds(const std::string& path, OutputKind kind, const std::string& by) {
   std::error_code error;
   if (!fs::is_regular_file(path, error) || fs::file_size(path, error) == 0) return;
   if (is_of_kind(beginning_of(path), kind)) return;

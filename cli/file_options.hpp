@@ -15,10 +15,10 @@ namespace lorentz::cli {
 /// pipes may be named several times.
 void check_files(const Command& command);
 
-enum class FileKind { golden_set, queries, picture, page, test_report, known_failures, table };
+enum class OutputKind { golden_set, queries, picture, page, test_report, known_failures, table };
 
 /// Throws InputError if there is a file that holds something and does not begin as one of this kind; the
 /// message begins with `by`, an option. Throws FileError if the file cannot be read.
-void refuse_other_kinds(const std::string& path, FileKind kind, const std::string& by = "");
+void refuse_other_kinds(const std::string& path, OutputKind kind, const std::string& by = "");
 
 }  // namespace lorentz::cli

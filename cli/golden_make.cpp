@@ -63,7 +63,7 @@ golden::RecordCounts make_file(const golden::Order& order, const std::string& pa
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_regular_file(path, error))
     throw FileError(path + ": is not a regular file; name another, or use standard output");
-  refuse_other_kinds(path, FileKind::golden_set);
+  refuse_other_kinds(path, OutputKind::golden_set);
   goes_on_when_repeated();
   const std::string part = path + ".part";
   if (fs::is_symlink(fs::symlink_status(part))) throw write_error(part, ELOOP);
@@ -115,7 +115,7 @@ int make_all(golden::Order order, const std::string& folder) {
     if (is_geometry && set.precision == NumberFormat::binary64) wide.push_back(in_folder(names.back()));
   }
   names.push_back("smoke/smoke.ndjson");
-  refuse_other_kinds(in_folder(names.back()), FileKind::golden_set);
+  refuse_other_kinds(in_folder(names.back()), OutputKind::golden_set);
   write_whole(in_folder(names.back()), smoke_of(wide));
   golden::write_index(folder, golden::index_of(folder, names), names);
   return kDone;

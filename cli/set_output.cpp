@@ -49,7 +49,7 @@ std::optional<std::string> folder_in(const std::optional<std::string>& path) {
   if (!fs::is_directory(*path)) throw FileError(*path + ": can't be made; name another folder");
   check_folder(*path);
   for (const fs::directory_entry& file : fs::directory_iterator(*path))
-    if (file.path().extension() == ".ndjson") refuse_other_kinds(file.path(), FileKind::golden_set);
+    if (file.path().extension() == ".ndjson") refuse_other_kinds(file.path(), OutputKind::golden_set);
   return path;
 }
 
