@@ -327,25 +327,25 @@ FlightPanel draw_flight(Svg& svg, const FindingCase& finding, const Panel& panel
 
 // The view along the flight, which appears as a point, with the shadows of the obstacles around it.
 void draw_side_view(Svg& svg, const FindingCase& finding, const Axes& axes, const Panel& panel) {
-  struct Shadow {
+  struct ShadowAlong {
     ObstacleId obstacle;
     double x, y;  // of its centre, in the unit of length
     EllipseShape shape;
   };
-  std::vector<Shadow> shadows;
+  std::vector<ShadowAlong> shadows;
   double reach = 0;
   for (const ObstacleId& id : marked_obstacles(finding)) {
     const Vec centre = finding.surroundings.centre(finding.query, PlaceOnLine::at(id), id);
     shadows.push_back({id, dot(centre, axes.depth), dot(centre, axes.across),
                        shadow_of(finding.atom_of(id), 3, axes.depth, axes.across)});
-    const Shadow& one = shadows.back();
+    const ShadowAlong& one = shadows.back();
     reach = std::max(reach, std::max(std::fabs(one.x), std::fabs(one.y)) + one.shape.rx);
   }
   if (!(reach > 0) || !std::isfinite(reach)) return;
   const double scale = 0.95 * panel.height / 2 / reach;
   const Point middle{panel.left + panel.width / 2, panel.middle()};
   open_clip(svg, panel);
-  for (const Shadow& one : shadows) {
+  for (const ShadowAlong& one : shadows) {
     const Ink ink = *ink_of(finding, one.obstacle);
     svg.ellipse({on_paper(middle.x + scale * one.x), on_paper(middle.y - scale * one.y)},
                 {on_paper(std::max(1.0, scale * one.shape.rx)), on_paper(std::max(1.0, scale * one.shape.ry)),

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kLongestHeader = 1 << 16, kLongestRow = 1 << 20, kLargestPart = 1 << 26;  // bytes
 constexpr std::string_view kReal = "f8", kInteger = "i1 i2 i4 i8 u1 u2 u4 u8";
 
-struct Field {
+struct NpyField {
   std::string name, type;                // "f8"; an array without fields has one without a name
   std::size_t bytes, count, offset = 0;  // of one number; of numbers; in the row
 };
@@ -39,10 +39,10 @@ std::string header_text(InputFile& file) {
 }
 
 // An array of shape (N,), or of shape (N, n) as N rows with a field of n numbers, read part by part.
-class Array {
+class NpyArray {
  public:
   // `expected` says in messages what the array must be.
-  Array(const std::string& path, const std::string& expected) : file(path) {
+  NpyArray(const std::string& path, const std::string& expected) : file(path) {
     try {
       understand(header_text(file), expected);
     } catch (const InputError& error) {
@@ -51,9 +51,9 @@ class Array {
   }
 
   // Throws InputError for a field of other types, and for one that must be there.
-  std::optional<Field> field(std::string_view name, std::string_view types, std::size_t count,
-                             bool must) const {
-    for (const Field& field : fields)
+  std::optional<NpyField> field(std::string_view name, std::string_view types, std::size_t count,
+                                bool must) const {
+    for (const NpyField& field : fields)
       if (field.name == name) {
         if (types.find(field.type) != types.npos && field.count == count) return field;
         must = true;
@@ -87,14 +87,14 @@ class Array {
 
   // A number of a row that was read last, whose field has these bytes or fewer.
   template <class Number>
-  Number number(std::size_t row, const Field& field, std::size_t k = 0) const {
+  Number number(std::size_t row, const NpyField& field, std::size_t k = 0) const {
     Number number{};
     std::memcpy(&number, &buffer_[row * row_bytes_ + field.offset + k * field.bytes],
                 std::min(field.bytes, sizeof number));
     return number;
   }
   // Nothing beyond the range of int64.
-  std::optional<std::int64_t> integer(std::size_t row, const Field& field, std::size_t k = 0) const {
+  std::optional<std::int64_t> integer(std::size_t row, const NpyField& field, std::size_t k = 0) const {
     const auto bits = number<std::uint64_t>(row, field, k);
     const std::size_t unused = 64 - 8 * field.bytes;
     if (field.type[0] == 'i') return static_cast<std::int64_t>(bits << unused) >> unused;
@@ -102,7 +102,7 @@ class Array {
   }
 
   InputFile file;
-  std::vector<Field> fields;
+  std::vector<NpyField> fields;
   std::uint64_t promised = 0, done = 0;  // rows; done: before those that were read last
 
  private:
@@ -137,7 +137,7 @@ class Array {
       throw InputError("is in Fortran order, column by column; save np.ascontiguousarray(ARRAY)");
     promised = std::stoull(part[3]);
     if (!has_fields) fields[0].count = std::stoull(part[4]);
-    for (Field& field : fields) {
+    for (NpyField& field : fields) {
       field.offset = row_bytes_;
       row_bytes_ += field.bytes * field.count;
       if (row_bytes_ > kLongestRow) throw InputError("its rows are longer than 1 MiB");
@@ -149,9 +149,9 @@ class Array {
   std::size_t row_bytes_ = 0, rows_ = 0, end_ = 0;  // in the buffer: of those read last; of all that it holds
 };
 
-class Queries final : public NpyQueryReader {
+class NpyQueries final : public NpyQueryReader {
  public:
-  Queries(const std::string& path, const std::string& d, const OnUnknownColumn& on_unknown_column)
+  NpyQueries(const std::string& path, const std::string& d, const OnUnknownColumn& on_unknown_column)
       : array_(path,
                "queries in " + d + " dimensions are float64 of shape (N, " +
                    std::to_string(2 * std::stoi(d)) +
@@ -161,7 +161,7 @@ class Queries final : public NpyQueryReader {
         d_(std::stoull(d)) {
     if (array_.fields[0].name.empty()) {  // columns of numbers
       const bool limits = array_.fields[0].count > 2 * d_;
-      Field column = *array_.field("", kReal, 2 * d_ + limits, true);
+      NpyField column = *array_.field("", kReal, 2 * d_ + limits, true);
       x_ = column, column.offset = 8 * d_;
       v_ = column, column.offset = 16 * d_;
       if (limits) max_time_ = column;
@@ -176,7 +176,7 @@ class Queries final : public NpyQueryReader {
       from_cell_ = array_.field("from_cell", kInteger, d_, leaves);
     }
     const std::vector<std::string> known = npy_query_fields();
-    for (const Field& field : array_.fields)
+    for (const NpyField& field : array_.fields)
       if (!field.name.empty() && std::find(known.begin(), known.end(), field.name) == known.end())
         on_unknown_column(name(), field.name);
   }
@@ -192,7 +192,7 @@ class Queries final : public NpyQueryReader {
   bool next(QueryRows& rows, std::size_t most) override {
     const std::size_t count = array_.read(most, before_waiting_);
     rows.first = array_.done;
-    const auto append = [&](std::vector<double>& column, const Field& field, std::size_t k) {
+    const auto append = [&](std::vector<double>& column, const NpyField& field, std::size_t k) {
       for (std::size_t i = 0; i < count; ++i) column.push_back(array_.number<double>(i, field, k));
     };
     for (std::size_t k = 0; k < d_; ++k) append(rows.x[k], *x_, k), append(rows.v[k], *v_, k);
@@ -205,7 +205,7 @@ class Queries final : public NpyQueryReader {
  private:
   void append_from(QueryRows& rows, std::size_t i) const {
     constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
-    const auto index = [&](const Field& field) {
+    const auto index = [&](const NpyField& field) {
       return static_cast<std::int32_t>(
           std::clamp<std::int64_t>(array_.integer(i, field).value_or(kMost), -1, kMost));
     };
@@ -220,14 +220,14 @@ class Queries final : public NpyQueryReader {
       rows.flaws.push_back({rows.count + i, "from_cell does not fit 64 bits with a sign"});
   }
 
-  Array array_;
+  NpyArray array_;
   const std::size_t d_;
-  std::optional<Field> x_, v_, max_time_, from_lattice_, from_atom_, from_cell_;
+  std::optional<NpyField> x_, v_, max_time_, from_lattice_, from_atom_, from_cell_;
 };
 
-class Answers final : public AnswerReader {
+class NpyAnswers final : public AnswerReader {
  public:
-  Answers(const std::string& path, const std::string& d)
+  NpyAnswers(const std::string& path, const std::string& d)
       : array_(path, "answers in " + d +
                          " dimensions are of shape (N,) with the fields outcome, lattice, atom, cell "
                          "(integers, the last of shape (" +
@@ -240,7 +240,8 @@ class Answers final : public AnswerReader {
     if (++row_ >= rows_) row_ = 0, rows_ = array_.read(1 << 10, [] {});
     if (rows_ == 0) return false;
     id = std::to_string(array_.done + row_);
-    const auto integer = [&](const Field& field, std::int64_t least, std::int64_t most, std::size_t k = 0) {
+    const auto integer = [&](const NpyField& field, std::int64_t least, std::int64_t most,
+                             std::size_t k = 0) {
       const auto value = array_.integer(row_, field, k);
       if (!value || *value < least || *value > most)
         throw InputError(name() + ": row " + id + ": is not an answer: " + field.name + " is out of range");
@@ -260,14 +261,14 @@ class Answers final : public AnswerReader {
   }
 
  private:
-  Field field(std::string_view name, std::size_t count = 1, std::string_view types = kInteger) const {
+  NpyField field(std::string_view name, std::size_t count = 1, std::string_view types = kInteger) const {
     return *array_.field(name, types, count, true);
   }
 
-  Array array_;
+  NpyArray array_;
   const std::size_t d_;
-  const Field outcome_ = field("outcome"), lattice_ = field("lattice"), atom_ = field("atom"),
-              cell_ = field("cell", d_), time_ = field("time", 1, "f8 f4");
+  const NpyField outcome_ = field("outcome"), lattice_ = field("lattice"), atom_ = field("atom"),
+                 cell_ = field("cell", d_), time_ = field("time", 1, "f8 f4");
   std::size_t row_ = 0, rows_ = 0;  // of those that were read last
 };
 
@@ -279,11 +280,11 @@ std::vector<std::string> npy_query_fields() {
 
 std::unique_ptr<NpyQueryReader> read_npy_queries(const std::string& path, int dimension,
                                                  const OnUnknownColumn& on_unknown_column) {
-  return std::make_unique<Queries>(path, std::to_string(dimension), on_unknown_column);
+  return std::make_unique<NpyQueries>(path, std::to_string(dimension), on_unknown_column);
 }
 
 std::unique_ptr<AnswerReader> read_npy_answers(const std::string& path, int dimension) {
-  return std::make_unique<Answers>(path, std::to_string(dimension));
+  return std::make_unique<NpyAnswers>(path, std::to_string(dimension));
 }
 
 }  // namespace lorentz
