@@ -22,7 +22,9 @@ std::unique_ptr<NpyQueryReader> read_npy_queries(const std::string& path, int di
 std::unique_ptr<AnswerReader> read_npy_answers(const std::string& path, int dimension);
 
 /// All fields that queries can have.
-std::vector<std::string> npy_query_fields();
+inline std::vector<std::string> npy_query_fields() {
+  return {"x", "v", "max_time", "from_lattice", "from_atom", "from_cell"};
+}
 
 /// The header of an array of `count` queries without limits: an array of numbers, or of fields if the queries
 /// leave obstacles. And its rows.

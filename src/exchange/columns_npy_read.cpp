@@ -85,17 +85,17 @@ class NpyArray {
     return rows_;
   }
 
-  // A number of a row that was read last, whose field has these bytes or fewer.
+  // A number of a row that was read last.
   template <class Number>
   Number number(std::size_t row, const NpyField& field, std::size_t k = 0) const {
-    Number number{};
-    std::memcpy(&number, &buffer_[row * row_bytes_ + field.offset + k * field.bytes],
-                std::min(field.bytes, sizeof number));
+    Number number;
+    std::memcpy(&number, &buffer_[row * row_bytes_ + field.offset + k * sizeof number], sizeof number);
     return number;
   }
   // Nothing beyond the range of int64.
   std::optional<std::int64_t> integer(std::size_t row, const NpyField& field, std::size_t k = 0) const {
-    const auto bits = number<std::uint64_t>(row, field, k);
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &buffer_[row * row_bytes_ + field.offset + k * field.bytes], field.bytes);
     const std::size_t unused = 64 - 8 * field.bytes;
     if (field.type[0] == 'i') return static_cast<std::int64_t>(bits << unused) >> unused;
     return bits >> 63 ? std::nullopt : std::optional(static_cast<std::int64_t>(bits));
@@ -153,11 +153,10 @@ class NpyQueries final : public NpyQueryReader {
  public:
   NpyQueries(const std::string& path, const std::string& d, const OnUnknownColumn& on_unknown_column)
       : array_(path,
-               "queries in " + d + " dimensions are float64 of shape (N, " +
-                   std::to_string(2 * std::stoi(d)) +
-                   "): x, v; or one column more, max_time; or of shape (N,) with the fields x, v (float64, "
-                   "shape (" +
-                   d + ",)), perhaps max_time, and from_lattice, from_atom, from_cell (integers)"),
+               "queries in d = " + d +
+                   " dimensions are float64 of shape (N, 2 d): x, v; or (N, 2 d + 1): max_time, too; or of "
+                   "shape (N,) with the fields x, v (float64, shape (d,)), perhaps max_time, and "
+                   "from_lattice, from_atom, from_cell (integers)"),
         d_(std::stoull(d)) {
     if (array_.fields[0].name.empty()) {  // columns of numbers
       const bool limits = array_.fields[0].count > 2 * d_;
@@ -228,10 +227,9 @@ class NpyQueries final : public NpyQueryReader {
 class NpyAnswers final : public AnswerReader {
  public:
   NpyAnswers(const std::string& path, const std::string& d)
-      : array_(path, "answers in " + d +
+      : array_(path, "answers in d = " + d +
                          " dimensions are of shape (N,) with the fields outcome, lattice, atom, cell "
-                         "(integers, the last of shape (" +
-                         d + ",)) and time (float64 or float32)"),
+                         "(integers, the last of shape (d,)) and time (float64 or float32)"),
         d_(std::stoull(d)) {}
 
   const std::string& name() const override { return array_.file.name(); }
@@ -273,10 +271,6 @@ class NpyAnswers final : public AnswerReader {
 };
 
 }  // namespace
-
-std::vector<std::string> npy_query_fields() {
-  return {"x", "v", "max_time", "from_lattice", "from_atom", "from_cell"};
-}
 
 std::unique_ptr<NpyQueryReader> read_npy_queries(const std::string& path, int dimension,
                                                  const OnUnknownColumn& on_unknown_column) {

@@ -29,9 +29,9 @@ void put(char*& place, Number number) {
 }
 
 // The codes of docs/formats.md.
-static_assert(static_cast<int>(Outcome::hit) == 0 && static_cast<int>(Outcome::never) == 1 &&
-              static_cast<int>(Outcome::inside) == 2 && static_cast<int>(Outcome::later) == 3 &&
-              static_cast<int>(Outcome::undecided) == 4 && static_cast<int>(Outcome::error) == 5);
+static_assert(Outcome{0} == Outcome::hit && Outcome{1} == Outcome::never && Outcome{2} == Outcome::inside &&
+              Outcome{3} == Outcome::later && Outcome{4} == Outcome::undecided &&
+              Outcome{5} == Outcome::error);
 
 }  // namespace
 

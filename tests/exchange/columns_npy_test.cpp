@@ -211,7 +211,8 @@ TEST_CASE("Arrays that are not queries are refused, with what they are and the r
     std::string header = good;
     header.replace(header.find(from), from.size(), to);
     says(npy_file(header, std::string(100, '\0')), "is an array with the header ");
-    says(npy_file(header, std::string(100, '\0')), "; queries in 2 dimensions are float64 of shape (N, 4)");
+    says(npy_file(header, std::string(100, '\0')),
+         "; queries in d = 2 dimensions are float64 of shape (N, 2 d)");
   }
   for (const char* description : {"[('x', '<f8', (2,))]", "[('x', '<f8', (3,)), ('v', '<f8', (3,))]",
                                   "[('x', '<f8', (2,)), ('v', '<f4', (2,))]",
