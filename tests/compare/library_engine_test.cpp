@@ -428,7 +428,7 @@ TEST_CASE("A library that hangs ends with this program, even if that is killed",
 
 TEST_CASE("Why a library cannot be started, and what helps", "[compare][library_engine]") {
   const Folder folder;
-  const Run run = folder.run("ulimit -n 12; " LORENTZ_PROGRAM " first-hit --engine " + kOdd + " " +
+  const Run run = folder.run("ulimit -n 9; " LORENTZ_PROGRAM " first-hit --engine " + kOdd + " " +
                              folder.write("q", odd_stream(2)));
   CHECK(run.status == 3);
   CHECK(contains(run.err, "cannot be started: Too many open files; allow more open files (ulimit -n)"));
