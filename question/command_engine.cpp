@@ -362,12 +362,10 @@ class CommandEngine final : public ExternalAnswerer {
     return true;
   }
 
-  // `{"library":"prepares"}`
   bool take_doing(const LineReader::Line& line) {
-    constexpr std::string_view kKey = R"({"library":")", kEnd = R"("})";
-    if (!is_library_ || !line.text.starts_with(kKey) || !line.text.ends_with(kEnd)) return false;
-    run_->doing = line.text.substr(kKey.size(), line.text.size() - kKey.size() - kEnd.size());
-    return true;
+    const auto doing = is_library_ ? doing_in(line.text) : std::nullopt;
+    if (doing) run_->doing = *doing;
+    return doing.has_value();
   }
 
   // Takes a line that answers nothing. The next answer shows whether it stands in the place of an answer.

@@ -107,4 +107,12 @@ std::optional<OwnTime> own_time_in(std::string_view line) {
   return is_there ? std::optional(time) : std::nullopt;
 }
 
+std::optional<std::string> doing_in(std::string_view line) {
+  std::string doing;
+  const bool is_there = read_first(line, "library", [&](std::string_view key, json::Value value) {
+    if (key == "does") doing = value.text();
+  });
+  return is_there ? std::optional(doing) : std::nullopt;
+}
+
 }  // namespace lorentz::question

@@ -51,4 +51,8 @@ struct OwnTime {
 /// for impossible numbers.
 std::optional<OwnTime> own_time_in(std::string_view line);
 
+/// Reads `{"library":{"does":..}}`, by which the program of a library says what the library is called for.
+/// Returns nothing for another line.
+std::optional<std::string> doing_in(std::string_view line);
+
 }  // namespace lorentz::question

@@ -118,7 +118,7 @@ Round run_round(const std::deque<ColumnsThere>& all, const std::string& name, co
 }
 
 // `place` is that of the question before, and becomes that of the last.
-void ask(Questions questions, Answerer& program, const Place*& place) {
+void ask_program(Questions questions, Answerer& program, const Place*& place) {
   for (const Question& question : questions) {
     if (question.place.get() != place) program.set_scene((place = question.place.get())->scene());
     program.ask(question.id, question.query);
@@ -133,7 +133,7 @@ Round run_round_by_own_time(Questions questions, Answerer& program) {
   const Place* place = nullptr;
   round.time_blocks(questions.size(), kPart, [&](std::size_t begin, std::size_t end) {
     const double before = program.own_time()->seconds;
-    ask(questions.subspan(begin, end - begin), program, place);
+    ask_program(questions.subspan(begin, end - begin), program, place);
     return 1e9 * (program.own_time()->seconds - before);
   });
   return round;
@@ -146,7 +146,7 @@ Round run_round(Questions questions, Answerer& program, const std::string& name,
   const std::optional<double> spent = program.processor_seconds();
   const auto start = SteadyClock::now();
   const Place* place = nullptr;
-  ask(questions, program, place);
+  ask_program(questions, program, place);
   const double ns = ns_since(start);
   Round round{ns, questions.size(), {ns / static_cast<double>(std::max<std::size_t>(answered, 1))}};
   if (spent) round.processor_ns = 1e9 * (*program.processor_seconds() - *spent);

@@ -2,7 +2,7 @@
 // project's and writes an answer stream (docs/command_engines.md). It asks the library about at most ROWS
 // queries a call. What the library writes to standard output goes to standard error.
 //
-// Besides the answers it writes the time of each call, `{"library":"prepares"}` and the like before calls that
+// Besides the answers it writes the time of each call, `{"library":{"does":"prepares"}}` and the like before calls that
 // are about no query, and an `error` that is not "unsupported" for a fault of the library's.
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -46,9 +46,9 @@ void* end_with_reader(void* output) {
   std::_Exit(EXIT_FAILURE);
 }
 
-class Output {
+class HostOutput {
  public:
-  Output() : descriptor_(fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, kPrivate)) {
+  HostOutput() : descriptor_(fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, kPrivate)) {
     dup2(STDERR_FILENO, STDOUT_FILENO);
     sigset_t all, before;
     sigfillset(&all);
@@ -154,7 +154,7 @@ struct HostScene {
 
 class Host {
  public:
-  Host(const Output& output, const Library& library, std::int32_t threads, std::size_t most_rows)
+  Host(const HostOutput& output, const Library& library, std::int32_t threads, std::size_t most_rows)
       : output_(output), library_(library), threads_(threads), most_rows_(most_rows) {}
   ~Host() { release(); }
   Host(const Host&) = delete;
@@ -162,8 +162,7 @@ class Host {
 
   void take(std::string_view text) {
     Scan line(text);
-    line.expect("{");
-    if (line.skip("\"scene\":")) {
+    if (line.skip_key("scene")) {
       answer();
       return prepare(scan_scene(line));
     }
@@ -199,7 +198,10 @@ class Host {
   static constexpr const char* kBeyond = "lib: the cell of `from` is beyond 64 bits";
 
   void tell(const Id& id, const Answer& answer) { append_answer_line(text_, id, answer, scene_->components); }
-  void doing(const char* what) const { output_.write(std::string("{\"library\":\"") + what + "\"}\n"); }
+  void doing(const char* what) const {
+    output_.write(json::line_of(
+        [&](json::Members& line) { line.add("library", [&](json::Members& it) { it.add("does", what); }); }));
+  }
 
   void release() {
     if (!engine_) return;
@@ -300,7 +302,7 @@ class Host {
 
   static constexpr std::int32_t kNone = -1;  // as outcome
 
-  const Output& output_;
+  const HostOutput& output_;
   const Library& library_;
   const std::int32_t threads_;
   const std::size_t most_rows_;
@@ -322,7 +324,7 @@ bool has_more(int descriptor) {
   return ::poll(&input, 1, 0) > 0;
 }
 
-int fail(const Output& output, const std::string& why) {
+int fail(const HostOutput& output, const std::string& why) {
   std::string line;
   append_answer_line(line, "null", Answer::error(why), 2);
   output.write(line);
@@ -330,8 +332,8 @@ int fail(const Output& output, const std::string& why) {
 }
 
 // The line that the library claims to be judged by.
-int introduce(const Output& output, const Library& library) {
-  const char* const claim = library.claim ? library.claim() : "{\"engine\":{}}";
+int introduce(const HostOutput& output, const Library& library) {
+  const char* const claim = library.claim ? library.claim() : nullptr;
   const std::size_t size = claim ? strnlen(claim, kMostText) : 0;
   if (size == kMostText)
     return fail(output, "claims more than 1 MiB of text; lorentz_engine_claim returns one line of JSON");
@@ -341,7 +343,7 @@ int introduce(const Output& output, const Library& library) {
 
 int run(const std::string& file, std::int32_t threads, std::size_t most_rows) {
   LineReader input(input_file());
-  const Output output;
+  const HostOutput output;
   Library library;
   if (const std::string fault = load(file, library); !fault.empty()) return fail(output, fault);
   Host host(output, library, threads, most_rows);

@@ -24,6 +24,16 @@ class Scan {
     left_.remove_prefix(text.size());
     return true;
   }
+  /// The name of a member, behind the brace or the comma in front of it.
+  bool skip_key(std::string_view name) {
+    const std::string_view before = left_;
+    if ((skip("{") || skip(",")) && skip("\"") && skip(name) && skip("\":")) return true;
+    left_ = before;
+    return false;
+  }
+  void expect_key(std::string_view name) {
+    if (!skip_key(name)) throw std::runtime_error("expected the key " + std::string(name));
+  }
   void expect(std::string_view text) {
     if (!skip(text)) throw std::runtime_error("expected " + std::string(text) + " at " + std::string(left_));
   }
@@ -76,30 +86,30 @@ class Scan {
 
 inline Atom scan_atom(Scan& line) {
   Atom atom;
-  line.expect("{\"position\":");
+  line.expect_key("position");
   atom.position = line.vector();
-  if (line.skip(",\"radius\":")) {
+  if (line.skip_key("radius")) {
     atom.radius = line.number();
   } else {
-    line.expect(",\"semiaxes\":");
+    line.expect_key("semiaxes");
     line.each([&](int) { atom.semiaxes.push_back(line.vector()); });
   }
   line.expect("}");
   return atom;
 }
 
-/// The scene behind `{"scene":`.
+/// The scene, behind its key.
 inline Scene scan_scene(Scan& line) {
   Scene scene;
-  line.expect("{\"dimension\":");
+  line.expect_key("dimension");
   scene.dimension = static_cast<int>(line.integer().value());
-  line.expect(",\"lattices\":");
+  line.expect_key("lattices");
   line.each([&](int) {
     Lattice& lattice = scene.lattices.emplace_back();
-    line.expect("{\"vectors\":");
+    line.expect_key("vectors");
     const auto read = [&](int k) { lattice.vectors.at(static_cast<std::size_t>(k)) = line.vector(); };
     lattice.missing = scene.dimension - line.each(read);
-    line.expect(",\"atoms\":");
+    line.expect_key("atoms");
     line.each([&](int) { lattice.atoms.push_back(scan_atom(line)); });
     line.expect("}");
   });
@@ -115,20 +125,20 @@ struct ScannedQuery {
   bool fits = true;
 };
 
-/// The query behind `{`.
 inline ScannedQuery scan_query(Scan& line) {
   ScannedQuery query;
-  line.expect("\"id\":");
+  line.expect_key("id");
   query.id = line.whole_number();
-  line.expect(",\"x\":");
+  line.expect_key("x");
   query.x = line.vector();
-  line.expect(",\"v\":");
+  line.expect_key("v");
   query.v = line.vector();
-  if (!line.skip(",\"from\":{\"lattice\":")) return query;
+  if (!line.skip_key("from")) return query;
+  line.expect_key("lattice");
   query.from_lattice = static_cast<int>(line.integer().value());
-  line.expect(",\"atom\":");
+  line.expect_key("atom");
   query.from_atom = static_cast<int>(line.integer().value());
-  line.expect(",\"cell\":");
+  line.expect_key("cell");
   line.each([&](int k) {
     const auto component = line.integer();
     query.fits = query.fits && component;
