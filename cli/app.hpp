@@ -32,14 +32,11 @@ Command scene_draw_command();
 
 // The parts of `lorentz golden`.
 Command golden_make_command();
-Command golden_add_command();
 Command golden_check_command();
 Command golden_verify_command();
 Command golden_explain_command();
 Command golden_export_command();
-Command golden_merge_command();
 Command golden_filter_command();
-Command golden_sample_command();
 
 // The parts of `lorentz fuzz`.
 Command fuzz_list_command();

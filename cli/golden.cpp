@@ -58,7 +58,7 @@ Command golden_index_command() {
   return {"index",
           "Writes index.json, schema.json and SHA256SUMS beside the sets in a folder.",
           {{"folder", folder.get(), "FOLDER", "with sets, *.ndjson", kRequired}},
-          "Example:\n  mkdir mine; lorentz golden sample --count 20 ties > mine/ties.ndjson; "
+          "Example:\n  mkdir mine; lorentz golden filter --tag superposed ties > mine/ties.ndjson; "
           "lorentz golden index mine",
           [folder] {
             write_beside_sets(*folder);
@@ -78,9 +78,8 @@ Command golden_command() {
       "Example:\n  lorentz golden check --engine reduction near-rational\n"
       "docs/formats.md has the format, docs/certificates.md the proofs, data/README.md the committed sets.",
       {},
-      {golden_make_command(), golden_add_command(), golden_check_command(), golden_verify_command(),
-       golden_explain_command(), golden_export_command(), golden_merge_command(), golden_filter_command(),
-       golden_sample_command(), golden_index_command(), golden_list_command()}};
+      {golden_make_command(), golden_check_command(), golden_verify_command(), golden_explain_command(),
+       golden_export_command(), golden_filter_command(), golden_index_command(), golden_list_command()}};
 }
 
 }  // namespace lorentz::cli

@@ -16,8 +16,6 @@ class Selection {
   /// Throws InputError, also if its precision or format differs from that of the sets before.
   void add(Reader& set, const std::function<bool(const Record&)>& takes);
 
-  bool has(const std::string& id) const { return by_id_.contains(id); }
-
   /// Keeps `count` records: in turn the first of each tag of each set, until there are enough.
   void thin(std::size_t count);
 

@@ -1,4 +1,4 @@
-// lorentz golden merge, filter, sample, add, index: sets of one's own, and what belongs beside them.
+// lorentz golden filter, index, make: sets of one's own, and what belongs beside them.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -6,12 +6,14 @@
 #include <set>
 #include <sstream>
 
+#include "golden/find_sets.hpp"
+#include "golden/selection.hpp"
 #include "tests/golden/golden_support.hpp"
 
 using namespace lorentz;
 using namespace lorentz::test;
 
-TEST_CASE("golden merge, filter and sample keep records as they are", "[golden][own_sets]") {
+TEST_CASE("golden filter keeps records as they are", "[golden][own_sets]") {
   const Folder folder;
   const auto made = [&](const std::string& arguments) {
     const Run run = folder.lorentz("golden " + arguments);
@@ -26,7 +28,7 @@ TEST_CASE("golden merge, filter and sample keep records as they are", "[golden][
     return records;
   };
   const std::string smoke = LORENTZ_SOURCE_DIR "/data/golden/smoke/smoke.ndjson";
-  const auto ball = made("merge ball-2d"), both = made("merge ball-2d ball-3d " + smoke);
+  const auto ball = made("filter ball-2d"), both = made("filter ball-2d ball-3d " + smoke);
   CHECK(ball.size() == 640);
   CHECK((both.size() > 1280 && both.size() < 1380));  // those of smoke that are in one of them once
   CHECK(std::ranges::includes(both, ball));
@@ -43,27 +45,16 @@ TEST_CASE("golden merge, filter and sample keep records as they are", "[golden][
   const auto near = made("filter --without far-origin ball-2d ball-3d");
   CHECK(near.size() + made("filter --tag far-origin ball-2d ball-3d").size() == 1280);
   for (const std::string& record : near) CHECK_FALSE(contains(record, "far-origin"));
-  const auto few = made("sample --count 30 ball-2d ball-3d");
-  CHECK(few.size() == 30);
-  CHECK(made("sample --count 1000000 ball-2d").size() == 640);
-  // One of each of the seven tags of `ties`, of which some come first after hundreds of records.
-  std::string tags;
-  for (const std::string& record : made("sample --count 7 ties")) tags += between(record, "\"tags\":[", "]");
-  for (const char* tag : {"identical-atoms", "within-ulps", "mirrored", "overlapping-neighbours",
-                          "superposed", "needs-judge", "shared-point"})
-    CHECK_THAT(tags, Catch::Contains(tag));
-  for (const std::string& record : made("sample --count 7 --without needs-judge ties"))
-    CHECK_FALSE(contains(record, "needs-judge"));
-  CHECK(folder.lorentz("golden merge ball-2d ball-2d-binary32").status == 2);
+  CHECK(folder.lorentz("golden filter ball-2d ball-2d-binary32").status == 2);
 }
 
 TEST_CASE("golden index: index, schema and sums beside sets, and no other file overwritten",
           "[golden][own_sets]") {
   const Folder folder;
   fs::create_directory(folder.file("sets"));
-  const std::string set = folder.lorentz("golden sample --count 9 ties").out;
+  const std::string set = folder.lorentz("golden make --set ties --count 9").out;
   folder.write("sets/two.ndjson", set);
-  folder.write("sets/one.ndjson", folder.lorentz("golden sample --count 4 grazing").out);
+  folder.write("sets/one.ndjson", folder.lorentz("golden make --set grazing --count 4").out);
   const std::string index = "golden index " + folder.file("sets");
   CHECK(folder.lorentz(index).status == 0);
   CHECK(std::system(("cd " + folder.file("sets") + " && sha256sum --quiet --check SHA256SUMS").c_str()) == 0);
@@ -73,7 +64,7 @@ TEST_CASE("golden index: index, schema and sums beside sets, and no other file o
   CHECK_THAT(folder.read("sets/index.json"),
              Catch::Contains("\"file\":\"one.ndjson\"") && Catch::Contains("\"count\":9,"));
   // Again, of a set that has changed; a schema of one's own stays.
-  folder.write("sets/two.ndjson", folder.lorentz("golden sample --count 8 ties").out);
+  folder.write("sets/two.ndjson", folder.lorentz("golden make --set ties --count 8").out);
   folder.write("sets/schema.json", "{}");
   CHECK(folder.lorentz(index).status == 0);
   CHECK_THAT(folder.read("sets/index.json"), Catch::Contains("\"count\":8,"));
@@ -88,27 +79,20 @@ TEST_CASE("golden index: index, schema and sums beside sets, and no other file o
   CHECK(folder.read("sets/SHA256SUMS") == "of mine");
 }
 
-TEST_CASE("golden add: records of more queries, each question once", "[golden][own_sets]") {
-  const Folder folder;
-  const std::string queries = folder.write("queries", folder.lorentz("sample --scene square --count 5").out);
-  const std::string old = folder.write("old.ndjson", folder.lorentz("golden sample --count 9 ties").out);
-  const Run run = folder.lorentz("golden add " + old + " --queries " + queries + " --tag mine=of-me");
-  CHECK(run.status == 0);
-  const std::string set = folder.write("set.ndjson", run.out);
-  CHECK(contains(run.out, "\"count\":14,"));
-  CHECK(contains(run.out, "\"mine\":\"of-me\""));
-  CHECK(contains(run.out, folder.read("old.ndjson").substr(folder.read("old.ndjson").rfind("{\"id\""))));
-  CHECK(folder.lorentz("golden verify " + set).status == 0);
-  // Asked again, nothing is new; the set is never what is written.
-  const Run again = folder.lorentz("golden add " + set + " --queries " + queries + " --tag mine=of-me");
-  CHECK(again.status == 0);
-  CHECK(contains(again.err, "set.ndjson: has 5 of the questions already"));
-  CHECK_FALSE(contains(again.err, "answers agreed"));  // that is: nothing was answered
-  CHECK(again.out.substr(again.out.find('\n')) == run.out.substr(run.out.find('\n')));
-  CHECK(folder.lorentz("golden add " + set + " --queries " + queries + " -o " + set).status == 2);
-  CHECK(folder.read("set.ndjson") == run.out);
-  CHECK(folder.lorentz("golden add ties-binary32 --queries " + queries).status == 2);
-  CHECK(folder.lorentz("golden add " + set).status == 2);
+TEST_CASE("A selection is thinned by tags: in turn one of each tag of each set", "[golden][own_sets]") {
+  golden::Selection selection;
+  golden::Reader ties(golden::find_set("ties"));
+  selection.add(ties, [](const golden::Record&) { return true; });
+  // Seven tags, of which some come first after hundreds of records.
+  selection.thin(7);
+  CHECK(selection.size() == 7);
+  const std::string text = selection.text({.name = "few"});
+  const std::string records = text.substr(text.find("{\"id\""));
+  for (const char* tag : {"identical-atoms", "within-ulps", "mirrored", "overlapping-neighbours",
+                          "superposed", "needs-judge", "shared-point"})
+    CHECK_THAT(records, Catch::Contains(tag));
+  selection.thin(1'000'000);
+  CHECK(selection.size() == 7);
 }
 
 TEST_CASE("A set is written into a folder with what belongs beside it", "[golden][own_sets]") {
@@ -117,11 +101,11 @@ TEST_CASE("A set is written into a folder with what belongs beside it", "[golden
   folder.lorentz("fuzz -e published -t corridor --count 5 --store " + store);
   const std::string queries = folder.write("queries", folder.lorentz("sample --scene square --count 2").out);
   const std::string golden =
-      folder.write("golden.ndjson", folder.lorentz("golden sample --count 3 ties").out);
+      folder.write("golden.ndjson", folder.lorentz("golden make --set ties --count 3").out);
   for (const std::string& command :
        std::vector<std::string>{"fuzz export --store " + store + " -o " + mine,
                                 "judge -e published --questions 2 --golden " + mine,
-                                "golden add " + golden + " --queries " + queries + " -o " + mine}) {
+                                "golden make --queries " + queries + " -o " + mine}) {
     INFO(command);
     CHECK(folder.lorentz(command).status < 2);
     CHECK(std::system(("cd " + mine + " && sha256sum --quiet --check SHA256SUMS").c_str()) == 0);

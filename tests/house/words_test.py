@@ -14,7 +14,7 @@ TYPE = re.compile(r"^\s*(?:struct|class|enum class|enum|union)\s+(?:\[\[\w+\]\]\
 # A key of JSON with a value put behind it: `"{\"id\":" + id`, `",\"x\":{}"`.
 GLUED = re.compile(r'\\"\w+\\":(?:"|\{\}|\[\{\}|\\"\{)')
 TEXTS_OF_THEIR_OWN = {"cases/bad_queries.cpp",  # bad on purpose
-                      "golden/production.cpp", "fuzz/harness/stores.cpp"}  # read what begins so
+                      "golden/production.cpp"}  # reads what begins so
 
 
 def sources():

@@ -1,0 +1,55 @@
+"""The house does not grow: measures_test.py SOURCE PROGRAM counts what a reader has to know, and holds it below a limit.
+
+A limit is lowered when less is reached, and never raised: a change that adds a concept names the one that it removes.
+"""
+
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SOURCE = Path(sys.argv.pop(1))
+PROGRAM = sys.argv.pop(1)
+NO_PRODUCTION = ("tests", "examples", "bench", "proof", "build", "fuzz/planted")
+TYPE = re.compile(r"^ *(?:template <.*> *)?(?:struct|class|enum(?: class)?) +\w+(?: final)?(?: *:[^;{]*)? *\{", re.MULTILINE)
+
+LIMITS = {"lines of production C++": 0, "type definitions": 0, "libraries": 0, "subcommands": 0, "options": 0}
+
+
+def sources():
+    for path in SOURCE.rglob("*"):
+        if path.suffix in (".cpp", ".hpp", ".h") and not path.relative_to(SOURCE).as_posix().startswith(NO_PRODUCTION):
+            yield path.read_text()
+
+
+def manuals():
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([PROGRAM, "--manuals", folder], check=True)
+        return [path.read_text() for path in Path(folder).glob("*.1")]
+
+
+def counted():
+    texts, pages = list(sources()), manuals()
+    names = r"^\\fB(?:\\-\w\\fR, \\fB)?\\-\\-"
+    return {"lines of production C++": sum(text.count("\n") for text in texts),
+            "type definitions": sum(len(TYPE.findall(text)) for text in texts),
+            "libraries": sum(len(re.findall(r"^lorentz_library\(", path.read_text(), re.MULTILINE))
+                             for path in SOURCE.rglob("CMakeLists.txt")),
+            "subcommands": len(pages) - 1,
+            "options": sum(len(re.findall(names, page, re.MULTILINE)) - 1 for page in pages)}  # --help has no page of its own
+
+
+class Measures(unittest.TestCase):
+    def test_nothing_is_above_its_limit(self):
+        now = counted()
+        print(now)
+        for name, limit in LIMITS.items():
+            with self.subTest(name):
+                self.assertGreater(now[name], limit // 2, "is it still counted?")
+                self.assertLessEqual(now[name], limit)
+
+
+if __name__ == "__main__":
+    unittest.main()
