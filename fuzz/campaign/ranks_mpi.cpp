@@ -15,6 +15,16 @@
 #include "fuzz/campaign/ranks.hpp"
 #include "runs/world_mpi.hpp"
 
+// Boost.Serialization looks for it beside the type.
+namespace lorentz::question {
+
+template <class Archive>
+void serialize(Archive& archive, Counts& counts, unsigned) {
+  for (const CountName& name : kCountNames) archive& counts[name.count];
+}
+
+}  // namespace lorentz::question
+
 namespace lorentz::fuzz {
 namespace {
 
@@ -44,10 +54,6 @@ void transfer(Archive& archive, std::optional<T>& value) {
 template <class Archive>
 void serialize(Archive& archive, Stint& s, unsigned) {
   archive& s.target& s.begin& s.end;
-}
-template <class Archive>
-void serialize(Archive& archive, question::Counts& counts, unsigned) {
-  for (const question::CountName& name : question::kCountNames) archive& counts[name.count];
 }
 template <class Archive>
 void serialize(Archive& archive, TargetTally& a, unsigned) {
