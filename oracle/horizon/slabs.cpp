@@ -15,6 +15,7 @@ constexpr std::size_t kMostCandidates = 2'000'000;  // normals: pairs of points
 constexpr std::size_t kMostSlabWork = 20'000'000;   // blocks
 constexpr double kMostCopies = 1e5;                 // blocks in a common period
 constexpr std::size_t kMostCounted = 64;            // lattices: those that leave the fewest normals
+constexpr std::size_t kMostPairs = 2000;            // of lattices, whose normals in common are looked for
 constexpr std::size_t kPairWork = 10;               // for the periods of two lattices, in blocks
 
 // A ball of reciprocal lattice points that holds the normal of every slab.
@@ -235,12 +236,13 @@ struct SlabSearch {
     return false;
   }
 
-  // Two lattices usually have only a few normals in common, however many each of them has. False if they may
-  // have many.
+  // Two lattices usually have only a few normals in common, however many each of them has. False if the first
+  // kMostPairs pairs may have many.
   bool look_along_common() {
+    std::size_t left = kMostPairs;
     if constexpr (D == 2)
       for (std::size_t i = 0; i < scene.lattices.size(); ++i)
-        for (std::size_t k = i + 1; k < scene.lattices.size(); ++k)
+        for (std::size_t k = i + 1; k < scene.lattices.size() && left > 0; ++k, --left)
           if (const auto normals = common_normals(scene.lattices[i], scene.lattices[k])) {
             for (const ZVec<2>& normal : *normals) look_along(normal);
             return true;

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <numeric>
 #include <set>
 
@@ -575,6 +576,16 @@ TEST_CASE("Horizon: no planar channel, no tail like 1/t", "[oracle][horizon]") {
   CHECK(horizon_of(unit_scene(3, 0.55)).tail_constant == 0.0);  // cylinders; overlaps do not matter
   CHECK_FALSE(horizon_of(unit_scene(2, 0.5), 0.1).tail_constant.has_value());
   CHECK_FALSE(horizon_of(unit_scene(2, 0.25), 0.9).tail_constant.has_value());
+}
+
+TEST_CASE("Horizon: of very many superposed lattices a few pairs are looked at", "[oracle][horizon]") {
+  Scene scene = unit_scene(2, 1e-4);
+  for (int i = 1; i < 20'000; ++i) {
+    scene.lattices.push_back(scene.lattices[0]);
+    scene.lattices.back().atoms[0].position = {std::fmod(0.61803 * i, 1), std::fmod(0.7548 * i, 1), 0};
+  }
+  // All 2e8 pairs would take a quarter of an hour.
+  CHECK_THROWS_AS(oracle::horizon_of(scene), oracle::TooManyChannels);
 }
 
 TEST_CASE("Horizon: finite is what is known to have nothing open", "[oracle][horizon]") {
