@@ -65,13 +65,13 @@ TEST_CASE("What grazes at r = 1e-6 is beyond 24 bits and 53, and not beyond 106"
     examine(all_of(questions), *engine.answerer({}), oracle::kDefaultUlps,
             [&](const Judged& judged) { tally.count(judged.judgement); });
   }
-  CHECK(tallies[0].wrong > 40);  // 48 seen
-  CHECK(tallies[1].wrong == 0);
-  CHECK(tallies[1].ill_posed > 8);
-  CHECK(tallies[1].wrong_time > 20);
+  CHECK(tallies[0][question::Count::wrong] > 40);  // 48 seen
+  CHECK(tallies[1][question::Count::wrong] == 0);
+  CHECK(tallies[1][question::Count::ill_posed] > 8);
+  CHECK(tallies[1][question::Count::wrong_time] > 20);
   for (std::size_t i = 2; i < tallies.size(); ++i) {
     INFO(tallies[i].name);
-    CHECK(tallies[i].agree == 60);
+    CHECK(tallies[i][question::Count::agree] == 60);
     CHECK(tallies[i].max_ulp() <= (i == 2 ? 1 : 0));  // times are rounded rightly
   }
 }
