@@ -62,11 +62,11 @@ std::vector<std::string> data_files(const std::string& folder, const std::string
 std::string data_places(const std::string& folder) {
   std::set<std::string> places;
   for (const fs::path& data : data_folders()) places.insert((data / folder).lexically_normal().string());
+  const std::string searched = fmt::format("{}", fmt::join(places, ", "));
   std::error_code error;
-  const bool knows_itself = fs::exists("/proc/self/exe", error);
-  return fmt::format(
-      "{}{}", fmt::join(places, ", "),
-      knows_itself ? "" : "; where the program lies is not known without /proc; set LORENTZ_DATA");
+  if (fs::exists("/proc/self/exe", error)) return searched;
+  return searched + (searched.empty() ? "" : "; ") +
+         "where the program lies is not known without /proc; set LORENTZ_DATA";
 }
 
 }  // namespace lorentz

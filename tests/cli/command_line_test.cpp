@@ -205,6 +205,46 @@ TEST_CASE("Names of scenes: the catalogue, files, and neither", "[cli][command_l
                  "takes the place of --scene"));
 }
 
+TEST_CASE("A list with an empty item is bad usage, in every option that takes one", "[cli][command_line]") {
+  const Folder folder;
+  for (const std::string arguments :
+       {"flights --count 10 --radius 0.1,,0.2", "flights --count 10 --scene square,,cubic",
+        "flights --count 10 --radius 0.1,", "lyapunov --collisions 10 --radius ,0.1", "bench --scene ,",
+        "bench --difficulty drawn,,grazing", "survival --count 1 --bits 53,,106",
+        "fuzz -e reduction -t never,", "compare --count 5 -e reduction,,batch",
+        "golden check -e ,reduction ties", "scene draw square --window 0,0,1,",
+        "scene draw square --window 0,,1,1"}) {
+    const Run run = folder.lorentz(arguments);
+    INFO(arguments << '\n' << run.err);
+    CHECK(run.status == 2);
+    CHECK(contains(run.err, "an item is empty in the list"));
+  }
+  // A command keeps its commas.
+  CHECK(
+      contains(folder.lorentz("compare --count 5 -e 'reduction,cmd:sh -c \"exit 3,,4\"'").out, "exit 3,,4"));
+}
+
+TEST_CASE("A cause is told as what it is", "[cli][command_line]") {
+  const Folder folder;
+  const auto says = [&](const std::string& command, int status, const std::string& why) {
+    const Run run = folder.run(command);
+    INFO(command << '\n' << run.err);
+    CHECK(run.status == status);
+    CHECK(contains(run.err, why));
+  };
+  const std::string program = LORENTZ_PROGRAM;
+  for (const auto& [text, what] :
+       {std::pair{"{\"a\":1}", "is JSON"}, {"\x93NUMPY\1", "is a binary file"}, {"<testsuites/>", "is XML"}})
+    says(program + " fuzz -e reduction --count 1 --baseline " + folder.write("known", text), 2,
+         std::string("known ") + what + ", not a list of known failures");
+  CHECK(folder.run("LORENTZ_DATA= " + program + " scene show square").status == 0);
+  says(program + " scene show " + folder.write("blank.toml", std::string(40 << 20, ' ')), 2,
+       "is longer than 32 MiB");
+#ifndef __SANITIZE_ADDRESS__  // which takes more room for addresses than this leaves
+  says("ulimit -v 900000; " + program + " flights --jobs 1024 --count 1e6", 3, "ask for fewer (--jobs 1)");
+#endif
+}
+
 TEST_CASE("convergents prints the expansion", "[cli][command_line]") {
   const Folder folder;
   const Run run = folder.lorentz("convergents 3.141592653589793");

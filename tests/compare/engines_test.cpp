@@ -52,11 +52,16 @@ TEST_CASE("Every engine in the table answers in a scene", "[compare][engines]") 
   }
 }
 
-TEST_CASE("Names come in lists and alone, and one that is empty is one", "[compare][engines]") {
-  CHECK(names_in({"oracle", "walk,batch"}) == Names{"oracle", "walk", "batch"});
-  CHECK(names_in({"oracle,", "", ",walk"}) == Names{"oracle", "", "", "", "walk"});
-  CHECK(names_in({"cmd:a,b", "oracle,cmd:a,b,"}) == Names{"cmd:a,b", "oracle", "cmd:a,b,"});
-  CHECK(names_in({}).empty());
+TEST_CASE("Names come in lists, none of them empty, and a command is taken whole", "[compare][engines]") {
+  const auto items = [](const std::string& list) {
+    return items_of(list, "--engine", [](std::string_view rest) { return rest.starts_with("cmd:"); });
+  };
+  CHECK(items("oracle") == Names{"oracle"});
+  CHECK(items("walk,batch") == Names{"walk", "batch"});
+  CHECK(items("cmd:a,,b,") == Names{"cmd:a,,b,"});
+  CHECK(items("oracle,cmd:a,b,") == Names{"oracle", "cmd:a,b,"});
+  for (const char* bad : {"", ",", "oracle,", ",walk", "oracle,,walk", ",cmd:a"})
+    CHECK_THROWS_WITH(items(bad), Catch::Contains("--engine: ") && Catch::Contains("empty"));
 }
 
 TEST_CASE("Columns: each row leaves its own obstacle, also one in a far cell of a skewed lattice",

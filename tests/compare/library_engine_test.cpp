@@ -522,6 +522,4 @@ TEST_CASE("A library may be named wherever an engine is", "[compare][library_eng
         "\"diverged\":null");
   CHECK(contains(folder.lorentz("compare --engine nobody").err, "lib:FILE.so"));
   CHECK(contains(folder.lorentz("judge --help").out, "lib:FILE.so"));
-  using Names = std::vector<std::string>;
-  CHECK(lorentz::question::names_in({"oracle,lib:a,b.so"}) == Names{"oracle", "lib:a,b.so"});
 }
