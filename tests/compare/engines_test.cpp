@@ -7,6 +7,7 @@
 #include <lorentz/exchange.hpp>
 #include "question/column_engine.hpp"
 #include "question/instruction_counter.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 using namespace lorentz;
 using namespace lorentz::question;
