@@ -189,9 +189,9 @@ TEST_CASE("Counted questions: where scenes are left, each row asks the same, how
   };
   const question::Tally fast = asked(0), slow = asked(30);
   CHECK(fast.queries == slow.queries);
-  CHECK(fast.unsupported == slow.unsupported);
-  CHECK(fast.agree == 40);
-  CHECK(fast.unsupported < 40);  // the scene is left
+  CHECK(fast[Count::unsupported] == slow[Count::unsupported]);
+  CHECK(fast[Count::agree] == 40);
+  CHECK(fast[Count::unsupported] < 40);  // the scene is left
 }
 
 TEST_CASE("Silence is slowness, if the run is told so, of an engine that has answered; it leaves the scene",
@@ -208,12 +208,12 @@ TEST_CASE("Silence is slowness, if the run is told so, of an engine that has ans
     return one;
   };
   const auto slow = examined(true, "hangs 10"), broken = examined(false, "hangs 10");
-  CHECK(slow->rows()[0].tally.missing == 0);
+  CHECK(slow->rows()[0].tally[Count::missing] == 0);
   CHECK(slow->rows()[0].tally[Count::too_slow] > 0);
   CHECK(slow->rows()[0].is_exhausted);  // the scene is left
   CHECK(slow->findings().size() == 1);  // with the question
   CHECK(broken->rows()[0].tally[Count::too_slow] == 0);
-  CHECK(broken->rows()[0].tally.missing > 0);
+  CHECK(broken->rows()[0].tally[Count::missing] > 0);
 }
 
 TEST_CASE("The first 500 questions of each row are compared, and a row without any has no speed",

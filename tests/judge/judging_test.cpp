@@ -251,8 +251,8 @@ TEST_CASE("What several examinations come to is what one comes to", "[judge][exa
     REQUIRE(one->rows().size() == 1);
     const question::Tally &its = one->rows()[0].tally, &all = whole.rows()[0].tally;
     CHECK(its.queries == 3 * 2 * 30);
-    CHECK(its.agree == all[Count::agree]);
-    CHECK(its.wrong == all[Count::wrong]);
+    CHECK(its[Count::agree] == all[Count::agree]);
+    CHECK(its[Count::wrong] == all[Count::wrong]);
     CHECK(all[Count::wrong] > 30);
     CHECK(its.speed.ns_per_query > 0);
     CHECK(text_of(one->curves()[0]) == text_of(whole.curves()[0]));

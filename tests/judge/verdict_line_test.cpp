@@ -18,9 +18,9 @@ judge::ExaminedRow row(bool hard, std::size_t queries) {
 }
 
 // Gives `number` answers that agreed another verdict.
-void turn(judge::ExaminedRow& row, std::size_t question::Tally::*verdict, std::size_t number) {
-  row.tally[Count::agree] -= number;
-  row.tally.*verdict += number;
+void turn(judge::ExaminedRow& row, Count verdict, std::size_t number) {
+  row.tally.counts[Count::agree] -= number;
+  row.tally.counts[verdict] += number;
 }
 
 JudgeReport report_of(std::vector<judge::ExaminedRow> rows) {
@@ -40,8 +40,8 @@ TEST_CASE("The verdict line: two digits of shares and speed, all before the poin
           "[judge][verdict_line]") {
   JudgeReport report = report_of({row(false, 1000), row(true, 300)});
   CHECK(report.line() == "right: no wrong answer in 1300");
-  turn(report.rows[0], &question::Tally::undecided, 1);
-  turn(report.rows[1], &question::Tally::undecided, 47);
+  turn(report.rows[0], Count::undecided, 1);
+  turn(report.rows[1], Count::undecided, 47);
   report.ns_per_query = 1812.4;
   report.ns_of_reduction = 300.0;
   CHECK(
@@ -56,13 +56,13 @@ TEST_CASE("The verdict line: two digits of shares and speed, all before the poin
   report.processor_ns_of_reduction = 281;
   CHECK(contains(report.line(), "; 2.5e+07 ns a query (9000 of processors), 32 times lorentz's own engine"));
   CHECK(contains(report.json(), R"("processor_ns_per_query":9000,"processor_ns_of_reduction":281,)"));
-  turn(report.rows[1], &question::Tally::ill_posed, 1);
+  turn(report.rows[1], Count::ill_posed, 1);
   CHECK(
       report.line().starts_with("ill-posed: no wrong answer in 1252; 1 that rounding of the inputs explains; "
                                 "ill-posed 0 % of drawn flights, "
                                 "0.33 % of hard ones; undecided 0.1 %"));
-  turn(report.rows[1], &question::Tally::undecided, 250);
-  turn(report.rows[0], &question::Tally::undecided, 900);
+  turn(report.rows[1], Count::undecided, 250);
+  turn(report.rows[0], Count::undecided, 900);
   CHECK(report.line().starts_with("undecided: it decided 102 of 1300 queries, none of them wrong; "));
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("The verdict line: wrong times are told with the share of answers, and
 TEST_CASE("The verdict line names the first fault that condemns, and counts the others",
           "[judge][verdict_line]") {
   JudgeReport report = report_of({row(false, 1000), row(true, 300)});
-  turn(report.rows[0], &question::Tally::wrong, 5);
+  turn(report.rows[0], Count::wrong, 5);
   const auto place = std::make_shared<question::Place>(unit_scene(2, 0.25));
   const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
   const judge::Question question{
@@ -108,10 +108,10 @@ TEST_CASE("The verdict line names the first fault that condemns, and counts the 
   CHECK(report.line() == "wrong: " + main);
   report.times = true;
   CHECK(report.line() == "wrong: 2 kinds of fault, above all: " + main);
-  turn(report.rows[1], &question::Tally::missing, 13);
+  turn(report.rows[1], Count::missing, 13);
   CHECK(report.verdict() == "wrong");
   CHECK(report.line() == "wrong: 2 kinds of fault, above all: " + main + "; 13 of 1300 answers missing");
-  turn(report.rows[1], &question::Tally::missing, 1);
+  turn(report.rows[1], Count::missing, 1);
   CHECK(report.verdict() == "broken");
   CHECK(report.line() ==
         "broken: 14 of 1300 queries without an answer that could be read; wrong: 2 kinds of fault, "
@@ -129,9 +129,9 @@ TEST_CASE("Three lines come first: what, how bad, and the worst of it", "[judge]
   };
   CHECK(begins("none wrong of 46 000 drawn; hard cases: none wrong (of 3 210)",
                "nothing wrong was found: of all drawn flights fewer than 0.0065 % are wrong (with 95 %)"));
-  turn(report.rows[1], &question::Tally::wrong, 151);
-  turn(report.rows[1], &question::Tally::undecided, 492);
-  turn(report.rows[0], &question::Tally::unsupported, 6000);
+  turn(report.rows[1], Count::wrong, 151);
+  turn(report.rows[1], Count::undecided, 492);
+  turn(report.rows[0], Count::unsupported, 6000);
   const auto place = std::make_shared<question::Place>(unit_scene(2, 0.25));
   const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
   const judge::Question question{
@@ -198,8 +198,8 @@ TEST_CASE("What was unsupported, what there was no time for, and what was given 
   JudgeReport report = report_of({row(false, 1000), row(true, 30), row(true, 0), row(true, 7)});
   const auto name = [&](std::size_t i, const char* text) { report.rows[i].name = text; };
   name(1, "ellipses"), name(2, "ties"), name(3, "far starts");
-  turn(report.rows[1], &question::Tally::unsupported, 30);
-  turn(report.rows[3], &question::Tally::missing, 5);
+  turn(report.rows[1], Count::unsupported, 30);
+  turn(report.rows[3], Count::missing, 5);
   report.rows[3].scenes_given_up = 2;
   report.rows[3].last_failure = "cmd died (exit 3) on this query";
   CHECK(contains(report.text(),
