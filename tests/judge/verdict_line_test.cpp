@@ -13,7 +13,7 @@ namespace {
 judge::ExaminedRow row(bool hard, std::size_t queries) {
   judge::ExaminedRow row{hard ? "hard" : "plain", "", hard};
   row.tally.name = row.name;
-  row.tally.queries = row.tally[Count::agree] = queries;
+  row.tally.queries = row.tally.counts[Count::agree] = queries;
   return row;
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("The verdict line: wrong times are told with the share of answers, and
   CHECK(report.line() ==
         "right: no wrong answer in 1000; times within 2.5e-16 radii along the ray (3.14159 ulps) on drawn "
         "flights, no wrong time");
-  report.rows[0].tally[Count::wrong_time] = 2;
+  report.rows[0].tally.counts[Count::wrong_time] = 2;
   report.rows[0].tally.wrong_ulps = {12, 1234567};
   report.rows[0].max_radii = 0.003;
   CHECK(report.line() ==
