@@ -144,6 +144,7 @@ std::string heading(const JudgeReport& report) {
   if (verdict == "ill-posed")
     return fmt::format("ill-posed: no wrong answer in {}; {} that rounding of the inputs explains",
                        total.counts.answers(), total[Count::ill_posed]);
+  if (verdict == "undecided" && total.queries == 0) return "undecided: no answer was judged";
   if (verdict == "undecided")
     return fmt::format("undecided: it decided {} of {} queries, none of them wrong", total.counts.answers(),
                        total.queries);
