@@ -69,7 +69,7 @@ Query past_contact(Draw& draw, const Scene& scene, int rank) {
 }  // namespace
 
 TEST_CASE(
-    "Obstacles that touch their translates are supported, and decided like the oracle does; those that "
+    "Obstacles that touch their translates are supported, and decided like the oracle does, and those that "
     "overlap by an ulp are not",
     "[engines][reduction][touching]") {
   Draw draw(20'261'128);

@@ -194,8 +194,9 @@ TEST_CASE("Counted questions: where scenes are left, each row asks the same, how
   CHECK(fast[Count::unsupported] < 40);  // the scene is left
 }
 
-TEST_CASE("Silence is slowness, if the run is told so, of an engine that has answered; it leaves the scene",
-          "[judge][examination]") {
+TEST_CASE(
+    "Silence is slowness, if the run is told so, of an engine that has answered, and it leaves the scene",
+    "[judge][examination]") {
   const std::atomic<bool> stop = false;
   question::AnswererOptions options;
   options.timeout = 0.5;

@@ -28,7 +28,7 @@ std::string read_back(std::string text) {
 
 }  // namespace
 
-TEST_CASE("A report in a page stays text; what acts in it is shown as its escape", "[report][page]") {
+TEST_CASE("A report in a page stays text, and what acts in it is shown as its escape", "[report][page]") {
   // With what ends a script, opens a comment in one, breaks lines in one, is a place in the template, or
   // begins as a line separator does without being one (the Euro sign).
   const std::string json =
