@@ -35,7 +35,7 @@ TEST_CASE("compare finds the wrong answers, in a table, in JSON and in a file th
   CHECK(json.status == 1);
   CHECK(contains(
       json.out,
-      R"("engines":[{"engine":"published","queries":2,"agree":0,"ill_posed":0,"wrong":1,"undecided":0,"unsupported":1,"error":0,"missing":0,)"));
+      R"("engines":[{"engine":"published","queries":2,"agree":0,"ill_posed":0,"wrong":1,"wrong_time":0,"other_quantity":0,"undecided":0,"unsupported":1,"error":0,"missing":0,)"));
   CHECK(contains(json.out, "\"ns_median\":"));
 }
 
@@ -147,7 +147,7 @@ TEST_CASE("compare judges answers that were logged elsewhere", "[cli][compare_co
   CHECK(run.status == 1);
   CHECK(contains(
       run.out,
-      R"("engine":"mine","queries":3,"agree":1,"ill_posed":0,"wrong":1,"undecided":0,"unsupported":0,"error":0,"missing":1)"));
+      R"("engine":"mine","queries":3,"agree":1,"ill_posed":0,"wrong":1,"wrong_time":0,"other_quantity":0,"undecided":0,"unsupported":0,"error":0,"missing":1)"));
   const Run twice = folder.lorentz("compare --queries " + queries +
                                    " --answers mine=" + folder.write("a2", kGoodAnswer + kGoodAnswer));
   CHECK(twice.status == 2);

@@ -157,7 +157,7 @@ TEST_CASE("judge finds a correct engine right, in JSON, too", "[judge][judge_com
   CHECK(contains(
       run.out,
       R"("engine":"certified","library":null,"verdict":"right","line":"right: no wrong answer in )"));
-  CHECK(contains(run.out, R"("wrong":0,"ill_posed":0,"wrong_time":0,"other_quantity":0,"undecided":0,)"));
+  CHECK(contains(run.out, R"("ill_posed":0,"wrong":0,"wrong_time":0,"other_quantity":0,"undecided":0,)"));
   CHECK(contains(run.out, R"("difficulties":[{"name":"drawn square",)"));
   CHECK(contains(run.out, R"("findings":[],"calls":[{"decade":-)"));
   CHECK(contains(run.out, R"("free_paths":[{"scene":"square","engine":"certified","radius":0.1,)"));
