@@ -184,7 +184,7 @@ std::vector<Option> rows_of(FuzzOptions& options) {
   for (const cases::Target& target : cases::targets()) names.emplace_back(target.name());
   return {
       {"-t,--target", &options.targets, "TARGET",
-       fmt::format("what to aim at (default: all): {}", fmt::join(names, ", "))},
+       fmt::format("what to aim at (default: all): {}", fmt::join(names, ", ")), kCommas},
       {"--dimension", Whole{&options.dimension, 2, 3}, "2|3",
        "only scenes in the plane, or in space (default: both)"},
       {"--scenes", &options.scenes, "unit|lattice|ball|any",

@@ -70,7 +70,8 @@ Command survival_command() {
                   "whose flights binary64 and double-double have: one of " + question::names_for_help()},
                  {"--bits", &options->bits, "LIST",
                   "arithmetics: 53 is the engine in binary64, 106 in double-double, any other number "
-                  "plain arithmetic of that many bits"},
+                  "plain arithmetic of that many bits",
+                  kCommas},
                  {"--count", Whole{&options->count, 1, 10'000'000}, "N",
                   "starts, off the surface of an obstacle (cosine law)"},
                  {"--collisions", Whole{&options->collisions, 1, 1'000'000}, "N", "at most N of each start"},

@@ -82,7 +82,7 @@ TEST_CASE("An engine is judged by what it says of itself, unless an option says 
   CHECK(contains(own.out, R"("precision":"binary32","time_tolerance":0.001,)"));
   CHECK(contains(own.out, R"("engine_ns":1e+06,)"));
   CHECK(contains(folder.lorentz("compare --count 8" + engine).out,
-                 "its own calls take 1e+06 ns a query, as it says"));
+                 "over all of its calls its process counted 1e+06 ns a query"));
   CHECK(contains(folder.lorentz("compare --json --count 8 --precision binary64" + engine).out,
                  R"("precision":"binary64","time_tolerance":0.001,)"));
   CHECK(contains(folder.lorentz("compare --json --count 8 --time-tolerance 0.5" + engine).out,

@@ -142,7 +142,7 @@ TEST_CASE("golden check: another program that lies, is silent about some, or bre
   INFO(some.out << some.err);
   CHECK(some.status == 3);
   CHECK(contains(some.out, R"("set":"generic-2d","records":5,"agree":0,)"));
-  CHECK(contains(some.out, R"("error":5,"not_asked":15,)"));
+  CHECK(contains(some.out, R"("error":5,"missing":0,"not_asked":15,)"));
   CHECK(contains(some.err, " given up in generic-2d: 15 records were not asked"));
   CHECK(contains(some.out, R"("set":"tricylinder","records":20,"agree":20,)"));
   CHECK(contains(some.out, "\"not_asked\":0}"));

@@ -99,19 +99,17 @@ TEST_CASE("A set is written into a folder with what belongs beside it", "[golden
   const Folder folder;
   const std::string mine = folder.file("mine/"), store = folder.file("campaign");
   folder.lorentz("fuzz -e published -t corridor --count 5 --store " + store);
-  const std::string queries = folder.write("queries", folder.lorentz("sample --scene square --count 2").out);
   const std::string golden =
       folder.write("golden.ndjson", folder.lorentz("golden make --set ties --count 3").out);
   for (const std::string& command :
        std::vector<std::string>{"fuzz export --store " + store + " -o " + mine,
-                                "judge -e published --questions 2 --golden " + mine,
-                                "golden make --queries " + queries + " -o " + mine}) {
+                                "judge -e published --questions 2 --golden " + mine}) {
     INFO(command);
     CHECK(folder.lorentz(command).status < 2);
     CHECK(std::system(("cd " + mine + " && sha256sum --quiet --check SHA256SUMS").c_str()) == 0);
     CHECK(folder.lorentz("golden verify " + mine).status == 0);
   }
-  for (const char* name : {"findings.ndjson", "set.ndjson", "schema.json"})
+  for (const char* name : {"findings.ndjson", "schema.json"})
     CHECK_THAT(folder.read("mine/SHA256SUMS"), Catch::Contains(std::string("  ") + name));
   // A file is the set alone; a folder with other sums is left as it is, before anything is asked.
   CHECK(folder.lorentz("fuzz export --store " + store + " -o " + folder.file("alone")).status == 0);

@@ -97,7 +97,7 @@ TEST_CASE("judge --baseline: only what is worse than in an earlier report fails"
     return std::regex_replace(report, std::regex(from), to, std::regex_constants::format_first_only);
   };
   const Run fewer = against(changed(
-      R"re("wrong":[1-9]\d*,("wrong_time":\d+,"other_quantity":\d+,"undecided":\d+,"unsupported":\d+,"error":\d+,"missing":\d+,"nonsense":\d+,"max))re",
+      R"re("wrong":[1-9]\d*,("wrong_time":\d+,"other_quantity":\d+,"undecided":\d+,"unsupported":\d+,"error":\d+,"missing":\d+,"nonsense":\d+,"too_slow":\d+,"max))re",
       R"("wrong":0,$1)"));
   INFO(fewer.err);
   CHECK(fewer.status == 1);
