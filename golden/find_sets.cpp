@@ -43,9 +43,11 @@ std::string find_set(const std::string& name_or_file) {
   if (names.empty())
     throw FileError(fmt::format("no file is called {}, and there are no committed sets (looked for in {})",
                                 json_quoted(name_or_file), data_places("golden")));
-  throw FileError(fmt::format("no file and no committed set is called {}{}; the sets are {}",
-                              json_quoted(name_or_file), did_you_mean(name_or_file, names),
-                              fmt::join(names, ", ")));
+  const std::string missing =
+      fmt::format("no file and no committed set is called {}{}; the sets are {}", json_quoted(name_or_file),
+                  did_you_mean(name_or_file, names), fmt::join(names, ", "));
+  if (name_or_file.find_first_of("/.") == name_or_file.npos) throw InputError(missing);  // a mistyped name
+  throw FileError(missing);
 }
 
 std::vector<std::string> find_sets(const std::vector<std::string>& names_or_files) {

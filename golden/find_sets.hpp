@@ -9,7 +9,7 @@ namespace lorentz::golden {
 /// The committed sets: every *.ndjson in data/golden, by name. Empty if the folder does not exist.
 std::vector<std::string> committed_sets();
 
-/// The file of a set, given a file (or a folder) or the name of a committed set. Throws FileError, listing
+/// The file of a set, given a file (or a folder) or the name of a committed set. Throws FileError, or InputError for what looks like a name, listing
 /// the sets.
 std::string find_set(const std::string& name_or_file);
 

@@ -55,7 +55,7 @@ class GoldenSet:
         name_or_file: one of `golden_sets`, or a file.
 
     Raises:
-        FileError: there is no such set or file. Error: it is not a golden set; the message has the line.
+        FileError: there is no such file. Error: no set has this name, or it is not a golden set; the message has the line.
     """
 
     def __init__(self, name_or_file: str | os.PathLike[str]) -> None:

@@ -64,7 +64,7 @@ def test_two_readers_at_once():
 
 
 def test_no_such_set(tmp_path):
-    with pytest.raises(lorentz.FileError, match="did you mean grazing"):
+    with pytest.raises(lorentz.Error, match="did you mean grazing"):
         lorentz.golden("grasing")
     broken = tmp_path / "broken.ndjson"
     broken.write_text('{"golden":{"format":1,"count":1,"tags":{}}}\n{"id":"a"}\n')

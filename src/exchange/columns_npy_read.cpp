@@ -24,6 +24,7 @@ struct NpyField {
 std::string header_text(InputFile& file) {
   char front[12] = {};
   const std::size_t there = file.read_all(front, 8), width = front[6] == 1 ? 2 : 4;
+  if (there == 0) throw InputError("is empty");
   if (std::memcmp(front, "\x93NUMPY", there > 0 && there < 6 ? there : 6) != 0)
     throw InputError("is no .npy file: it does not begin with \\x93NUMPY (--format ndjson, csv: text)");
   if (there == 8 && (front[6] < 1 || front[6] > 3 || front[7] != 0))

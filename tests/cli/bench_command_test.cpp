@@ -68,7 +68,7 @@ std::string between(const std::string& text, const std::string& before, const st
 }
 
 std::string last_cell(const std::string& out) {
-  return out.substr(out.rfind("\"difficulty\":"));
+  return out.substr(out.rfind("\"difficulty\":", out.find("\"fits\":")));
 }
 
 std::vector<std::string> pieces_in(const std::string& path) {
