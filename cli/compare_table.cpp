@@ -47,8 +47,8 @@ std::string table_of(const std::vector<Tally>& tallies, bool judged) {
 }
 
 std::string others_of(const Tally& t) {
-  return text_of(t.counts,
-                 {Count::ill_posed, Count::undecided, Count::unsupported, Count::error, Count::missing});
+  return counted_text(t.counts,
+                      {Count::ill_posed, Count::undecided, Count::unsupported, Count::error, Count::missing});
 }
 
 std::string verdict_of(const Tally& t) {
@@ -69,7 +69,7 @@ std::string verdict_of(const Tally& t) {
                     "\n  {} of right obstacles: off by {:.3g} ulps (median), {:.3g} (99 %), {:.3g} "
                     "(largest);\n"
                     "  {:.3g}, {:.3g}, {:.3g} times what an ulp in each input makes of them",
-                    text_of(t.counts, {Count::wrong_time}), quantile(t.wrong_ulps, 0.5),
+                    counted_text(t.counts, {Count::wrong_time}), quantile(t.wrong_ulps, 0.5),
                     quantile(t.wrong_ulps, 0.99), quantile(t.wrong_ulps, 1),
                     quantile(t.wrong_conditions, 0.5), quantile(t.wrong_conditions, 0.99),
                     quantile(t.wrong_conditions, 1));

@@ -278,8 +278,8 @@ void show(const std::string& engine, const Claim& claim, const std::vector<SetTa
 
 // For example "12 wrong, 3 ill-posed"; empty if all answers agree.
 std::string troubles(const Tally& t) {
-  return text_of(t.counts, {Count::wrong, Count::wrong_time, Count::other_quantity, Count::ill_posed,
-                            Count::undecided, Count::unsupported, Count::error, Count::missing});
+  return counted_text(t.counts, {Count::wrong, Count::wrong_time, Count::other_quantity, Count::ill_posed,
+                                 Count::undecided, Count::unsupported, Count::error, Count::missing});
 }
 
 // Text for a table cell: printable, without characters that end a cell or begin markup.

@@ -15,7 +15,7 @@ constexpr double kTogether = 5;               // cells: places nearer than this 
 constexpr double kBreak = 46;                 // pixels: width of a zigzag
 constexpr std::size_t kMostLookedAt = 1000;   // obstacles of an atom beside a part of the line
 constexpr std::size_t kMostNeighbours = 400;  // drawn in a stretch
-constexpr double kSmallest = 2;               // pixels: radius of an obstacle
+constexpr double kSmallestDot = 2;            // pixels: radius of an obstacle
 
 // A part of the line, by distances from its anchor, and on paper.
 struct LineStretch {
@@ -123,7 +123,8 @@ std::optional<Point> FlightDrawing::on_line(const PlaceOnLine& place) const {
 void FlightDrawing::add_ellipse(Point at, const ShapeSection& ellipse, const std::string& style,
                                 const std::string& hint, bool is_dot) {
   const double size = result_.scale;
-  const EllipseShape shape = is_dot ? EllipseShape{kSmallest, kSmallest, 0} : to_scale(ellipse.shape, size);
+  const EllipseShape shape =
+      is_dot ? EllipseShape{kSmallestDot, kSmallestDot, 0} : to_scale(ellipse.shape, size);
   enlarged_ |= is_dot;
   svg_.ellipse({on_paper(at.x + size * ellipse.centre.x), on_paper(at.y - size * ellipse.centre.y)},
                {on_paper(shape.rx), on_paper(shape.ry), shape.angle}, style, hint);
@@ -166,7 +167,7 @@ bool FlightDrawing::add_neighbour(const LineStretch& stretch, const ObstacleId& 
   const double radius = shadow.shape.rx * result_.scale;
   if (at.y < panel_.top - radius || at.y > panel_.bottom() + radius) return false;
   const double depth = dot(centre, axes_.depth);
-  const bool is_dot = radius < kSmallest;
+  const bool is_dot = radius < kSmallestDot;
   const bool is_left = case_.query.from == id;
   const std::string name = case_.name_of(id) + (is_left ? ", which the flight leaves" : "");
   const std::string style = is_left ? "stroke-width=\"2\" stroke-dasharray=\"7 3\"" : "";
@@ -201,7 +202,7 @@ void FlightDrawing::add_obstacle(const LineStretch& stretch, const ObstacleId& i
   const ShapeSection shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
   const std::string filled = paint(ink, ink, 1.5) + " fill-opacity=\"0.3\"";
   const std::string hint = hint_of(case_, id);
-  const bool is_dot = shadow.shape.rx * result_.scale < kSmallest;
+  const bool is_dot = shadow.shape.rx * result_.scale < kSmallestDot;
   if (case_.scene.dimension == 2) return add_ellipse(at, shadow, filled, hint, is_dot);
   add_ellipse(at, shadow, paint(ink, ink, 0.8) + " fill-opacity=\"0.05\" stroke-dasharray=\"2 3\"", hint,
               is_dot);

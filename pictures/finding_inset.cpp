@@ -69,9 +69,10 @@ class Inset {
   void draw_start();
   void draw_entries();
   void add_surface(const ObstacleId& id, const InsetSurface& surface, double x, double y);
-  void add_way(double from, double to, Ink ink, double width, const char* more);
+  void add_stroke(double from, double to, Ink ink, double width, const char* more);
   void add_flight(double from, double to, bool is_given) {
-    add_way(from, to, is_given ? kGivenInk : kExactInk, is_given ? 1.8 : 2.6, is_given ? kGivenDashes : "");
+    add_stroke(from, to, is_given ? kGivenInk : kExactInk, is_given ? 1.8 : 2.6,
+               is_given ? kGivenDashes : "");
   }
   void add_distance(Point from, Point to, Point label, const char* anchor);
   void add_scale_bar();
@@ -138,7 +139,7 @@ void Inset::add_surface(const ObstacleId& id, const InsetSurface& surface, doubl
 }
 
 // Adds a part of the flight, in pixels from the origin, cut at the inset's edges.
-void Inset::add_way(double from, double to, Ink ink, double width, const char* more) {
+void Inset::add_stroke(double from, double to, Ink ink, double width, const char* more) {
   from = std::max(from, -panel_.width);
   to = std::min(to, panel_.width);
   if (from < to) svg_.polyline({paper(from, 0), paper(to, 0)}, outline(ink, width) + more);
@@ -164,7 +165,7 @@ void Inset::draw_line() {
   origin_.y += side_ * gap / 2;
   add_surface(case_.obstacle, {right_, up_, scaled(up_, -1)}, 0, gap);
   const double half_chord = gap < 0 ? std::sqrt(-case_.distance * (2 + case_.distance)) * scale_ : 0;
-  add_way(-kBeyond, kBeyond, kFaintInk, 1, " stroke-dasharray=\"1 3\"");
+  add_stroke(-kBeyond, kBeyond, kFaintInk, 1, " stroke-dasharray=\"1 3\"");
   for (const Answer* answer : {&case_.exact, case_.given}) {
     if (!answer || !reaches(*answer)) continue;
     const bool ends = answer->outcome == Outcome::hit && answer->obstacle == case_.obstacle;
@@ -214,7 +215,7 @@ void Inset::draw_entries() {
     };
     add_surface(*case_.second, {back(right_), back(up_), y0_of(*case_.second, rows)}, way, 0);
   }
-  add_way(-kBeyond, std::max(way, 0.0), kFaintInk, 1, " stroke-dasharray=\"1 3\"");
+  add_stroke(-kBeyond, std::max(way, 0.0), kFaintInk, 1, " stroke-dasharray=\"1 3\"");
   add_flight(-kBeyond, 0, false);
   if (case_.given && case_.end_of(*case_.given)) add_flight(-kBeyond, way, true);
   const Point a = paper(0, 0), b = paper(way, 0);

@@ -20,7 +20,7 @@ PaperWindow window_around(const PathDrawing& drawing) {
   return window;
 }
 
-std::vector<Point> on_paper(const PaperWindow& window, const std::vector<Vec>& path, std::size_t from = 0) {
+std::vector<Point> to_paper(const PaperWindow& window, const std::vector<Vec>& path, std::size_t from = 0) {
   std::vector<Point> points;
   for (std::size_t i = from; i < path.size(); ++i) points.push_back(window(path[i]));
   return points;
@@ -78,9 +78,9 @@ std::string draw_path(const PathDrawing& given) {
   Svg svg;
   const bool all_obstacles = add_passed_obstacles(svg, drawing, window);
   if (!drawing.other.empty() && drawing.parting > 0)
-    add_path(svg, on_paper(window, drawing.other, drawing.parting - 1), kOtherColour,
+    add_path(svg, to_paper(window, drawing.other, drawing.parting - 1), kOtherColour,
              " stroke-dasharray=\"6 3\"");
-  add_path(svg, on_paper(window, drawing.path), kPathColour, "");
+  add_path(svg, to_paper(window, drawing.path), kPathColour, "");
   svg.ellipse(window(drawing.path[0]), {5, 5, 0},
               fmt::format("fill=\"white\" stroke=\"{}\" stroke-width=\"2\"", kPathColour));
   const double height = add_notes(svg, drawing, 2 * kMargin + window.height(), all_obstacles);

@@ -552,7 +552,7 @@ class CommandEngine final : public ExternalAnswerer {
   }
 
   void stop_flood() {
-    const std::string what = "wrote a line that has no end and is no answer";
+    const std::string what = "wrote a line that does not end";
     if (run_->outstanding > 0) return run_failed(what);
     complain(what);
     end_of(*std::exchange(run_, nullptr), kGrace * 0);

@@ -80,7 +80,7 @@ std::string dash_for_none(Count, std::size_t number) {
   return number ? std::to_string(number) : "-";
 }
 
-std::string text_of(const Counts& counts, std::initializer_list<Count> some) {
+std::string counted_text(const Counts& counts, std::initializer_list<Count> some) {
   std::string text;
   for (const Count count : some) {
     const CountName& name = name_of(count);

@@ -94,10 +94,10 @@ using CellText = std::function<std::string(Count, std::size_t number)>;
 std::vector<std::string> cells_counted(const Counts& counts, Counted by, std::vector<std::string> before,
                                        const std::vector<std::string>& after, const CellText& text);
 
-/// A cell for people who look for what is not 0: "-" for 0.
+/// The number, or "-" for 0, which makes other numbers stand out.
 std::string dash_for_none(Count count, std::size_t number);
 
 /// "3 ill-posed, 1 error": those of these that are not 0; empty if all are.
-std::string text_of(const Counts& counts, std::initializer_list<Count> some);
+std::string counted_text(const Counts& counts, std::initializer_list<Count> some);
 
 }  // namespace lorentz::question

@@ -29,7 +29,7 @@ class LineBuffer {
   /// Gives the next complete line, as LineReader does; after the end also a last line without a line end.
   bool next(LineReader::Line& line);
 
-  /// True if the line that is skipped is so long that it is no mistake in a line.
+  /// True if the line that is skipped is longer than any mistake in a line would be.
   bool is_endless() const { return skipped_ > 16 * kMaxLine; }
 
  private:

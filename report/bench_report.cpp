@@ -139,12 +139,12 @@ class Summary {
       return fmt::format("{}: too slow for {} cells of this table, {} unsupported\n", name, skipped_,
                          beyond_);
     std::string text = name + ": " + wrong_text();
-    const std::string others = text_of(
+    const std::string others = counted_text(
         counts_, {Count::ill_posed, Count::undecided, Count::unsupported, Count::error, Count::missing});
     if (!others.empty()) text += "; " + others;
     text += '\n' + edge_text();
     if (counts_[Count::wrong_time] > 0)
-      text += fmt::format("  {} of right obstacles\n", text_of(counts_, {Count::wrong_time}));
+      text += fmt::format("  {} of right obstacles\n", counted_text(counts_, {Count::wrong_time}));
     text += fastest_ ? fmt::format("  {:.0f} to {:.0f} ns", *fastest_, slowest_) : "  no times, for it broke";
     if (has_times_)
       text += fmt::format("; times at worst {:.3g} ulps off, {:.3g} times the condition", max_ulp_,

@@ -32,7 +32,7 @@ struct Detail {
 
 struct Answer;
 
-/// Makes an answer when it is called: `Answer::hit(obstacle, time)`. It is no property of an answer: neither
+/// Makes an answer when it is called: `Answer::hit(obstacle, time)`. It is not a property of an answer: neither
 /// `if (answer.hit)` nor `std::cout << answer.error` compiles.
 template <class... Parts>
 struct AnswerMaker {

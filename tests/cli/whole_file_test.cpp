@@ -222,7 +222,7 @@ TEST_CASE("A link is followed, whether or not its target is there", "[cli][whole
   CHECK_THROWS_AS(write_whole(folder.file("round"), "text"), FileError);
 }
 
-TEST_CASE("The running program is no output", "[cli][whole_file]") {
+TEST_CASE("The running program is refused as an output", "[cli][whole_file]") {
   const Folder folder;
   const Run run = folder.lorentz("flights --count 10 --csv /proc/self/exe");
   CHECK(run.status == 2);

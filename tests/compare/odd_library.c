@@ -40,7 +40,7 @@ static void hang(void) {
   for (;;) sleep(1);
 }
 
-/* More than a pipe holds, and more than anybody reads. */
+/* More than a pipe holds. */
 static const char* much(void) {
   const size_t size = 200000000;
   char* const letters = malloc(size + 1);

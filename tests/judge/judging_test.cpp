@@ -110,7 +110,8 @@ std::string text_of(const report::Calls& calls) {
   std::string text;
   for (const auto& [decade, call] : calls.by_decade())
     text += std::to_string(decade) + ": " +
-            question::text_of(call.counts, {Count::agree, Count::ill_posed, Count::wrong, Count::undecided}) +
+            question::counted_text(call.counts,
+                                   {Count::agree, Count::ill_posed, Count::wrong, Count::undecided}) +
             '\n';
   return text;
 }

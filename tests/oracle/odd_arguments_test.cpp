@@ -194,7 +194,7 @@ TEST_CASE("Odd queries are errors, of every class that answers", "[oracle][odd]"
     query.from = ObstacleId{lattice, atom, {0, 0, 0}};
     return query;
   };
-  // A limit that is not a number is no limit and no time.
+  // A limit that is not a number is neither a limit nor a time.
   oracle::Request request;
   request.max_time = kNaN;
   CHECK(oracle.first_hit(kQuery, request).outcome == Outcome::error);

@@ -7,7 +7,7 @@
 
 using namespace lorentz;
 
-// What makes an answer is no property of one: `if (answer.hit)` was always true, `answer.error` printed 1.
+// What makes an answer is not a property of one: `if (answer.hit)` was always true, `answer.error` printed 1.
 template <auto make>
 concept IsTaken = requires(std::ostream& out) {
   *make ? 1 : 0;
