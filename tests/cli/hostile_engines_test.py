@@ -103,7 +103,8 @@ class Hostile(unittest.TestCase):
                 self.assertIn("how bad: ", out)
 
     def test_a_slow_engine_is_not_broken(self):
-        took, status, out, err = judge(ENGINES["slow: 0.3 s each"])
+        # Long enough for its start on a busy machine: without any answer in all of the time it would be broken.
+        took, status, out, err = run("judge --quick --time 20", f"cmd:{ENGINES['slow: 0.3 s each']}")
         self.assertNotIn("\nbroken: ", out)
 
 
