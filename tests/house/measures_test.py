@@ -15,7 +15,7 @@ PROGRAM = sys.argv.pop(1)
 NO_PRODUCTION = ("tests", "examples", "bench", "proof", "build", "fuzz/planted")
 TYPE = re.compile(r"^ *(?:template <.*> *)?(?:struct|class|enum(?: class)?) +\w+(?: final)?(?: *:[^;{]*)? *\{", re.MULTILINE)
 
-LIMITS = {"lines of production C++": 0, "type definitions": 0, "libraries": 0, "subcommands": 0, "options": 0}
+LIMITS = {"lines of production C++": 70_900, "type definitions": 922, "libraries": 49, "subcommands": 32, "options": 228}
 
 
 def sources():
@@ -36,7 +36,8 @@ def counted():
     return {"lines of production C++": sum(text.count("\n") for text in texts),
             "type definitions": sum(len(TYPE.findall(text)) for text in texts),
             "libraries": sum(len(re.findall(r"^lorentz_library\(", path.read_text(), re.MULTILINE))
-                             for path in SOURCE.rglob("CMakeLists.txt")),
+                             for path in SOURCE.rglob("CMakeLists.txt")
+                             if not path.relative_to(SOURCE).as_posix().startswith("build")),
             "subcommands": len(pages) - 1,
             "options": sum(len(re.findall(names, page, re.MULTILINE)) - 1 for page in pages)}  # --help has no page of its own
 
@@ -44,7 +45,6 @@ def counted():
 class Measures(unittest.TestCase):
     def test_nothing_is_above_its_limit(self):
         now = counted()
-        print(now)
         for name, limit in LIMITS.items():
             with self.subTest(name):
                 self.assertGreater(now[name], limit // 2, "is it still counted?")
