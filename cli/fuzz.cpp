@@ -192,7 +192,7 @@ class JournalWithProgress final : public fuzz::Journal {
 };
 
 // Ends the program if this object lives for more than a second: a thread may be at an exact answer of
-// thousands of bits, which nobody waits for once the report is printed.
+// thousands of bits, which is not waited for once the report is printed.
 class LastResort {
  public:
   explicit LastResort(const std::function<void()>& end)

@@ -171,7 +171,7 @@ TEST_CASE("Arrays that are not queries are refused, with what they are and the r
   const auto array = [](const std::string& description, const std::string& shape) {
     return npy_file(npy_dictionary(description, shape), std::string(1000, '\0'));
   };
-  says("", "is no .npy file");
+  says("", "is empty");
   says("{\"x\":[0,0]}", "--format ndjson");
   says("x1,x2,v1,v2\n", "is no .npy file");
   says("\x93NUM", "ends in its header");
