@@ -7,6 +7,7 @@
 #include "cli/file_options.hpp"
 #include "cli/output.hpp"
 #include "files/data_folder.hpp"
+#include "files/whole_file.hpp"
 #include "golden/find_sets.hpp"
 #include "golden/index.hpp"
 #include "src/exchange/exchange_json.hpp"
@@ -37,7 +38,7 @@ std::string add_schema(const fs::path& folder) {
   const auto schema =
       std::ranges::find(schemas, kSchema, [](const fs::path& file) { return file.filename(); });
   if (schema == schemas.end()) throw FileError("there is no schema.json in " + data_places("golden"));
-  fs::copy_file(*schema, folder / kSchema);
+  write_whole(folder / kSchema, text_of_file(*schema));  // a failure names what cannot be written
   return kSchema;
 }
 

@@ -165,3 +165,15 @@ TEST_CASE("golden index looks at every file before it writes one", "[golden][own
   for (const char* name : {"/index.json", "/SHA256SUMS", "/schema.json"})
     CHECK_FALSE(std::filesystem::exists(own + name));
 }
+
+TEST_CASE("golden index names the file that it cannot write", "[golden][own_sets]") {
+  const Folder folder;
+  std::filesystem::create_directory(folder.file("own"));
+  std::filesystem::copy_file(LORENTZ_SOURCE_DIR "/data/golden/smoke/smoke.ndjson",
+                             folder.file("own/smoke.ndjson"));
+  const Run run =
+      folder.run("trap '' XFSZ; ulimit -f 4; exec " LORENTZ_PROGRAM " golden index " + folder.file("own"));
+  CHECK(run.status == 3);
+  CHECK(contains(run.err, folder.file("own/schema.json") + ": File too large"));
+  CHECK_FALSE(std::filesystem::exists(folder.file("own/schema.json")));
+}
