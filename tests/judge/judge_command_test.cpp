@@ -239,8 +239,8 @@ TEST_CASE("judge ends in its time, and at once when it is told to, whatever the 
 TEST_CASE("judge: starting takes no part in the speed, free paths that are cut show where",
           "[judge][judge_command]") {
   const Folder folder;
-  const std::string judge = std::string("judge --quick --time 3 --engine 'cmd:") + LORENTZ_TOLERANT_ENGINE;
-  const Run slow = folder.lorentz(judge + " starts 700' --timeout 0.6");
+  const std::string judge = std::string("judge --quick --time 6 --engine 'cmd:") + LORENTZ_TOLERANT_ENGINE;
+  const Run slow = folder.lorentz(judge + " starts 700' --timeout 60");
   INFO(slow.out << slow.err);
   CHECK(slow.status == 0);
   CHECK(contains(slow.out, "\nStart: "));
