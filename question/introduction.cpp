@@ -94,7 +94,10 @@ FirstWords first_words_of(const Executable& program, double seconds) {
 }
 
 std::optional<Introduction> introduction_of_command(const std::string& command, double seconds) {
-  const FirstWords said = first_words_of(shell_command(command), std::min(seconds, kToIntroduce));
+  // Its complaints are shown when it is asked queries.
+  Executable silent = shell_command(command);
+  silent.arguments.back() = "{ " + command + "\n} 2>/dev/null";
+  const FirstWords said = first_words_of(silent, std::min(seconds, kToIntroduce));
   return said.line ? introduction_in(*said.line) : std::nullopt;
 }
 

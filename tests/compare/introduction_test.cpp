@@ -120,6 +120,7 @@ TEST_CASE("An impossible introduction is bad input, and a missing one is not a f
   for (const char* other : {"", "usage: engine FILE"}) {
     const Run none = folder.lorentz("compare --json --count 8" + engine_of(folder, other));
     CHECK(none.status == 0);
+    INFO(none.err);
     CHECK(none.err.empty());
     CHECK(contains(none.out, R"("precision":"binary64","time_tolerance":null,)"));
     CHECK(contains(none.out, R"("engine_ns":null,)"));
