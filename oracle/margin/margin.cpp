@@ -38,7 +38,6 @@ class MarginSearch {
   HardestDecision run() {
     for (const Uncertain<D>& atom : query_.atoms())
       if (concerns(atom)) search(atom);
-    weigh(target_, target_centre_);  // which a search that ran out of its budget may have missed
     decision_.margin = to_double(smallest_, kLargestMargin);
     return decision_;
   }
