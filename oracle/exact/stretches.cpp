@@ -152,8 +152,8 @@ bool Stretches<D>::cut(const Z& low, const Z& whole_high,
   while (!left.empty()) {
     RowStretch<D> stretch = std::move(left.back());
     left.pop_back();
-    const Z rows = shorten(stretch.basis, stretch.low, stretch.high);
-    if (rows <= kFewRowsOfStretch || !is_long(stretch.low, stretch.high)) {
+    stretch.rows = shorten(stretch.basis, stretch.low, stretch.high);
+    if (stretch.rows <= kFewRowsOfStretch || !is_long(stretch.low, stretch.high)) {
       if (take(stretch)) return true;
       continue;
     }
@@ -190,27 +190,29 @@ bool Stretches<D>::visit_row(const LatticePoint<D>& start, const RowStretch<D>& 
 }
 
 template <>
-bool Stretches<2>::visit(const RowStretch<2>& stretch, const RowVisitor<2>& visit) const {
+bool Stretches<2>::visit(const RowStretch<2>& stretch, const RowVisitor<2>& visit, long most) const {
   const Range rows = rows_of_strip(view_, reach_, stretch.basis, stretch.low, stretch.high);
   LatticePoint<2> row = view_.offset;
   row.add_multiple(rows.first, stretch.basis[1]);
-  for (Z k2 = rows.first; k2 <= rows.last; ++k2, row.add_multiple(1, stretch.basis[1]))
+  for (Z k2 = rows.first; k2 <= rows.last && most-- > 0; ++k2, row.add_multiple(1, stretch.basis[1]))
     if (visit_row(row, stretch, visit)) return true;
   return false;
 }
 
 template <>
-bool Stretches<3>::visit(const RowStretch<3>& stretch, const RowVisitor<3>& visit) const {
+bool Stretches<3>::visit(const RowStretch<3>& stretch, const RowVisitor<3>& visit, long most) const {
   const LatticePoint<3>& b2 = stretch.basis[1];
   const Planes planes(view_.velocity, reach2_, stretch.basis[0], b2, stretch.basis[2]);
   return for_each_section(view_, planes, stretch.basis, stretch.low, stretch.high,
                           [&](const PlaneSection& section, const Range& rows) {
                             LatticePoint<3> row = section.origin;
                             row.add_multiple(rows.first, b2);
-                            for (Z k2 = rows.first; k2 <= rows.last; ++k2, row.add_multiple(1, b2))
+                            for (Z k2 = rows.first; k2 <= rows.last && most-- > 0;
+                                 ++k2, row.add_multiple(1, b2))
                               if (visit_row(row, stretch, visit)) return true;
-                            return false;
-                          });
+                            return most < 0;
+                          }) &&
+         most >= 0;
 }
 
 template std::optional<Z> last_s(const View<2>&);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "oracle/exact/exact_line.hpp"
@@ -17,6 +18,7 @@ template <std::size_t D>
 struct RowStretch {
   Z low, high;
   Basis<D> basis;
+  Z rows = 0;  ///< those with and without centres, or a lower bound of many
 };
 
 /// The s up to which obstacles of a view's lattice come within 4 radii of the line; nothing if there is no
@@ -39,8 +41,10 @@ class Stretches {
   bool cut(const Z& low, const Z& high, const std::function<bool(const RowStretch<D>&)>& take) const;
 
   /// Visits the rows of a stretch that hold centres of the cylinder, until `visit` returns true. Returns
-  /// whether it did. A row is given as its first such centre, the step, and the last index.
-  bool visit(const RowStretch<D>& stretch, const RowVisitor<D>& visit) const;
+  /// whether it did. A row is given as its first such centre, the step, and the last index. Looks at no more
+  /// than `most` rows, with and without centres.
+  bool visit(const RowStretch<D>& stretch, const RowVisitor<D>& visit,
+             long most = std::numeric_limits<long>::max()) const;
 
  private:
   /// Makes the basis short for the stretch. Returns the number of rows, or a lower bound of it that is

@@ -19,6 +19,9 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // over by even less.
 inline constexpr std::size_t kMostPassedOver = 100'000;
 
+// How far a flight along a lattice is followed, in radii, as a power of two: farther than binary64 reaches.
+inline constexpr long kFarthestBeside = 1080;
+
 struct Departure {
   double ulps = 0;
   std::optional<ObstacleId> obstacle = {};  // the obstacle that needs this number
@@ -36,6 +39,7 @@ class DepartureBound {
   }
 
   bool used_tolerance() const { return used_tolerance_; }  ///< of times, for an obstacle that was passed over
+  std::size_t passed_over() const { return passed_over_; }  ///< steps: of the last atom, for some answers
 
   Departure of(const Answer& given) {
     switch (given.outcome) {
@@ -132,10 +136,11 @@ class DepartureBound {
           needs(atom.margin_of_meeting(centre), atom, centre);
       };
       // A flight along the lattice has no end. It is followed up to the first obstacle with more to spare.
-      Z low = 1, high = root_below(atom.rho2()) + 2;
+      const Z near = root_below(atom.rho2()) + 2, farthest = end ? *end : shifted_left(near, kFarthestBeside);
+      Z low = 1, high = near;
       for (bool done = false; !done && passed_over_ <= kMostPassedOver; low = high, high *= 2) {
-        done = end && high >= *end;
-        const Z limit = done ? *end : high;
+        done = high >= farthest;
+        const Z limit = done ? farthest : high;
         if (low < limit)
           done |=
               visit_centres(view, atom.rho2(), low, limit, look, [&](int steps) { return pass_over(steps); });
@@ -153,22 +158,25 @@ class DepartureBound {
     return enough;
   }
 
-  // The obstacles that contain x, if `counts` returns true for them.
+  // The obstacles that contain x, if `counts` returns true for them. A ball of very many cells is not searched
+  // to its middle from the rim, where it contains x by little; its obstacle nearest to x is looked at then.
   template <class Counts>
   void bound_containing(const Counts& counts) {
     if (exact_.outcome != Outcome::inside) return;
     for (const Uncertain<D>& atom : query_.atoms()) {
       const View<D>& view = atom.view();
+      const auto look = [&](const LatticePoint<D>& point) {
+        ++passed_over_;
+        const Centre<D> centre(view.velocity, point);
+        if (query_.is_from(atom, point.n) || centre.c2 >= view.radius2 || !counts(atom, centre)) return;
+        needs(atom.margin_of_containing(centre), atom, centre);
+      };
       visit_ball<D>(view.basis, view.offset, view.radius2,
                     [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
-                      visit_extremes<D>(view.velocity, first, step, last, [&](const LatticePoint<D>& point) {
-                        if (query_.is_from(atom, point.n)) return;
-                        const Centre<D> centre(view.velocity, point);
-                        if (!counts(atom, centre)) return;
-                        needs(atom.margin_of_containing(centre), atom, centre);
-                      });
-                      return exceeds_tolerance();
+                      visit_extremes<D>(view.velocity, first, step, last, look);
+                      return pass_over(1);
                     });
+      if (passed_over_ > kMostPassedOver) look(view.offset);
       if (exceeds_tolerance()) return;
     }
   }

@@ -21,7 +21,7 @@ class ExcusedSearch {
   std::optional<std::vector<ExcusedAnswer>> run() {
     look_around();
     if (!is_inside_) look_along();
-    if (!is_never_out_) judge(Answer::never());
+    if (!is_never_out_ && !is_too_much_) judge(Answer::never());
     if (is_too_much_) return std::nullopt;
     std::stable_sort(found_.begin(), found_.end(),
                      [](const ExcusedAnswer& a, const ExcusedAnswer& b) { return a.ulps < b.ulps; });
@@ -31,11 +31,14 @@ class ExcusedSearch {
  private:
   // The range of the search in radii, as powers of two. A hit beyond kFarthestHit is too far away for a list.
   static constexpr long kFarthestHit = 100, kFarthest = 160;
+  static constexpr int kMostRows = 10'000;  // of one stretch
 
   void judge(const Answer& answer) {
     const bool names_one = answer.outcome != Outcome::never;
     if (answer.outcome == exact_.outcome && (!names_one || answer.obstacle == exact_.obstacle)) return;
-    const double needed = DepartureBound<D>(query_, exact_, ulps_, std::nullopt).of(answer).ulps;
+    DepartureBound<D> bound(query_, exact_, ulps_, std::nullopt);
+    const double needed = bound.of(answer).ulps;
+    is_too_much_ |= (judged_steps_ += bound.passed_over()) > kMostPassedOver;
     if (needed <= ulps_) found_.push_back({answer, needed});
     is_too_much_ |= found_.size() > most_;
   }
@@ -156,7 +159,8 @@ class ExcusedSearch {
       return is_too_much_;
     };
     stretches.cut(begin, ceiling(high * v2), [&](const RowStretch<D>& stretch) {
-      return spend(kStretch) || stretches.visit(stretch, visit);
+      is_too_much_ |= stretch.rows > kMostRows;
+      return spend(kStretch) || stretches.visit(stretch, visit, kMostRows);
     });
   }
 
@@ -222,6 +226,7 @@ class ExcusedSearch {
   bool is_never_out_ = false;
   bool is_too_much_ = false;
   long budget_ = kExcusedBudget;
+  std::size_t judged_steps_ = 0;  // of all answers that were judged
 };
 
 }  // namespace

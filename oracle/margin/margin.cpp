@@ -38,6 +38,7 @@ class MarginSearch {
   HardestDecision run() {
     for (const Uncertain<D>& atom : query_.atoms())
       if (concerns(atom)) search(atom);
+    if (!is_hit_) weigh(target_, target_centre_);  // which may be far behind the first of very many
     decision_.margin = to_double(smallest_, kLargestMargin);
     return decision_;
   }

@@ -39,9 +39,12 @@ struct Centre {
         h2(velocity.v2 * c2 - s * s) {}
 };
 
+/// The most rows of one stretch that are looked at: hardly one in so many may hold a centre.
+inline constexpr int kMostRows = 1'000'000;
+
 /// Passes to `look` the centres with |h|^2 < reach2 and low <= s <= high; in long rows, those that
 /// visit_extremes chooses. Ends when `spend(steps)` returns true, which is called before each stretch (1
-/// step) and after each row (0 steps). Returns whether it ended early.
+/// step), after each row (0 steps), and where rows are left out (kMostRows). Returns whether it ended early.
 template <std::size_t D, class Look, class Spend>
 bool visit_centres(const View<D>& view, const Z& reach2, const Z& low, const Z& high, const Look& look,
                    const Spend& spend) {
@@ -51,8 +54,10 @@ bool visit_centres(const View<D>& view, const Z& reach2, const Z& low, const Z& 
                       [&](const LatticePoint<D>& point) { look(Centre<D>(view.velocity, point)); });
     return spend(0);
   };
-  return stretches.cut(
-      low, high, [&](const RowStretch<D>& stretch) { return spend(1) || stretches.visit(stretch, visit); });
+  return stretches.cut(low, high, [&](const RowStretch<D>& stretch) {
+    return spend(1) || stretches.visit(stretch, visit, kMostRows) ||
+           (stretch.rows > kMostRows && spend(kMostRows));
+  });
 }
 
 /// The size of an ulp of each input, in the units of an exact query.

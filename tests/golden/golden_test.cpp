@@ -493,6 +493,12 @@ TEST_CASE("Golden: each kind of tampering with acceptable answers is named", "[g
   const GoldenCase endless =
       golden_case(unit_scene(3, 0.25), {{0.25 + 0x1p-53, 0.5, 0.5}, {0, -1, 5e-324}, {}});
   REQUIRE(golden::needs_judge(endless.record));
+  Scene beside_row = unit_scene(3, 0.4);  // a layer, and a row that the flight runs along for ever
+  beside_row.lattices.resize(2, beside_row.lattices[0]);
+  beside_row.lattices[0].missing = 1, beside_row.lattices[0].vectors[2] = {};
+  beside_row.lattices[1].missing = 2, beside_row.lattices[1].vectors = {Vec{0, 0, 1}};
+  beside_row.lattices[1].atoms[0].radius = 0.01;
+  CHECK(golden::needs_judge(golden_case(beside_row, {{7e15, 7e15, 7e15}, {0, 0, -1}, {}}).record));
   require_flaws(endless, {{"acceptable", [](Record& r) { std::erase(r.tags, golden::kNeedsJudge); }}});
 }
 
