@@ -147,6 +147,7 @@ class CommandEngine final : public ExternalAnswerer {
     std::string doing;                 // what a library does, if that is not to answer
     bool told_for_silence = false, stopped_reading = false, at_end = false;
     bool has_ended = false;          // and its processor time is counted
+    std::size_t bad_bytes = 0;       // of lines that are not answers, since the last answer
     std::string instead;             // what it wrote where the first outstanding answer should have been
     std::optional<Answer> nameless;  // an error with id null, about the scene or its first query
     Clock::time_point started = Clock::now();
@@ -269,7 +270,7 @@ class CommandEngine final : public ExternalAnswerer {
     run->at_end = result == LineBuffer::Read::end;
     if (result == LineBuffer::Read::nothing) return;
     for (LineReader::Line line; run->lines.next(line);) take_line(line);
-    if (run->lines.is_endless()) return stop_flood();
+    if (run->bad_bytes > LineBuffer::kMaxLine || run->lines.is_too_long()) return stop_flood();
     if (run->at_end) run_is_over();
   }
 
@@ -343,9 +344,9 @@ class CommandEngine final : public ExternalAnswerer {
       if (take_own_time(line) || take_doing(line)) return;
       if (reader_.read_answer_line(line, id, answer, components)) take_answer(id, answer, components);
     } catch (const InputError& error) {
-      const std::string what = line.too_long ? "wrote a line that is too long for an answer"
-                                             : fmt::format("wrote a line that is not an answer, {} ({})",
-                                                           shown(line.text), error.what());
+      const std::string what =
+          fmt::format("wrote a line that is not an answer, {} ({})", shown(line.text), error.what());
+      run_->bad_bytes += line.text.size() + 1;
       if (run_->outstanding > 0 && number_of(id) == first_number_)
         answer_first_with_error(what);
       else
@@ -451,6 +452,7 @@ class CommandEngine final : public ExternalAnswerer {
       slowest_start_ = std::max(slowest_start_, Seconds(*run.first_answer - run.started));
     }
     run.instead.clear();
+    run.bad_bytes = 0;
     note_answer();
     if (run.outstanding == 0 && !run.ending) manner_ = Manner::line_by_line;
     if (manner_ == Manner::line_by_line) run.greeting = false;
@@ -552,7 +554,7 @@ class CommandEngine final : public ExternalAnswerer {
   }
 
   void stop_flood() {
-    const std::string what = "wrote a line that does not end";
+    const std::string what = "wrote more than 1 MiB that is not an answer";
     if (run_->outstanding > 0) return run_failed(what);
     complain(what);
     end_of(*std::exchange(run_, nullptr), kGrace * 0);

@@ -79,17 +79,16 @@ FirstWords first_words_of(const Executable& program, double seconds) {
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                       std::chrono::duration<double>(std::min(seconds, kLongest)));
   for (;;) {
-    if (lines.next(line) && line.too_long) return {{}, "wrote a line beyond 1 MiB"};
-    if (line.number > 0) return {std::string(line.text)};
+    if (lines.next(line)) return {std::string(line.text)};
+    if (lines.is_too_long()) return {{}, "wrote a line beyond 1 MiB"};
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
     if (left.count() <= 0) return {{}, fmt::format("gave no answer within {:.4g} s", seconds)};
     pollfd pipes[2] = {{process.output(), POLLIN, 0}, {process.errors(), POLLIN, 0}};
     ::poll(pipes, 2, static_cast<int>(left.count()));
     process.pass_on_errors(false);  // its complaints are shown when it is asked queries
-    if (lines.is_endless()) return {{}, "wrote a line without an end"};
     if (lines.read_from(process.output()) != LineBuffer::Read::end) continue;
-    if (!lines.next(line)) return {{}, fmt::format("died ({})", process.end(kToEnd).text())};
-    return {std::string(line.text)};
+    if (lines.next(line)) return {std::string(line.text)};
+    return {{}, fmt::format("died ({})", process.end(kToEnd).text())};
   }
 }
 

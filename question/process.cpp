@@ -44,26 +44,18 @@ LineBuffer::Read LineBuffer::read_from(int descriptor) {
 }
 
 bool LineBuffer::next(LineReader::Line& line) {
-  for (;;) {
-    const char* start = buffer_.data() + begin_;
-    const std::size_t unread = end_ - begin_;
-    const void* newline =
-        unread > searched_ ? std::memchr(start + searched_, '\n', unread - searched_) : nullptr;
-    if (!newline && unread > kMaxLine) {
-      skipped_ += unread;
-      begin_ = end_;
-      searched_ = 0;
-      return false;
-    }
-    searched_ = newline ? 0 : unread;
-    if (!newline && !(at_end_ && (unread > 0 || skipped_ > 0))) return false;
-    const std::size_t length = newline ? static_cast<const char*>(newline) - start : unread;
-    begin_ += length + (newline ? 1 : 0);
-    line = {std::string_view(start, skipped_ > 0 ? 0 : length), ++number_, skipped_ > 0};
-    skipped_ = 0;
-    searched_ = 0;
-    return true;
-  }
+  const char* start = buffer_.data() + begin_;
+  const std::size_t unread = end_ - begin_;
+  const void* newline =
+      unread > searched_ ? std::memchr(start + searched_, '\n', unread - searched_) : nullptr;
+  searched_ = newline ? 0 : unread;
+  const std::size_t length = newline ? static_cast<const char*>(newline) - start : unread;
+  is_too_long_ |= length > kMaxLine;
+  if (is_too_long_ || (!newline && !(at_end_ && unread > 0))) return false;
+  begin_ += length + (newline ? 1 : 0);
+  line = {std::string_view(start, length), ++number_, false};
+  searched_ = 0;
+  return true;
 }
 
 std::string Ending::text() const {

@@ -15,8 +15,7 @@
 
 namespace lorentz::question {
 
-/// Splits into lines what a descriptor gives piece by piece. Memory stays bounded: a line beyond kMaxLine is
-/// skipped.
+/// Splits into lines what a descriptor gives piece by piece.
 class LineBuffer {
  public:
   static constexpr std::size_t kMaxLine = std::size_t{1} << 20;
@@ -29,15 +28,14 @@ class LineBuffer {
   /// Gives the next complete line, as LineReader does; after the end also a last line without a line end.
   bool next(LineReader::Line& line);
 
-  /// True if the line that is skipped is longer than any mistake in a line would be.
-  bool is_endless() const { return skipped_ > 16 * kMaxLine; }
+  /// True if the next line is longer than kMaxLine. Nothing should be read any more, so that memory stays bounded.
+  bool is_too_long() const { return is_too_long_; }
 
  private:
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0, searched_ = 0;  // unread: begin_ to end_; searched_: no line end in these
   std::size_t number_ = 0;
-  std::size_t skipped_ = 0;  // of the line that is skipped
-  bool at_end_ = false;
+  bool at_end_ = false, is_too_long_ = false;
 };
 
 /// How a program ended.

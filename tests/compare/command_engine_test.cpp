@@ -156,7 +156,7 @@ TEST_CASE("A program's fault costs the query that it shows at, is reported with 
       {"crashes", "cmd died (signal 11, ", "died (signal 11, "},
       {"garbage", bad_line + "wrote a line that is not an answer, rubbish (not JSON",
        "not an answer, rubbish (not JSON"},
-      {"long-line", bad_line + "wrote a line that is too long", "wrote a line that is too long"},
+      {"long-line", "cmd wrote more than 1 MiB that is not an answer", "wrote more than 1 MiB that is not"},
       {"half", "cmd wrote a line that is not an answer, ", "needs lattice, atom and cell"},
       {"swaps", "cmd gave no answer to this query before that to a later one",
        "answered this query after a later"},
@@ -568,6 +568,22 @@ done
     if (odd != "hangs-when-loaded") CHECK(lines(run.out) == kCount);
     CHECK(lines(run.out) - errors == answered);
     CHECK(seconds_since(start) < 30);
+  }
+}
+
+TEST_CASE("A program that writes without end what is not an answer is ended at 1 MiB of it",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const std::string queries = folder.write("q", stream(3));
+  for (const std::string flood :
+       {"exec yes", "exec tr 0 x </dev/zero", "while read -r line; do :; done; yes"}) {
+    INFO(flood);
+    const auto start = std::chrono::steady_clock::now();
+    const Run run = folder.lorentz("first-hit --engine 'cmd:" + flood + "' " + queries);
+    CHECK(run.status == 3);
+    CHECK(contains(run.out, error_to(1, "cmd wrote more than 1 MiB that is not an answer")));
+    CHECK(run.err.size() < 10'000);
+    CHECK(seconds_since(start) < 30);  // 60 is the timeout
   }
 }
 
