@@ -4,6 +4,7 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"
+#include "cli/help_texts.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"

@@ -6,6 +6,7 @@
 #include "cli/compare_questions.hpp"
 #include "cli/compare_table.hpp"
 #include "cli/disagreement_file.hpp"
+#include "cli/help_texts.hpp"
 #include "cli/logged_answers.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"

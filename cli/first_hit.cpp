@@ -4,6 +4,7 @@
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/first_hit.hpp"
+#include "cli/help_texts.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/terminal.hpp"

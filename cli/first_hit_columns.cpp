@@ -3,7 +3,6 @@
 #include <lorentz/exchange.hpp>
 #include "cli/output.hpp"
 #include "files/messages.hpp"
-#include "question/column_engine.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
 
@@ -87,7 +86,8 @@ class Npy {
 
 template <class Format>
 int answer_all(const ColumnOrder& order) {
-  question::ColumnEngine engine(order.engine, order.scene, order.max_time, order.jobs);
+  const question::SceneEngine engine = order.engine.in(order.scene);
+  const double max_time = order.max_time.value_or(question::kForEver);
   Output output;
   Format format(order, output.buffer());
   ColumnReader& reader = format.reader();
@@ -95,7 +95,8 @@ int answer_all(const ColumnOrder& order) {
   QueryRows queries;
   AnswerRows answers;
   const auto answer = [&] {
-    engine.answer(queries, answers);
+    answers.resize(queries.count, order.scene.dimension);
+    engine.answer(queries, answers, 0, max_time, order.jobs);
     format.write(queries, answers);
     complaints(reader.name(), queries, answers);
     queries.clear();

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include <lorentz/exchange.hpp>
+#include "cli/help_texts.hpp"
 #include "cli/numbers.hpp"
 #include "files/messages.hpp"
 #include "question/answerer.hpp"

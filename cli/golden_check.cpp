@@ -10,6 +10,7 @@
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"
 #include "cli/compare_table.hpp"
+#include "cli/help_texts.hpp"
 #include "cli/known_failures.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"

@@ -9,6 +9,7 @@
 #include "cli/app.hpp"
 #include "cli/claim_options.hpp"
 #include "cli/golden_questions.hpp"
+#include "cli/help_texts.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/known_failures.hpp"
 #include "cli/output.hpp"
@@ -217,7 +218,7 @@ Command judge_command() {
       "judge",
       "All that can be said of one engine: comparison, golden sets, a campaign, speed; one verdict.",
       {
-          {"-e,--engine", &options->engine, "ENGINE", question::names_for_help(), kRequired},
+          {"-e,--engine", &options->engine, "ENGINE", names_for_help(), kRequired},
           {"--quick", &options->quick, "", "20 seconds instead of two minutes, and fewer drawn flights",
            kPlain, "--questions"},
           {"--time", Positive{&options->seconds}, "SECONDS",

@@ -45,7 +45,7 @@ void refuse_other_formats(const std::string& file) {
 std::vector<DrawnFlight> flights_of(QueryStream& stream, std::optional<Scene>& scene) {
   constexpr std::size_t kMostFlights = 1000;
   std::vector<DrawnFlight> flights;
-  FirstHit first_hit;
+  std::optional<question::SceneEngine> certified;
   std::size_t refused = 0;
   std::string reason;
   for (StreamItem item; stream.next(item);) {
@@ -55,15 +55,16 @@ std::vector<DrawnFlight> flights_of(QueryStream& stream, std::optional<Scene>& s
         break;
       }
       scene = item.scene;
-      first_hit = nullptr;
+      certified.reset();
     } else if (item.kind == StreamItem::Kind::query) {
       if (flights.size() >= kMostFlights) {
         say("the picture shows the first {} flights", kMostFlights);
         break;
       }
-      if (!first_hit) first_hit = question::engine_named("certified").first_hit(*scene);
-      DrawnFlight flight{item.query, {}};
-      first_hit(item.query, {}, flight.answer);
+      if (!certified) certified = question::engine_named("certified").in(*scene);
+      question::Reply reply;
+      certified->ask(item.query, {}, reply);
+      DrawnFlight flight{item.query, std::move(reply.answer)};
       if (flight.answer.outcome == Outcome::error) {
         ++refused;
         reason = flight.answer.message;

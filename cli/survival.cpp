@@ -2,6 +2,7 @@
 #include "statistics/survival/survival.hpp"
 #include <lorentz/errors.hpp>
 #include "cli/app.hpp"
+#include "cli/help_texts.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/numbers.hpp"
 #include "cli/progress.hpp"
@@ -67,7 +68,7 @@ Command survival_command() {
       joined(scan_rows(*options, "shares of starts that are right after k collisions"),
              {
                  {"-e,--engine", &options->engine, "ENGINE",
-                  "whose flights binary64 and double-double have: one of " + question::names_for_help()},
+                  "whose flights binary64 and double-double have: one of " + names_for_help()},
                  {"--bits", &options->bits, "LIST",
                   "arithmetics: 53 is the engine in binary64, 106 in double-double, any other number "
                   "plain arithmetic of that many bits",

@@ -2,6 +2,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
+#include "cli/help_texts.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
@@ -287,7 +288,7 @@ Command trajectory_command() {
            "precision at which to give up, undecided (default: 262144, or as --digits needs)"},
           {"-e,--engine", &options->engine, "ENGINE",
            "holds the trajectory with this engine's flights against it: one of " +
-               question::names_for_help()},
+               names_for_help()},
           {"--precision", &options->precision, "binary64|double-double",
            "of the engine's trajectory: binary64, double-double"},
           {"--csv", &options->csv, "FILE", "collisions as a table, to a file", kOutput},

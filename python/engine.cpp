@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-
 #include <lorentz/errors.hpp>
 #include "python/signals.hpp"
 
@@ -128,7 +127,9 @@ PyEngine::PyEngine(const PyScene& scene, const std::string& name, std::optional<
     : info_(checked(name, jobs)),
       dimension_(scene.dimension()),
       together_(rows_together(info_, jobs)),
-      engine_(info_, scene.scene(), max_time, jobs) {}
+      max_time_(max_time.value_or(question::kForEver)),
+      jobs_(jobs),
+      engine_(info_.in(scene.scene())) {}
 
 std::shared_ptr<AnswerRows> PyEngine::first_hit(const QueryArrays& queries, bool refuse,
                                                 std::shared_ptr<AnswerRows> out) {
@@ -138,7 +139,6 @@ std::shared_ptr<AnswerRows> PyEngine::first_hit(const QueryArrays& queries, bool
                      std::to_string(out->dimension) + " dimensions");
   const auto answers = out ? std::move(out) : std::make_shared<AnswerRows>();
   const py::gil_scoped_release release;
-  const std::lock_guard lock(in_use_);
   answers->resize(queries.count(), dimension_);
   try {
     answer(queries, refuse, *answers);
@@ -150,13 +150,13 @@ std::shared_ptr<AnswerRows> PyEngine::first_hit(const QueryArrays& queries, bool
   return answers;
 }
 
-void PyEngine::answer(const QueryArrays& queries, bool refuse, AnswerRows& answers) {
+void PyEngine::answer(const QueryArrays& queries, bool refuse, AnswerRows& answers) const {
   QueryRows rows;
   SignalWatch watch;
   for (std::size_t first = 0; first < queries.count(); first += rows.count) {
     const std::size_t told = answers.reasons.size();
     queries.copy(first, together_, rows);
-    engine_.answer_from(first, rows, answers);
+    engine_.answer(rows, answers, first, max_time_, jobs_);
     if (refuse) refuse_first(answers, told);
     watch.look();
   }

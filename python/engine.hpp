@@ -2,12 +2,11 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
 #include "python/scene.hpp"
-#include "question/column_engine.hpp"
+#include "question/engines.hpp"
 
 namespace lorentz::python {
 
@@ -51,13 +50,14 @@ class PyEngine {
   const std::string& name() const { return info_.name; }
 
  private:
-  void answer(const QueryArrays& queries, bool refuse, AnswerRows& answers);
+  void answer(const QueryArrays& queries, bool refuse, AnswerRows& answers) const;
 
   const question::EngineInfo info_;
   const int dimension_;
   const std::size_t together_;  // rows
-  std::mutex in_use_;           // one call at a time: the engine has room for one part of the rows
-  question::ColumnEngine engine_;
+  const double max_time_;
+  const int jobs_;
+  const question::SceneEngine engine_;
 };
 
 }  // namespace lorentz::python

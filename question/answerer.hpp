@@ -33,13 +33,13 @@ struct AnswererOptions {
   /// its first answer may take `timeout` plus twice the time of the slowest start so far, but no more than
   /// this.
   double start_timeout = 0;
+  /// An engine of this program is asked as campaigns do: `reduction` and `batch` in two ways at once, and
+  /// `classical` and `walk` give up sooner.
+  bool in_campaign = false;
   /// Called at least every 0.1 s during a wait for an external engine. Once it returns true, the engine's
   /// process group is killed, and its open queries, and those asked later, are `not_asked`.
   std::function<bool()> enough = {};
 };
-
-inline constexpr const char* kTimeoutHelp =
-    "how long a cmd: or lib: engine may be silent while it owes answers (default: 60)";
 
 /// Where an answer comes from. If an external engine fails on a query, or is not asked it, this program
 /// answers `error` and says what happened instead.

@@ -14,21 +14,9 @@
 #include <lorentz/scene.hpp>
 #include "question/answerer.hpp"
 #include "question/introduction.hpp"
+#include "question/own_answerer.hpp"
 
 namespace lorentz::question {
-
-/// Answers the queries of one scene, into an existing answer. Only the oracle gives `digits`. A detail that
-/// binary64 cannot compute is left out.
-using FirstHit = std::function<void(const Query&, const oracle::Request&, Answer&)>;
-
-/// Properties of an engine that decide how its answers are treated.
-struct Traits {
-  bool is_exact = false;          ///< its answers rest on exact arithmetic
-  bool knows_digits = false;      ///< gives digits of times beyond those of a binary64
-  bool leaves_undecided = false;  ///< on purpose: `undecided` for a hard query is not a failure
-  bool uses_reduction = false;    ///< so `certified`, which rests on `reduction`, cannot judge it
-  bool in_bulk = false;           ///< slow with one query at a time, so its answerer gathers queries
-};
 
 /// An engine as a value. Its name is looked up once, where a user gives it.
 struct EngineInfo {
@@ -41,9 +29,8 @@ struct EngineInfo {
   std::string name;
   Traits traits = {};  ///< all false for a command or a library; for a guest only in_bulk is true
   Kind kind = Kind::own;
-  /// Answers one query at a time in a valid scene. A batch engine uses the engine of single flights that it
-  /// agrees with. Empty unless the kind is `own`, because the others would be slow this way.
-  std::function<FirstHit(const Scene&)> first_hit = {};
+  /// Makes it for a valid scene. Empty unless the kind is `own`.
+  std::function<SceneEngine(const Scene&)> in = {};
   /// Makes an answerer, for many queries at a time. Any number of threads may call it; each uses its own
   /// answerer.
   std::function<std::unique_ptr<Answerer>(const AnswererOptions&)> answerer = {};
@@ -60,9 +47,8 @@ struct EngineInfo {
 /// The table of this program's engines.
 const std::vector<EngineInfo>& own_engines();
 
-/// Their names; and the same for help texts, with `cmd:COMMAND` and `lib:FILE.so`.
+/// Their names.
 std::vector<std::string> own_names();
-std::string names_for_help();
 
 /// The engine of this program with this name, or null.
 const EngineInfo* own_engine(std::string_view name);
@@ -90,9 +76,6 @@ enum class Truth {
   oracle,    ///< the exact oracle: shares no arithmetic with any engine
   certified  ///< the same answers, many times faster, if the fast engine's filters are right
 };
-
-inline constexpr const char* kJudgeHelp =
-    "whose answers are the truth: oracle, or certified, which is faster and rests on reduction";
 
 /// The truth that `--judge NAME` selects. Throws InputError for an unknown name, and if a judged engine rests
 /// on the engine that would judge it.

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "question/instruction_counter.hpp"
-#include "question/many_flights.hpp"
 
 namespace lorentz::question {
 namespace {
@@ -51,11 +50,11 @@ double thread_ns() {
   return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
 }
 
-// An engine that is asked one query at a time; `first_hits` has its function for each question.
-Round run_round(Questions questions, const std::vector<const FirstHit*>& first_hits, const std::string& name,
+// An engine that is asked one query at a time; `engines` has it for each question's scene.
+Round run_round(Questions questions, const std::vector<const SceneEngine*>& engines, const std::string& name,
                 const Listener& listener) {
   Round round;
-  std::vector<Answer> answers(kBlock);
+  std::vector<Reply> replies(kBlock);
   const oracle::Request request;
   InstructionCounter instructions;
   double spent = 0;
@@ -64,7 +63,7 @@ Round run_round(Questions questions, const std::vector<const FirstHit*>& first_h
     spent -= thread_ns();
     const auto start = SteadyClock::now();
     for (std::size_t i = begin; i < end; ++i)
-      (*first_hits[i])(questions[i].query, request, answers[i - begin]);
+      engines[i]->ask(questions[i].query, request, replies[i - begin]);
     const double ns = ns_since(start);
     spent += thread_ns();
     instructions.pause();
@@ -78,10 +77,10 @@ Round run_round(Questions questions, const std::vector<const FirstHit*>& first_h
 
 // Questions of one place, one behind the other, as columns for a batch engine.
 struct ColumnsThere {
-  ColumnsThere(const EngineInfo& of, const Place* there) : place(there), engine(of, there->scene()) {}
+  ColumnsThere(const EngineInfo& of, const Place* there) : place(there), engine(of.in(there->scene())) {}
 
   const Place* place;
-  ColumnFlyer engine;
+  SceneEngine engine;
   QueryTable queries = {};
 };
 
@@ -171,9 +170,10 @@ class Entrant {
       return;
     }
     for (const Question& question : questions) {
-      FirstHit& first_hit = by_place_[question.place.get()];
-      if (!first_hit) first_hit = engine.first_hit(question.place->scene());
-      first_hits_.push_back(&first_hit);
+      auto there = by_place_.find(question.place.get());
+      if (there == by_place_.end())
+        there = by_place_.emplace(question.place.get(), engine.in(question.place->scene())).first;
+      engines_.push_back(&there->second);
     }
   }
 
@@ -181,7 +181,7 @@ class Entrant {
     rounds_.push_back(is_library_         ? run_round_by_own_time(questions_, *program_)
                       : program_          ? run_round(questions_, *program_, name_, listener_)
                       : !columns_.empty() ? run_round(columns_, name_, listener_)
-                                          : run_round(questions_, first_hits_, name_, listener_));
+                                          : run_round(questions_, engines_, name_, listener_));
   }
   bool failed() const { return program_ && program_->failed(); }
 
@@ -210,8 +210,8 @@ class Entrant {
   const std::string name_;
   const Listener& listener_;
   const bool is_library_;
-  std::map<const Place*, FirstHit> by_place_;
-  std::vector<const FirstHit*> first_hits_;
+  std::map<const Place*, SceneEngine> by_place_;
+  std::vector<const SceneEngine*> engines_;
   std::deque<ColumnsThere> columns_;  // instead of these, for a batch engine
   std::unique_ptr<Answerer> own_;
   Answerer* program_ = nullptr;  // likewise, for an external engine or a function of the caller

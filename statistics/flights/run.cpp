@@ -7,7 +7,7 @@
 #include <mutex>
 
 #include <lorentz/errors.hpp>
-#include "question/many_flights.hpp"
+#include "question/engines.hpp"
 
 namespace lorentz::flights {
 namespace {
@@ -22,7 +22,7 @@ constexpr std::uint64_t kTogether = 4096;
 // Draws the starts of flights, flies them and counts the results, block by block. Each thread has its own.
 class Flyer {
  public:
-  Flyer(const FlightsPlan& plan, const question::ColumnFlyer& engine)
+  Flyer(const FlightsPlan& plan, const question::SceneEngine& engine)
       : engine_(engine), starts_(plan.scene, plan.from, plan.seed, plan.cells) {}
 
   // Flies the starts [first, first + count) and adds the results to the tally. Throws InputError if a start
@@ -78,7 +78,7 @@ class Flyer {
     }
   }
 
-  const question::ColumnFlyer& engine_;
+  const question::SceneEngine& engine_;
   const starts::Candidates starts_;
   starts::StartColumns columns_;
   QueryTable again_;
@@ -140,7 +140,7 @@ class BlockLedger {
   std::mutex mutex_;
 };
 
-void work(const FlightsPlan& plan, const question::ColumnFlyer& engine, BlockLedger& ledger) {
+void work(const FlightsPlan& plan, const question::SceneEngine& engine, BlockLedger& ledger) {
   try {
     Flyer flyer(plan, engine);
     for (std::uint64_t block; ledger.take(block);) {
@@ -163,7 +163,7 @@ void run(const FlightsPlan& plan, const FlightBounds& bounds, Account& account,
   if (const auto why = info.traits.is_exact ? std::nullopt : Reduction::beyond(plan.scene);
       why && info.traits.uses_reduction)
     throw InputError(fmt::format("the engine {} {}; certified does such scenes", info.name, *why));
-  const question::ColumnFlyer engine(info, plan.scene);
+  const question::SceneEngine engine = info.in(plan.scene);
   BlockLedger ledger(plan, bounds, account);
   std::vector<std::future<void>> threads;
   for (unsigned job = 0; job < bounds.jobs; ++job)

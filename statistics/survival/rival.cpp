@@ -47,8 +47,10 @@ double bits_in_common(const Vec& a, const Vec& b) {
 }  // namespace
 
 AskFirstHit asking(const question::EngineInfo& engine, const Scene& scene) {
-  return [first_hit = engine.first_hit(scene)](const Query& query, double max_time, Answer& answer) {
-    first_hit(query, request_until(max_time), answer);
+  return [there = engine.in(scene)](const Query& query, double max_time, Answer& answer) {
+    question::Reply reply;
+    there.ask(query, request_until(max_time), reply);
+    answer = std::move(reply.answer);
   };
 }
 

@@ -5,7 +5,7 @@
 
 #include <lorentz/engine.hpp>
 #include <lorentz/exchange.hpp>
-#include "question/column_engine.hpp"
+#include "question/engines.hpp"
 #include "question/instruction_counter.hpp"
 #include "src/exchange/nearest_name.hpp"
 
@@ -37,6 +37,8 @@ TEST_CASE("Answerers are told apart by their traits, of another program nothing 
   CHECK(names_with(&Traits::knows_digits) == Names{"oracle"});
   CHECK(names_with(&Traits::leaves_undecided) == Names{"reduction", "batch"});
   CHECK(names_with(&Traits::uses_reduction) == Names{"reduction", "certified", "batch", "certified-batch"});
+  CHECK(names_with(&Traits::takes_limits) ==
+        Names{"reduction", "certified", "batch", "certified-batch", "oracle", "walk"});
   CHECK(names_with(&Traits::in_bulk) == Names{"batch", "certified-batch"});
   const Traits other = engine_named("cmd:./reduction").traits;
   CHECK_FALSE((other.is_exact || other.knows_digits || other.leaves_undecided || other.uses_reduction));
@@ -46,10 +48,10 @@ TEST_CASE("Every engine in the table answers in a scene", "[compare][engines]") 
   const Scene scene = unit_scene(2, 0.25);
   for (const EngineInfo& engine : own_engines()) {
     INFO(engine.name);
-    Answer answer;
-    engine.first_hit(scene)({{0.5, 0.5, 0}, {1, 1, 0}, {}}, {}, answer);
-    CHECK(answer.outcome == Outcome::hit);
-    CHECK(answer.obstacle.cell == Cell{1, 1, 0});
+    Reply reply;
+    engine.in(scene).ask({{0.5, 0.5, 0}, {1, 1, 0}, {}}, {}, reply);
+    CHECK(reply.answer.outcome == Outcome::hit);
+    CHECK(reply.answer.obstacle.cell == Cell{1, 1, 0});
   }
 }
 
@@ -81,7 +83,8 @@ TEST_CASE("Columns: each row leaves its own obstacle, also one in a far cell of 
   for (const char* name : {"certified", "certified-batch", "oracle"}) {
     INFO(name);
     AnswerRows answers;
-    ColumnEngine(engine_named(name), scene, std::nullopt, 1).answer(rows, answers);
+    answers.resize(rows.count, 2);
+    engine_named(name).in(scene).answer(rows, answers);
     for (std::size_t i = 0; i < 5; ++i) {
       INFO(i);
       CHECK(answers.outcome[i] == (i % 2 == 0 ? Outcome::inside : Outcome::hit));
@@ -91,7 +94,8 @@ TEST_CASE("Columns: each row leaves its own obstacle, also one in a far cell of 
   // A batch does not fly what leaves such a one: that row is asked alone, and has no stage.
   rows.x[0].assign(5, 0.5), rows.x[1].assign(5, 0);
   AnswerRows answers;
-  ColumnEngine(engine_named("batch"), unit_scene(2, 0.25), std::nullopt, 1).answer(rows, answers);
+  answers.resize(rows.count, 2);
+  engine_named("batch").in(unit_scene(2, 0.25)).answer(rows, answers);
   for (std::size_t i = 0; i < 5; ++i) {
     CHECK((answers.stage[i] == AnswerRows::kNoStage) == (i % 2 == 1));
     CHECK(answers.time[i] == 0.25);

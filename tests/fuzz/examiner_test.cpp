@@ -10,6 +10,7 @@
 #include "cases/families/target.hpp"
 #include "fuzz/examine/answerers.hpp"
 #include "fuzz/rewording/notation.hpp"
+#include "question/both_ways.hpp"
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/support.hpp"
 
@@ -97,21 +98,26 @@ TEST_CASE("A prepared direction, or a single flight, that says anything else is 
   for (const auto& [change, seen] : changes) {
     const std::string expected = seen ? "he" : "hh";
     // In the second flight alone.
-    const auto reduction =
-        fuzz::reduction_both_ways([&](const Reduction& engine, const Query& query, double max_time) {
-          Flight flight = engine.fly(query, max_time);
-          if (query.v[1] != 0) change(flight);
-          return flight;
-        });
-    CHECK(said(*reduction, scene, queries) == expected);
+    const auto reduction = [&](const Scene& in) {
+      return question::reduction_both_ways(in, {},
+                                           [&](const Reduction& engine, const Query& query, double max_time) {
+                                             Flight flight = engine.fly(query, max_time);
+                                             if (query.v[1] != 0) change(flight);
+                                             return flight;
+                                           });
+    };
+    CHECK(said(*question::own_answerer({}, reduction), scene, queries) == expected);
     for (const auto wrong_in : {Batch::Time::close, Batch::Time::rounded}) {
-      const auto batch = fuzz::batch_both_ways(
-          [&](const Batch& engine, const Query& query, double max_time, Batch::Time time) {
-            Flight flight = engine.one_at_a_time().fly(query, max_time, time);
-            if (query.v[1] != 0 && time == wrong_in) change(flight);
-            return flight;
-          });
-      CHECK(said(*batch, scene, queries) == expected);
+      const question::Traits traits{.in_bulk = true};
+      const auto batch = [&](const Scene& in) {
+        return question::batch_both_ways(
+            in, traits, [&](const Batch& engine, const Query& query, double max_time, Batch::Time time) {
+              Flight flight = engine.one_at_a_time().fly(query, max_time, time);
+              if (query.v[1] != 0 && time == wrong_in) change(flight);
+              return flight;
+            });
+      };
+      CHECK(said(*question::own_answerer(traits, batch), scene, queries) == expected);
     }
   }
   // The limit goes both ways, too.

@@ -1,0 +1,140 @@
+#include "question/scene_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace lorentz::question {
+
+SceneEngine SceneEngine::unsupported(const Scene& scene, const Traits& traits, const std::string& why) {
+  return {scene, traits, [why](const Query&, const oracle::Request&, Reply& reply) {
+            reply = {Answer::unsupported_because(why)};
+          }};
+}
+
+void SceneEngine::fly(const QueryColumns& queries, FlightTable& flights) const {
+  flights.resize(queries.size());
+  const FlightColumns columns = flights.columns();
+  std::vector<std::size_t> rest;
+  if (flies_together()) {
+    fly_together(queries, columns, rest, 1);
+  } else {
+    rest.resize(queries.size());
+    std::iota(rest.begin(), rest.end(), 0);
+  }
+  Reply reply;
+  for (const std::size_t i : rest) {
+    ask(queries.query(i, dimension_), {}, reply);
+    columns.outcome[i] = reply.answer.outcome;
+    columns.time[i] = reply.answer.time.value_or(0);
+  }
+}
+
+namespace {
+
+// Some rows, and the answers to them.
+class Rows {
+ public:
+  Rows(const SceneEngine& engine, const QueryRows& queries, AnswerRows& answers, std::size_t first,
+       double max_time)
+      : engine_(engine), queries_(queries), answers_(answers), first_(first), limits_(queries.max_time) {
+    if (std::isinf(max_time)) return;
+    limits_.resize(queries.count, kForEver);
+    for (double& limit : limits_) limit = std::min(limit, max_time);
+  }
+
+  void answer(int jobs) {
+    const bool together = engine_.traits().in_bulk && engine_.flies_together();
+    if (together) fly(jobs);
+    // For nearly all rows the flight has written everything already.
+    const bool is_plain = together && limits_.empty() && uncertain_.empty() && queries_.flaws.empty() &&
+                          queries_.large_from.empty();
+    std::size_t uncertain = 0, flaw = 0, large = 0;
+    for (std::size_t i = 0; i < queries_.count; ++i) {
+      if (is_plain && answers_.outcome[first_ + i] == Outcome::hit) continue;
+      const bool asked = uncertain < uncertain_.size() && uncertain_[uncertain] == i;
+      uncertain += asked;
+      const bool from_afar = large < queries_.large_from.size() && queries_.large_from[large].first == i;
+      large += from_afar;
+      if (flaw < queries_.flaws.size() && queries_.flaws[flaw].row == i)
+        answers_.set_error(first_ + i, queries_.flaws[flaw++].message, false);
+      else if (!(limit(i) > 0))
+        answers_.set_error(first_ + i, "max_time must be above zero", false);
+      else if (asked)
+        ask(i, AnswerRows::kExactStage);
+      else if (together && !from_afar)
+        finish(i);
+      else
+        ask(i, usual_stage());
+    }
+  }
+
+ private:
+  double limit(std::size_t i) const { return limits_.empty() ? kForEver : limits_[i]; }
+
+  // The one stage with which an engine of this kind decides; unknown for the others.
+  std::uint8_t usual_stage() const {
+    const Traits& traits = engine_.traits();
+    return traits.is_exact && !traits.uses_reduction ? AnswerRows::kExactStage : AnswerRows::kNoStage;
+  }
+
+  void fly(int jobs) {
+    const std::size_t count = queries_.count;
+    std::vector<Stage> stages(count);
+    QueryColumns asked;
+    FlightColumns told;
+    told.outcome = std::span(answers_.outcome).subspan(first_, count);
+    told.stage = stages;
+    told.time_is_rounded = {answers_.time_is_rounded.get() + first_, count};
+    told.lattice = std::span(answers_.lattice).subspan(first_, count);
+    told.atom = std::span(answers_.atom).subspan(first_, count);
+    told.time = std::span(answers_.time).subspan(first_, count);
+    for (int k = 0; k < answers_.dimension; ++k) {
+      asked.x[k] = std::span(queries_.x[k]).first(count), asked.v[k] = std::span(queries_.v[k]).first(count);
+      if (!queries_.from_lattice.empty()) asked.from_cell[k] = std::span(queries_.from_cell[k]).first(count);
+      told.cell[k] = {answers_.cell[k] + first_, count};
+    }
+    if (!limits_.empty()) asked.max_time = std::span(limits_).first(count);
+    if (!queries_.from_lattice.empty()) {
+      asked.from_lattice = std::span(queries_.from_lattice).first(count);
+      asked.from_atom = std::span(queries_.from_atom).first(count);
+    }
+    engine_.fly_together(asked, told, uncertain_, jobs);
+    std::ranges::transform(stages, answers_.stage.begin() + static_cast<std::ptrdiff_t>(first_),
+                           [](Stage stage) { return static_cast<std::uint8_t>(stage); });
+  }
+
+  // Sets what a flight leaves open: the columns that have no meaning for its outcome.
+  void finish(std::size_t i) {
+    const std::size_t row = first_ + i;
+    const Outcome outcome = answers_.outcome[row];
+    if (outcome == Outcome::hit) return;
+    if (outcome == Outcome::error) return ask(i, AnswerRows::kNoStage);
+    if (outcome != Outcome::inside) return answers_.set_plain(row, outcome);
+    answers_.time[row] = std::numeric_limits<double>::quiet_NaN(), answers_.time_is_rounded[row] = false;
+  }
+
+  void ask(std::size_t i, std::uint8_t stage) {
+    oracle::Request request;
+    if (std::isfinite(limit(i))) request.max_time = limit(i);
+    engine_.ask(queries_.query(i, answers_.dimension), request, reply_);
+    answers_.set(first_ + i, reply_.answer, stage, engine_.traits().is_exact);
+  }
+
+  const SceneEngine& engine_;
+  const QueryRows& queries_;
+  AnswerRows& answers_;
+  const std::size_t first_;
+  std::vector<double> limits_;  // empty: no row has one
+  std::vector<std::size_t> uncertain_;
+  Reply reply_;
+};
+
+}  // namespace
+
+void SceneEngine::answer(const QueryRows& queries, AnswerRows& answers, std::size_t first, double max_time,
+                         int jobs) const {
+  Rows(*this, queries, answers, first, max_time).answer(jobs);
+}
+
+}  // namespace lorentz::question
