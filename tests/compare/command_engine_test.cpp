@@ -571,6 +571,19 @@ done
   }
 }
 
+TEST_CASE("The last words of a program that dies are its own, not the shell's", "[compare][command_engine]") {
+  for (const std::string signal : {"ABRT", "SEGV", "KILL"}) {
+    INFO(signal);
+    const std::string dies = "sh -c 'echo out of luck >&2; kill -" + signal + " $$'; exit $?";
+    const auto program = lorentz::question::engine_named("cmd:" + dies).answerer({});
+    program->on_reply([](lorentz::question::Reply& reply) { CHECK(reply.is_fault()); });
+    program->set_scene(lorentz::unit_scene(2, 0.25));
+    program->ask("null", {{0.5, 0.5, 0}, {1, 1, 0}, {}});
+    program->finish();
+    CHECK(program->take_last_words() == "out of luck");
+  }
+}
+
 TEST_CASE("A program that writes without end what is not an answer is ended at 1 MiB of it",
           "[compare][command_engine]") {
   const Folder folder;
