@@ -184,7 +184,7 @@ TEST_CASE("Counted questions: where scenes are left, each row asks the same, how
         [=](const question::AnswererOptions&) { return std::make_unique<Planar>(milliseconds); });
     Examination examination(planar, {}, 4, stop);
     examination.ask_exactly(60);
-    examination.run({"row", ""}, questions({3, 2}, 40), kForEver);
+    examination.run({"row", ""}, questions({2, 3}, 40), kForEver);
     return examination.rows()[0].tally;
   };
   const question::Tally fast = asked(0), slow = asked(30);
