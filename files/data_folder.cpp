@@ -65,8 +65,8 @@ std::string data_places(const std::string& folder) {
   const std::string searched = fmt::format("{}", fmt::join(places, ", "));
   std::error_code error;
   if (fs::exists("/proc/self/exe", error)) return searched;
-  return searched + (searched.empty() ? "" : "; ") +
-         "where the program lies is not known without /proc; set LORENTZ_DATA";
+  return (searched.empty() ? "no folder" : searched + ", and nowhere else") +
+         ": without /proc the program does not know where it lies; set LORENTZ_DATA";
 }
 
 }  // namespace lorentz
