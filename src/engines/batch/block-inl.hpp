@@ -1,14 +1,11 @@
 // One vector of queries from start to end, in lanes, as in src/engines/reduction/scene_flight.hpp and
 // flight_kernel.hpp. Private to the batch engine.
 
-enum class Lattices { crystals, sparse, none };
-
-/// The queries [at, at + lanes) of a stretch.
-template <int D, bool kUnit, bool kBall, Lattices kLattices>
+/// The queries [at, at + lanes) of a stretch. kSingle: the scene's obstacles are single balls.
+template <int D, bool kUnit, bool kBall, bool kSingle>
 class Block {
-  static constexpr bool kFewer = kLattices != Lattices::crystals, kSingle = kLattices == Lattices::none;
-  using SearchInCrystal = std::conditional_t<D == 2, Search2<kUnit, kBall>, Search3<kUnit, kBall>>;
-  using Search = std::conditional_t<kFewer, SparseSearch<D, kSingle>, SearchInCrystal>;
+  using SearchInCrystal = std::conditional_t<D == 2, LaneSearch2<kUnit, kBall>, LaneSearch3<kUnit, kBall>>;
+  using Search = std::conditional_t<kSingle, SingleBall<D>, SearchInCrystal>;
   using AtomStart = Start<D, kUnit, kBall>;
   static constexpr bool kTurned = kUnit && kBall;
   static constexpr std::size_t kKept = kUnit || kSingle ? 1 : 6;
@@ -63,15 +60,14 @@ class Block {
   HWY_INLINE void fly() {
     V velocity[D];
     turn_.apply(velocity_.scaled, velocity);
-    TimeLimit limit{infinite()};
-    if (stretch_.max_time)
-      limit.time = velocity_.template limit_of<kUnit>(load(stretch_.max_time + at_), scene_);
-    V max_time = limit.time;
+    V limit = infinite();
+    if (stretch_.max_time) limit = velocity_.template limit_of<kUnit>(load(stretch_.max_time + at_), scene_);
+    V max_time = limit;
     typename Search::Direction to;
     LaneEntry<D, kBall> best;
     V best_atom = none();
     for (std::size_t a = 0; a < scene_.atoms.size(); ++a) {
-      if constexpr (kFewer)
+      if constexpr (kSingle)
         to.set(scene_.atoms[a], velocity);
       else
         set_direction(a, velocity, to);
@@ -85,14 +81,16 @@ class Block {
       if (left != nullptr && kTurned) turn_leaving(leaving);
       Search search(to, scene_.atoms[a], seen, left, s_limit);
       search.run(lanes_);
-      if constexpr (D == 2 || kFewer) stage2_ = Or(stage2_, search.stage2);
+      if constexpr (D == 2 || kSingle) stage2_ = Or(stage2_, search.stage2);
       M next = And(lanes_.active, search.found.s < infinite());
       set_cell(search.found);
       if (a == 0) {
         best = search.found;
         found_ = next;
       } else {
-        next = And(sooner(search.found, best, next), lanes_.active);
+        V error;
+        const V time = best.rough_time(error);
+        next = And(sooner(search.found, time, error, next), lanes_.active);
         best.take(next, search.found);
         found_ = And(Or(found_, next), lanes_.active);
       }
@@ -105,7 +103,7 @@ class Block {
       if (nowhere(lanes_.active)) break;
     }
     found_ = And(found_, lanes_.active);
-    if (stretch_.max_time) found_ = sooner(best, limit, found_);
+    if (stretch_.max_time) found_ = sooner(best, limit, none(), found_);
     for (std::size_t a = 0; a < scene_.atoms.size(); ++a) {
       const M here = And(found_, best_atom == all(static_cast<double>(a)));
       if (any(here)) finish(here, a, best);
@@ -205,20 +203,12 @@ class Block {
     for (int k = 0; k < D; ++k) entry.n[k] = here[k];
   }
 
-  // A time limit, in place of a hit at that time.
-  struct TimeLimit {
-    V time;
-
-    HWY_INLINE V rough_time(V& error) const { return error = none(), time; }
-  };
-
-  // Returns the lanes of `next` in which `one` comes before `other`, which is a hit or a limit. Lanes in
-  // which that is not certain are left over.
-  template <class Other>
-  HWY_INLINE M sooner(const LaneEntry<D, kBall>& one, const Other& other, M next) {
+  // Returns the lanes of `next` in which `one` comes before another hit or a limit, whose time errs by
+  // `other_error`. Lanes in which that is not certain are left over.
+  HWY_INLINE M sooner(const LaneEntry<D, kBall>& one, V other_time, V other_error, M next) {
     const M both = And(next, found_);
-    V error, other_error;
-    const V difference = other.rough_time(other_error) - one.rough_time(error);
+    V error;
+    const V difference = other_time - one.rough_time(error);
     const V spread = error + other_error;
     const M yes = difference > spread, no = difference < Neg(spread);
     lanes_.leave(AndNot(Or(yes, no), both));
@@ -350,30 +340,21 @@ class Block {
   V time_, cell_[D], atom_;
 };
 
-template <int D, bool kUnit, bool kBall, Lattices kLattices = Lattices::crystals>
+template <int D, bool kUnit, bool kBall, bool kSingle = false>
 HWY_NOINLINE void fly_stretch(const PreparedScene& scene, Stretch& stretch) {
   LateTimes<D, kUnit, kBall> late;
   for (std::size_t at = 0; at < stretch.count; at += kLanes) {
     V x[D], v[D];
     for (int k = 0; k < D; ++k) x[k] = load(stretch.x[k] + at), v[k] = load(stretch.v[k] + at);
-    Block<D, kUnit, kBall, kLattices>(scene, stretch, late, at, x, v).run();
+    Block<D, kUnit, kBall, kSingle>(scene, stretch, late, at, x, v).run();
   }
   late.finish(scene, stretch);
 }
 
-template <int D>
-inline void fly_sparse_in(const PreparedScene& scene, Stretch& stretch) {
-  if (scene.most_rank == 0) return fly_stretch<D, false, true, Lattices::none>(scene, stretch);
-  fly_stretch<D, false, true, Lattices::sparse>(scene, stretch);
-}
-
-inline void fly_sparse(const PreparedScene& scene, Stretch& stretch) {
-  if (scene.atoms[0].dimension == 2) return fly_sparse_in<2>(scene, stretch);
-  fly_sparse_in<3>(scene, stretch);
-}
-
 template <int D, bool kBall>
 inline void fly_any(const PreparedScene& scene, Stretch& stretch) {
+  if constexpr (kBall)
+    if (scene.most_rank == 0) return fly_stretch<D, false, true, true>(scene, stretch);
   if (scene.atoms.size() == 1 && scene.atoms[0].unit) return fly_stretch<D, true, kBall>(scene, stretch);
   return fly_stretch<D, false, kBall>(scene, stretch);
 }

@@ -9,16 +9,14 @@ namespace lorentz {
 std::vector<StretchKernels> stretch_kernels() {
   const std::vector<BuiltKernel> discs = kernels_of_balls_in_plane(), balls = kernels_of_balls_in_space(),
                                  ellipses = kernels_of_ellipsoids_in_plane(),
-                                 ellipsoids = kernels_of_ellipsoids_in_space(),
-                                 sparse = kernels_of_sparse_balls();
+                                 ellipsoids = kernels_of_ellipsoids_in_space();
   std::vector<StretchKernels> kernels;
   for (std::size_t i = 0; i < discs.size(); ++i)
     if ((hwy::SupportedTargets() & discs[i].target) != 0)
       kernels.push_back({hwy::TargetName(discs[i].target),
                          {discs[i].kernel, balls[i].kernel},
-                         {ellipses[i].kernel, ellipsoids[i].kernel},
-                         sparse[i].kernel});
-  kernels.push_back({"none", {}, {}, {}});
+                         {ellipses[i].kernel, ellipsoids[i].kernel}});
+  kernels.push_back({"none", {}, {}});
   return kernels;
 }
 

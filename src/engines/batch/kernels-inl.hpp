@@ -37,7 +37,7 @@ namespace {
 #include "src/engines/batch/late-inl.hpp"
 #include "src/engines/batch/search_2d-inl.hpp"
 #include "src/engines/batch/search_3d-inl.hpp"
-#include "src/engines/batch/sparse-inl.hpp"
+#include "src/engines/batch/single_ball-inl.hpp"
 
 #include "src/engines/batch/block-inl.hpp"
 

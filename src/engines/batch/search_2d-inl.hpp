@@ -3,7 +3,7 @@
 
 /// The first obstacles of one atom, with one start per lane.
 template <bool kUnit, bool kBall>
-class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
+class LaneSearch2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
   using Rows = RowsOf2<LaneFma, LaneFma, kUnit, kBall>;
   using Rows::to_;
   using Close = CloseLook<LaneFma>;
@@ -12,8 +12,8 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
   using Direction = Direction2<LaneFma, kUnit, kBall>;
 
   /// `start` and `leaving` are turned as the direction is; `leaving` may be null.
-  HWY_INLINE Search2(const Direction& to, const Bravais& lattice, const Offset<LaneFma, 2>& start,
-                     const Leaving<2>* leaving, V s_limit)
+  HWY_INLINE LaneSearch2(const Direction& to, const Bravais& lattice, const Offset<LaneFma, 2>& start,
+                         const Leaving<2>* leaving, V s_limit)
       : Rows(to, lattice, start), leaving_(leaving), s_limit_(s_limit) {}
 
   LaneEntry<2, kBall> found;  ///< for the lanes that meet an obstacle: there found.s is finite
@@ -86,7 +86,7 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
     M known;
   };
   static HWY_NOINLINE RowStart start_closely(const Rare& rare, const Bravais& lattice, V n, M level) {
-    Search2 search(rare.to, lattice, rare.start, nullptr, none());
+    LaneSearch2 search(rare.to, lattice, rare.start, nullptr, none());
     for (int i = 0; i < 2; ++i) search.anchor_[i] = rare.anchor[i];
     search.s_ = rare.s;
     RowStart start;
@@ -96,7 +96,7 @@ class Search2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
 
   static HWY_NOINLINE Close close_ball(const Rare& rare, const Bravais& lattice, V n0, V n1) {
     const V N[2] = {n0, n1};
-    return Search2(rare.to, lattice, rare.start, nullptr, none()).look_closely(N);
+    return LaneSearch2(rare.to, lattice, rare.start, nullptr, none()).look_closely(N);
   }
 
   // Looks at the ball n_ R + m_ L, as look_at does. A ball that is taken or beyond ends the row.

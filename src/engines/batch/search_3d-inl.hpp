@@ -12,7 +12,7 @@ HWY_INLINE void take(M m, const Point3& other, Point3& point) {
 
 /// A stretch of each flight, and the lattice point near its middle from which all others are counted.
 template <bool kUnit, bool kBall>
-class Window3 : public WindowOf3<LaneFma, LaneFma, kUnit, kBall> {
+class LaneWindow3 : public WindowOf3<LaneFma, LaneFma, kUnit, kBall> {
   using Base = WindowOf3<LaneFma, LaneFma, kUnit, kBall>;
   using Base::start_;
 
@@ -21,8 +21,8 @@ class Window3 : public WindowOf3<LaneFma, LaneFma, kUnit, kBall> {
 
   V anchor[3];
 
-  HWY_INLINE Window3(const Bravais& lattice, const Direction3<kUnit, kBall>& to,
-                     const Offset<LaneFma, 3>& start)
+  HWY_INLINE LaneWindow3(const Bravais& lattice, const Direction3<kUnit, kBall>& to,
+                         const Offset<LaneFma, 3>& start)
       : Base(lattice, to, start) {}
 
   HWY_INLINE void set_anchor(bool at_start, Lanes& lanes) {
@@ -84,13 +84,13 @@ class Window3 : public WindowOf3<LaneFma, LaneFma, kUnit, kBall> {
 
 /// The first obstacles of one atom, one start a lane.
 template <bool kUnit, bool kBall>
-class Search3 {
+class LaneSearch3 {
  public:
   using Direction = Direction3<kUnit, kBall>;
 
-  /// Parameters as for Search2.
-  HWY_INLINE Search3(const Direction& to, const Bravais& lattice, const Offset<LaneFma, 3>& start,
-                     const Leaving<3>* leaving, V s_limit)
+  /// Parameters as for LaneSearch2.
+  HWY_INLINE LaneSearch3(const Direction& to, const Bravais& lattice, const Offset<LaneFma, 3>& start,
+                         const Leaving<3>* leaving, V s_limit)
       : to_(to), window_(lattice, to, start), leaving_(leaving), s_limit_(s_limit) {}
 
   LaneEntry<3, kBall> found;  ///< for the lanes that meet an obstacle: there found.s is finite
@@ -159,7 +159,7 @@ class Search3 {
     const Point3 point = window_.anchor_point.step(plane_k_, window_.basis->b[2]);
     const V kappa = kappa_ + plane_k_;
     plane_k_ = select(next, plane_k_ + one, plane_k_);
-    typename Window3<kUnit, kBall>::Section section;
+    typename LaneWindow3<kUnit, kBall>::Section section;
     const M met = And(window_.set_section(point, kappa, window_.end_before(found.s), section), next);
     none_met_ = AndNot(met, none_met_);
     const V low = section.low, high = section.high;
@@ -237,7 +237,7 @@ class Search3 {
   }
 
   const Direction& to_;
-  Window3<kUnit, kBall> window_;
+  LaneWindow3<kUnit, kBall> window_;
   const Leaving<3>* leaving_;
   V s_limit_;
   V kappa_, plane_k_, line_k_, line_end_, part_first_, part_last_;

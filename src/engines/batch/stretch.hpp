@@ -57,12 +57,12 @@ using StretchKernel = void (*)(const PreparedScene&, Stretch&);
 struct StretchKernels {
   const char* instructions;
   StretchKernel balls[2], ellipsoids[2];  ///< in the plane, in space
-  StretchKernel sparse_balls;
 
+  /// Rows and layers are flown one at a time, and so are single ellipsoids.
   StretchKernel of(const PreparedScene& scene) const {
     const int dimension = scene.atoms[0].dimension;
-    if (scene.most_rank < dimension) return scene.ellipsoids ? nullptr : sparse_balls;
-    if (scene.least_rank < dimension) return nullptr;
+    const bool single_balls = scene.most_rank == 0 && !scene.ellipsoids;
+    if (scene.least_rank < dimension && !single_balls) return nullptr;
     return (scene.ellipsoids ? ellipsoids : balls)[dimension - 2];
   }
 };
@@ -76,6 +76,6 @@ struct BuiltKernel {
   StretchKernel kernel;
 };
 std::vector<BuiltKernel> kernels_of_balls_in_plane(), kernels_of_balls_in_space(),
-    kernels_of_ellipsoids_in_plane(), kernels_of_ellipsoids_in_space(), kernels_of_sparse_balls();
+    kernels_of_ellipsoids_in_plane(), kernels_of_ellipsoids_in_space();
 
 }  // namespace lorentz
