@@ -12,6 +12,7 @@
 #include "src/engines/reduction/formulas.hpp"
 #include "src/engines/reduction/predicates.hpp"
 #include "src/engines/reduction/reduce_3d.hpp"
+#include "src/engines/reduction/sparse_rows.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -324,10 +325,8 @@ TEST_CASE("Ranges of rows and of balls leave out none that a line meets", "[engi
     const auto touching = draw.below(3);
     if (touching > 0)
       r = std::nextafter((touching == 1 ? sqrt(of_ball) : of_row).convert_to<double>(), 1e300);
-    const auto seen = [](const Vec& a) {
-      return SparseVector<SplitProduct, 3>{{a[0], a[1], a[2]}, length(a)};
-    };
-    const SparseRow<SplitProduct, 3> row({v[0], v[1], v[2]}, kSparse * kRoundoff, seen(b), r, 0);
+    const auto seen = [](const Vec& a) { return SparseVector<3>{{a[0], a[1], a[2]}, length(a)}; };
+    const SparseRow<3> row({v[0], v[1], v[2]}, kSparse * kRoundoff, seen(b), r, 0);
     const auto range = row.balls(seen(d)), planes = row.rows(seen(d), seen(e));
     if (row.is_level()) continue;
     if (range.known) looked_at += static_cast<long>(std::clamp(range.last - range.first + 1, 0.0, 25.0));

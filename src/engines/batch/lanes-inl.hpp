@@ -57,35 +57,6 @@ HWY_INLINE void exchange(M m, V& a, V& b) {
   a = select(m, b, a), b = select(m, before, b);
 }
 
-/// AxesOf of src/engines/reduction/one_flight.hpp, in lanes.
-template <class, bool kTurned>
-class AxesOf {
- public:
-  HWY_INLINE explicit AxesOf(const V (&w)[3]) {
-    if constexpr (kTurned) return;
-    const M second = Abs(w[1]) < Abs(w[0]), third = Abs(w[2]) < select(second, Abs(w[1]), Abs(w[0]));
-    is_c_[0] = Not(Or(second, third)), is_c_[1] = AndNot(third, second), is_c_[2] = third;
-  }
-  HWY_INLINE V a(const V (&w)[3]) const { return after(w, 1); }
-  HWY_INLINE V b(const V (&w)[3]) const { return after(w, 2); }
-  HWY_INLINE V c(const V (&w)[3]) const { return after(w, 0); }
-  template <class T>
-  HWY_INLINE void put(T (&to)[3], const T& a, const T& b, const T& c) const {
-    if constexpr (kTurned)
-      to[0] = a, to[1] = b, to[2] = c;
-    else  // axis k is c; or a, the one after c; or b
-      for (int k = 0; k < 3; ++k) to[k] = select(is_c_[k], c, select(is_c_[(k + 2) % 3], a, b));
-  }
-
- private:
-  HWY_INLINE V after(const V (&w)[3], int steps) const {
-    if constexpr (kTurned) return w[(2 + steps) % 3];
-    return select(is_c_[0], w[steps], select(is_c_[1], w[(1 + steps) % 3], w[(2 + steps) % 3]));
-  }
-
-  M is_c_[3];
-};
-
 /// How exact products are made in lanes; fma.hpp has this for one flight.
 struct LaneFma {
   using Number = V;

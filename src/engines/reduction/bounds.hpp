@@ -100,14 +100,15 @@ inline constexpr double kSparse = 10, kSparseOfShape = 16;
 /// The height over a layer, and the speed towards it: relative to the sizes of the terms of a . (b_0 x b_1).
 inline constexpr double kLayer = 8;
 
-/// A form (height, along, across in units of r) of a vector, by what each component of the vector errs.
+/// The error of a form of a vector (height, along, or across in units of r), relative to the error of each
+/// component of the vector.
 inline constexpr double kForm = 4;
 
 /// A vector of the short basis, relative to the largest of its terms, in units of u^2.
 inline constexpr double kBasis = 32;
 
-/// What a vector of the short basis errs by, counted as the size of terms that err by kAnchorTerms: of a
-/// height in 2D, and of the vector in 3D.
+/// The error of a vector of the short basis, as the size of terms that would have this error at kAnchorTerms
+/// each: terms of a height in 2D, and of the vector in 3D.
 inline constexpr double kBasisInHeight = 0x1p108, kBasisInSize = 0x1p104;
 
 /// The shape of an ellipsoid in double-double, in units of u^2: the adjugate of its semiaxes (relative to the
@@ -249,10 +250,10 @@ inline constexpr int kMaxShorteningPasses = 1000, kMaxHomePasses = 8, kMaxRenorm
 /// suffices.
 inline constexpr double kSoonRadius = 0x1p-5;
 
-/// Times: nearer than kNear q, s - q would cancel; a slack that errs by more than kGrazing u q s (of
-/// ellipsoids of condition c: kGrazing + kGrazingOfShape c), or a shape more slender than kSlender, takes
-/// double-double. In double-double: nearer than kNearWide q likewise, and beyond kFarSlack q one roundoff of
-/// q does not count.
+/// Times are s - q, where q is half the chord. In binary64: if s < kNear q, the difference would cancel, and
+/// another formula is used. If the slack errs by more than kGrazing u q s (for ellipsoids of condition c:
+/// (kGrazing + kGrazingOfShape c) u q s), or if c is above kSlender, double-double is used. In double-double:
+/// if s < kNearWide q, the other formula is used; if s > kFarSlack q, one roundoff of q does not count.
 inline constexpr double kNear = 4, kGrazing = 64, kGrazingOfShape = 32, kSlender = 6, kNearWide = 2,
                         kFarSlack = 0x1p14;
 

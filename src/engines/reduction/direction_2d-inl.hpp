@@ -27,7 +27,7 @@ struct Arm2 {
   }
 };
 
-/// But for what is computed after any exchange.
+/// Exchanges the members that are set while a basis is reduced. The others are computed from them at the end.
 template <class Numbers>
 LORENTZ_INLINE void exchange(typename Numbers::Mask m, Arm2<Numbers>& a, Arm2<Numbers>& b) {
   if constexpr (Numbers::kOne) {

@@ -1,5 +1,38 @@
 // Coordinates of a 3D lattice as seen along a velocity: two across the line, in units of r, and one along it.
 
+/// The axes in an order in which the smallest component of a vector is the last, c, and a and b follow it in
+/// cyclic order. In the first octant the order stays.
+template <class Numbers, bool kTurned>
+class AxesOf {
+  using Number = typename Numbers::Number;
+  using Mask = typename Numbers::Mask;
+
+ public:
+  LORENTZ_INLINE explicit AxesOf(const Number (&w)[3]) {
+    if constexpr (kTurned) return;
+    const Mask second = Abs(w[1]) < Abs(w[0]), third = Abs(w[2]) < select(second, Abs(w[1]), Abs(w[0]));
+    is_c_[0] = Not(Or(second, third)), is_c_[1] = AndNot(third, second), is_c_[2] = third;
+  }
+  LORENTZ_INLINE Number a(const Number (&w)[3]) const { return after(w, 1); }
+  LORENTZ_INLINE Number b(const Number (&w)[3]) const { return after(w, 2); }
+  LORENTZ_INLINE Number c(const Number (&w)[3]) const { return after(w, 0); }
+  template <class T>
+  LORENTZ_INLINE void put(T (&to)[3], const T& a, const T& b, const T& c) const {
+    if constexpr (kTurned)
+      to[0] = a, to[1] = b, to[2] = c;
+    else  // axis k is c; or a, the one after c; or b
+      for (int k = 0; k < 3; ++k) to[k] = select(is_c_[k], c, select(is_c_[(k + 2) % 3], a, b));
+  }
+
+ private:
+  LORENTZ_INLINE Number after(const Number (&w)[3], int steps) const {
+    if constexpr (kTurned) return w[(2 + steps) % 3];
+    return select(is_c_[0], w[steps], select(is_c_[1], w[(1 + steps) % 3], w[(2 + steps) % 3]));
+  }
+
+  Mask is_c_[3];
+};
+
 template <class Numbers, bool kUnit, bool kBall>
 struct FrameOf3 {
   using Number = typename Numbers::Number;

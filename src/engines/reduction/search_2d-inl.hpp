@@ -1,8 +1,8 @@
 // The rows of a 2D lattice along a prepared direction, as a start sees them.
 
-/// Heights and positions are counted from the ball of the home cell; but among tiny balls from the lattice
-/// point nearest to the start in the coordinates of R and L, since the home cell's are so large that their
-/// products leave the exact integers, and multiply what errors D_R and D_L have.
+/// Heights and positions are counted from the ball of the home cell. Among tiny balls they are counted from
+/// the lattice point nearest to the start in the coordinates of R and L: those of the home cell are so large
+/// that their products are not exact, and that they multiply the errors of D_R and D_L.
 template <class Arch, class Numbers, bool kUnit, bool kBall>
 class RowsOf2 {
  protected:
@@ -16,7 +16,8 @@ class RowsOf2 {
   LORENTZ_INLINE RowsOf2(const Direction& to, const Bravais& lattice, const Offset<Numbers, 2>& offset)
       : to_(to), lattice_(lattice), offset_(offset) {}
 
-  /// Those of the wanted that have an anchor.
+  /// Chooses the anchor, from which heights and positions are counted, in the lanes of `wanted`. Returns the
+  /// lanes in which there is one.
   LORENTZ_INLINE Mask set_anchor(Mask wanted) {
     const DD h = height_of_home();
     const auto& d = offset_.d;
@@ -39,10 +40,10 @@ class RowsOf2 {
     return And(wanted, Or(Not(tiny), set_near_anchor(tiny, h)));
   }
 
-  /// The number of the row beside the start, and within what of it rows are in the strip there; that number
-  /// errs, too. On the unit lattices D_R >= 2 rho, so the terms of it are below 2^20, and kRowSlop is enough;
-  /// among tiny balls they are about 1, and what y errs by counts. On other lattices the terms are what they
-  /// are.
+  /// The number of the row beside the start, which is a fraction. The rows within reach_of_rows of it are in
+  /// the strip there, and the reach includes the error of the number. On the unit lattices D_R >= 2 rho, so
+  /// its terms are below 2^20, and kRowSlop covers their rounding; among tiny balls they are about 1, and the
+  /// error of y counts. On other lattices the terms have no bound, and are counted as they are.
   LORENTZ_INLINE Number row_beside_start() const {
     return row_number(to_.L.S, y_, to_.L.D, s_, to_.inverse_A);
   }
@@ -58,7 +59,7 @@ class RowsOf2 {
     }
   }
 
-  /// Rows that a unit of s passes, at most.
+  /// The number of rows that a unit of s passes, at most.
   LORENTZ_INLINE Number slope_of_rows() const {
     const auto& L = to_.L;
     if constexpr (kUnit)
@@ -78,7 +79,7 @@ class RowsOf2 {
       return And(R.D > gap, R.S >= all(0));
   }
 
-  /// The m at which row n enters the strip, or passes the start, and what that errs by.
+  /// The m at which row n enters the strip, or passes the start; it errs by at most `unsure`.
   LORENTZ_INLINE Number start_of_row(Number n, Number& unsure) const {
     const auto &R = to_.R, &L = to_.L;
     const Number nD = n * R.D, y = y_ + nD, passing = passing_of_row(s_, n, R.S, to_.inverse_S_L);
@@ -95,7 +96,7 @@ class RowsOf2 {
   }
 
   /// The same in double-double, for rows nearly parallel to the line: the first m that can meet the strip.
-  /// Returns those of the wanted for which double-double is enough.
+  /// Returns the lanes of `wanted` for which double-double is enough.
   LORENTZ_INLINE Mask start_of_level_row(Number n, Mask wanted, Number& start) const {
     using Apart = typename Arch::Apart;
     using Wide = DoubleDouble<Apart>;

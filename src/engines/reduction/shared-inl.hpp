@@ -9,7 +9,6 @@
 #include "src/engines/reduction/direction_2d-inl.hpp"
 #include "src/engines/reduction/entry_time-inl.hpp"
 #include "src/engines/reduction/one_obstacle-inl.hpp"
-#include "src/engines/reduction/sparse_rows-inl.hpp"
 
 #include "src/engines/reduction/frame_3d-inl.hpp"
 #include "src/engines/reduction/search_2d-inl.hpp"

@@ -7,6 +7,7 @@
 
 #include "src/engines/reduction/atom_direction.hpp"
 #include "src/engines/reduction/one_obstacle.hpp"
+#include "src/engines/reduction/sparse_rows.hpp"
 
 namespace lorentz {
 
@@ -32,7 +33,7 @@ struct SparseDirection {
   }
 };
 
-/// Like Search2 and Search3. Candidates are found roughly, in binary64 (sparse_rows-inl.hpp), and each is
+/// Like Search2 and Search3. Candidates are found roughly, in binary64 (sparse_rows.hpp), and each is
 /// decided as a single obstacle. Obstacles of one atom do not overlap, so they are entered in the order of s.
 template <int D, bool kBall>
 class SparseSearch {
@@ -49,9 +50,8 @@ class SparseSearch {
   }
 
  private:
-  using Vector = SparseVector<SplitProduct, D>;
-  using Row = SparseRow<SplitProduct, D>;
-  using Range = SparseRange<SplitProduct>;
+  using Vector = SparseVector<D>;
+  using Row = SparseRow<D>;
 
   // False: undecided.
   bool scan() { return lattice_.rank == 0 ? look_at_only() : scan_rows(); }
@@ -60,12 +60,12 @@ class SparseSearch {
   [[gnu::noinline]] bool scan_rows() {
     see();
     if constexpr (D == 3)
-      if (lattice_.rank == 2) shorten_across<SplitProduct>(seen_v_, rows_);
-    turn_forward<SplitProduct>(seen_v_, rows_[0]);
+      if (lattice_.rank == 2) shorten_across(seen_v_, rows_);
+    turn_forward(seen_v_, rows_[0]);
     const Row along(seen_v_, unit(), rows_[0].seen, lattice_.radius, of_place(offset_.error));
     if (lattice_.rank == 1) return along.is_level() ? scan_level_row(along) : scan_row(along, 0);
     if constexpr (D == 3) {
-      const Range rows = along.rows(start_, rows_[1].seen);
+      const SparseRange rows = along.rows(start_, rows_[1].seen);
       if (along.is_level() || !rows.known || rows.last - rows.first > kMaxRows) return stays_outside();
       for (double k = rows.first; k <= rows.last; ++k)
         if (!scan_row(along, k)) return false;
@@ -92,7 +92,7 @@ class SparseSearch {
     return error * std::sqrt(lattice_.shape.metric_size);
   }
 
-  // Sets the vectors for sparse_rows-inl.hpp: velocity, start, the row that is followed, and the step to the
+  // Sets the vectors for sparse_rows.hpp: velocity, start, the row that is followed, and the step to the
   // next row.
   void see() {
     const auto image = [&](const auto& a, double(&there)[D]) {
@@ -122,10 +122,10 @@ class SparseSearch {
   bool scan_row(const Row& along, double k) {
     Vector start = start_;
     start.add(k, rows_[1].seen);
-    Range range = along.balls(start);
+    SparseRange range = along.balls(start);
     if (!range.known) return false;
     if (range.last - range.first >= kMaxCandidatesInRow) {
-      const Range ahead = along.ahead(start);
+      const SparseRange ahead = along.ahead(start);
       if (!ahead.known) return false;
       range.first = std::max(range.first, ahead.first);
     }
@@ -140,7 +140,7 @@ class SparseSearch {
   // Scans a row nearly parallel to the line. If the next obstacle is met, it is the first. If the row is
   // exactly parallel, all obstacles are met, or none.
   bool scan_level_row(const Row& along) {
-    const Range ahead = along.ahead(start_);
+    const SparseRange ahead = along.ahead(start_);
     if (!ahead.known) return false;
     double n[D]{};
     n[0] = 1;
@@ -205,7 +205,7 @@ class SparseSearch {
   const Wide* from_ = nullptr;
   double seen_v_[D];
   Vector start_;
-  SparseCombination<SplitProduct, D> rows_[2];  ///< the row that is followed, and the step to the next one
+  SparseCombination<D> rows_[2];  ///< the row that is followed, and the step to the next one
 };
 
 }  // namespace lorentz
