@@ -64,9 +64,7 @@ class Csv {
 class Npy {
  public:
   Npy(const ColumnOrder& order, std::string& out)
-      : reader_(read_npy_queries(order.queries, order.scene.dimension,
-                                 unknown_columns(npy_query_fields(), order.unknown))),
-        out_(out) {
+      : reader_(read_npy_queries(order.queries, order.scene.dimension)), out_(out) {
     out_ += npy_answer_header(reader_->promised(), order.scene.dimension);
   }
   ColumnReader& reader() { return *reader_; }

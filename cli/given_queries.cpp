@@ -10,8 +10,7 @@ namespace {
 constexpr std::size_t kMostComplaints = 20, kRowsTogether = 4096;
 
 std::unique_ptr<ColumnReader> columns_in(const std::string& path, const Scene& scene, UnknownKeys unknown) {
-  if (path.ends_with(".npy"))
-    return read_npy_queries(path, scene.dimension, unknown_columns(npy_query_fields(), unknown));
+  if (path.ends_with(".npy")) return read_npy_queries(path, scene.dimension);
   return std::make_unique<CsvQueryReader>(path, Components(scene),
                                           unknown_columns(csv_query_columns(scene.dimension), unknown));
 }

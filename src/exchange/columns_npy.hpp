@@ -14,17 +14,10 @@ class NpyQueryReader : public ColumnReader {
 
 /// Opens the file, or standard input for "-", and reads its header. Throws FileError, or InputError if it is
 /// not an array of queries in this number of dimensions.
-std::unique_ptr<NpyQueryReader> read_npy_queries(const std::string& path, int dimension,
-                                                 const OnUnknownColumn& on_unknown_column);
+std::unique_ptr<NpyQueryReader> read_npy_queries(const std::string& path, int dimension);
 
-/// The same for answers: an array of fields outcome, lattice, .., as append_npy_answers writes them, in any
-/// order and of any types that hold them. Other fields are ignored.
+/// The same for answers, as append_npy_answers writes them; `stage` and `time_is_rounded` may be missing.
 std::unique_ptr<AnswerReader> read_npy_answers(const std::string& path, int dimension);
-
-/// All fields that queries can have.
-inline std::vector<std::string> npy_query_fields() {
-  return {"x", "v", "max_time", "from_lattice", "from_atom", "from_cell"};
-}
 
 /// The header of an array of `count` queries without limits: an array of numbers, or of fields if the queries
 /// leave obstacles. And its rows.

@@ -329,7 +329,7 @@ TEST_CASE("Columns: what the options ask for, and invalid files", "[cli][columns
   says("--format csv --scene square -e batch --jobs 0 " + csv, 2, "--jobs: \"0\" is not a whole number");
   says("--format csv --scene square " + npy, 2, "--format npy");
   says("--format npy --scene square " + csv, 2, "is no .npy file");
-  says("--format npy --scene cubic " + npy, 2, "queries in d = 3 dimensions are float64 of shape (N, 2 d)");
+  says("--format npy --scene cubic " + npy, 2, "in d = 3 dimensions queries are float64 of shape (N, 2 d)");
   says("--format csv --scene cubic " + csv, 2, "there is no column x3");
   for (const std::string format : {"csv", "npy"}) {
     says("--scene square --format " + format + " " + folder.write("e", ""), 2, "e: is empty");
