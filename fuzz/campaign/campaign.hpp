@@ -65,6 +65,11 @@ struct TargetTally {
   double margin = std::numeric_limits<double>::infinity();  ///< the smallest above 0 that a climb reached,
   std::uint64_t margin_index = 0;                           ///< from this case
 
+  friend auto members_of(TargetTally& self) {
+    return std::tie(self.next, self.cases, self.variants, self.reworded, self.counts, self.stages, self.sorts,
+                    self.margin, self.margin_index);
+  }
+
   /// Adds what another stint of indices met, except `next`, which the caller sets.
   void add(const TargetTally& other);
 };

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include <lorentz/answer.hpp>
 #include <lorentz/query.hpp>
@@ -18,6 +19,11 @@ struct CaseText {
   std::string scene, query, given, exact;
   double departs = 0;            ///< as in oracle::Judgement
   std::optional<double> margin;  ///< of the exact answer
+
+  /// The members in the order in which stores and messages between ranks have them.
+  friend auto members_of(CaseText& self) {
+    return std::tie(self.scene, self.query, self.given, self.exact, self.departs, self.margin);
+  }
 };
 
 /// How far the shrinking of a finding has come.
@@ -41,6 +47,11 @@ struct Finding {
   int bits = 0;         ///< the largest number of significant bits in the shrunk case
   long complexity = 0;  ///< of the shrunk case
   int tries = 0;        ///< number of tries of shrinking
+
+  friend auto members_of(Finding& self) {
+    return std::tie(self.target, self.index, self.step, self.words, self.kind, self.sort, self.cause,
+                    self.text, self.shrunk, self.shrinking, self.bits, self.complexity, self.tries);
+  }
 };
 
 /// Kinds in the order in which they matter: `wrong` first, then wrong time, error, undecided, slow. They are

@@ -3,22 +3,21 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace lorentz::fuzz {
 namespace {
 
-// Number of a target's stints that may be under way for each thread.
+// Number of a target's stints that may be handed out and not recorded, for each thread.
 constexpr std::size_t kAhead = 64;
 
-// Assumed seconds for a case, and for shrinking, before the first of its target is done.
-constexpr double kUsual = 0.025, kUsualShrinking = 0.1;
-
 // Stints of cheap cases are made longer, as long as they take no longer than this. Then handing out and
-// recording cost next to nothing, and a stop in the middle of a stint loses little. For another process
-// (kSecondsFarAway) the way there and back counts, too. An answerer that takes many cases at once gets as
-// many as take no longer than kSecondsOfMany, because another program's answers are awaited once per stint.
-constexpr double kSecondsOfBatch = 0.002, kSecondsFarAway = 0.05, kSecondsOfMany = 0.25;
-constexpr std::uint64_t kMostCasesAhead = 1024;
+// recording cost next to nothing, and a stop in the middle of a stint loses little. An answerer that takes
+// many cases at once gets as many as take no longer than kSecondsOfMany, because another program's answers
+// are awaited once per stint.
+constexpr double kSecondsOfStint = 0.002, kSecondsOfMany = 0.25;
+constexpr std::uint64_t kMostCases = 1024;
 
 // The largest shares of a target's time that go into shrinking, while there are cases: kShareOfWrong if the
 // next finding is wrong in some way, kShareOfOthers otherwise.
@@ -46,93 +45,86 @@ Ledger::Ledger(const Plan& plan, const Bounds& bounds, std::size_t threads, std:
     : plan_(plan),
       count_(bounds.count),
       first_(bounds.first),
-      most_ahead_(kAhead * threads),
+      threads_(threads),
       most_shrinking_(most_shrinking(plan, bounds, threads)),
       tallies_(tallies),
       journal_(journal) {
-  for (std::size_t t = 0; t < tallies.size(); ++t) {
-    Track& track = tracks_.emplace_back();
-    track.tally = tallies[t];
-    track.handed_out = tallies[t].next;
+  for (const cases::Target* target : plan.targets) {
+    Queue& queue = queues_.emplace_back();
     for (const Finding& one : unshrunk) {
       // Shrinking that was cut short would be cut short again, unless the time is unlimited.
       const bool is_due =
           one.shrinking == Shrinking::due || (one.shrinking == Shrinking::cut_short && !bounds.limits_time());
-      if (is_due && one.target == plan.targets[t]->name()) track.due.emplace(rank_of(one.kind), one);
+      if (is_due && one.target == target->name()) queue.due.emplace(rank_of(one.kind), one);
     }
   }
 }
 
 // ---- handing out
 
-bool Ledger::has_cases(const Track& track) const {
-  return !is_closing_ && track.handed_out < count_ && track.in_work < most_ahead_;
+// The first index that is not handed out.
+std::uint64_t Ledger::next_index(const Queue& queue) const {
+  return queue.places.empty() ? tallies_[target_of(queue)].next : queue.places.back().stint.end;
 }
 
-double Ledger::usual_shrinking(const Track& track) const {
-  return track.shrinkings ? track.shrinking_seconds / static_cast<double>(track.shrinkings)
-                          : std::min(kUsualShrinking, most_shrinking_);
+bool Ledger::has_cases(const Queue& queue) const {
+  return !is_closing_ && next_index(queue) < count_ && queue.places.size() < kAhead * threads_;
 }
 
-// The time that the target had, and will have had when all that is under way is back.
-double Ledger::time_of(const Track& track) const {
-  return track.seconds + track.usual.value_or(kUsual) * static_cast<double>(track.pending) +
-         usual_shrinking(track) * static_cast<double>(track.in_shrinking);
+// The target with the least time among those that have work. One that has more under way than others comes
+// after them, because that time is not known yet.
+Ledger::Queue* Ledger::next_queue() {
+  const auto has_work = [&](const Queue& queue) { return has_cases(queue) || !queue.due.empty(); };
+  std::size_t working = 0, under_way = 0;
+  for (const Queue& queue : queues_)
+    if (has_work(queue)) ++working, under_way += queue.under_way;
+  if (working == 0) return nullptr;
+  const auto turn = [&](const Queue& queue) {
+    return std::tuple(!has_work(queue), queue.under_way > under_way / working, queue.seconds);
+  };
+  return &*std::ranges::min_element(queues_, {}, turn);
 }
 
-// The target with the least time among those that have work.
-Ledger::Track* Ledger::next_track() {
-  Track* next = nullptr;
-  for (Track& track : tracks_) {
-    if (!has_cases(track) && track.due.empty()) continue;
-    if (!next || time_of(track) < time_of(*next)) next = &track;
-  }
-  return next;
+bool Ledger::shrinks_next(const Queue& queue) const {
+  if (queue.due.empty() || !has_cases(queue)) return !queue.due.empty();
+  const double share = is_wrong(queue.due.begin()->first) ? kShareOfWrong : kShareOfOthers;
+  return queue.in_shrinking == 0 && queue.shrinking_seconds <= share * queue.seconds;
 }
 
-bool Ledger::shrinks_next(const Track& track) const {
-  if (track.due.empty() || !has_cases(track)) return !track.due.empty();
-  const double spent =
-      track.shrinking_seconds + usual_shrinking(track) * static_cast<double>(track.in_shrinking);
-  const double share = is_wrong(track.due.begin()->first) ? kShareOfWrong : kShareOfOthers;
-  return spent <= share * time_of(track);
+Assignment Ledger::assign(Queue& queue, std::uint64_t batch_size) {
+  ++queue.under_way;
+  return shrinks_next(queue) ? assign_shrinking(queue) : assign_cases(queue, batch_size);
 }
 
-Assignment Ledger::assign(Track& track, std::uint64_t batch_size, double seconds) {
-  return shrinks_next(track) ? assign_shrinking(track) : assign_cases(track, batch_size, seconds);
-}
-
-Assignment Ledger::assign_shrinking(Track& track) {
-  Assignment one{{static_cast<std::size_t>(&track - tracks_.data()), 0, 0}};
-  const auto first = track.due.begin();
-  one.due = std::move(first->second);
-  one.most_seconds = most_shrinking_;
-  track.due.erase(first);
-  ++track.in_shrinking;
+Assignment Ledger::assign_shrinking(Queue& queue) {
+  const auto first = queue.due.begin();
+  Assignment one{
+      .stint = {target_of(queue), 0, 0}, .due = std::move(first->second), .most_seconds = most_shrinking_};
+  queue.due.erase(first);
+  ++queue.in_shrinking;
   return one;
 }
 
-// One case until the time for a case is known. Ends on a multiple of its length, so that stints share a scene
-// where cases do.
-Assignment Ledger::assign_cases(Track& track, std::uint64_t batch_size, double seconds) {
-  const std::uint64_t begin = track.handed_out;
+// One case until the pace is known. Ends on a multiple of its length, so that stints share a scene where
+// cases do.
+Assignment Ledger::assign_cases(Queue& queue, std::uint64_t batch_size) {
   std::uint64_t cases = 1;
   const auto double_until = [&](std::uint64_t most, double most_seconds) {
-    while (track.usual && 2 * cases <= most && 2 * static_cast<double>(cases) * *track.usual <= most_seconds)
+    while (queue.pace > 0 && 2 * cases <= most && 2 * static_cast<double>(cases) * queue.pace <= most_seconds)
       cases *= 2;
   };
   double_until(batch_size, kSecondsOfMany);
-  double_until(kMostCasesAhead, seconds);
-  track.handed_out = std::min((begin / cases + 1) * cases, count_);
-  ++track.in_work;
-  track.pending += track.handed_out - begin;
-  return {{static_cast<std::size_t>(&track - tracks_.data()), begin, track.handed_out}, track.tally.sorts};
+  double_until(kMostCases, kSecondsOfStint);
+  const std::size_t target = target_of(queue);
+  const std::uint64_t begin = next_index(queue), end = std::min((begin / cases + 1) * cases, count_);
+  queue.places.push_back({{target, begin, end}});
+  return {queue.places.back().stint, tallies_[target].sorts};
 }
 
 std::optional<Assignment> Ledger::take(std::uint64_t batch_size) {
   std::unique_lock lock(mutex_);
   while (!stop_) {
-    if (Track* track = next_track()) return assign(*track, batch_size, kSecondsOfBatch);
+    if (Queue* queue = next_queue()) return assign(*queue, batch_size);
     changed_.wait_for(lock, std::chrono::milliseconds(50));
   }
   return std::nullopt;
@@ -142,9 +134,9 @@ std::vector<Assignment> Ledger::take_some(std::size_t most, std::uint64_t batch_
   const std::lock_guard lock(mutex_);
   std::vector<Assignment> some;
   while (some.size() < most && !stop_) {
-    Track* track = next_track();
-    if (!track) break;
-    some.push_back(assign(*track, batch_size, kSecondsFarAway));
+    Queue* queue = next_queue();
+    if (!queue) break;
+    some.push_back(assign(*queue, batch_size));
   }
   return some;
 }
@@ -153,19 +145,20 @@ std::vector<Assignment> Ledger::take_some(std::size_t most, std::uint64_t batch_
 
 void Ledger::hand_in(Done done) {
   const std::lock_guard lock(mutex_);
-  Track& track = tracks_[done.stint.target];
-  track.seconds += done.seconds;
+  Queue& queue = queues_[done.stint.target];
+  --queue.under_way;
+  queue.seconds += done.seconds;
   if (done.answerer_failed && (done.result || done.shrunk)) answerer_failed_ = true;
   if (const std::uint64_t cases = done.stint.end - done.stint.begin) {
     const double each = done.seconds / static_cast<double>(cases);
-    track.usual = track.usual ? (*track.usual + each) / 2 : each;
-    track.pending -= cases;
-    if (done.result) track.ready.emplace(done.stint.begin, std::pair(done.stint, std::move(*done.result)));
+    queue.pace = queue.pace > 0 ? (queue.pace + each) / 2 : each;
+    const auto place = std::ranges::lower_bound(queue.places, done.stint.begin, {},
+                                                [](const Place& one) { return one.stint.begin; });
+    place->result = std::move(done.result);
   } else {
-    track.shrinking_seconds += done.seconds;
-    ++track.shrinkings;
-    --track.in_shrinking;
-    if (done.shrunk) track.shrunk.push_back(std::move(*done.shrunk));
+    queue.shrinking_seconds += done.seconds;
+    --queue.in_shrinking;
+    if (done.shrunk) queue.shrunk.push_back(std::move(*done.shrunk));
   }
   changed_.notify_all();
 }
@@ -189,45 +182,40 @@ bool Ledger::record() {
   const std::lock_guard lock(mutex_);
   if (failure_) std::rethrow_exception(failure_);
   bool has_new = false;
-  for (std::size_t t = 0; t < tracks_.size(); ++t) has_new |= record(t);
+  for (Queue& queue : queues_) has_new |= record(queue);
   if (has_new) changed_.notify_all();
-  const bool complete =
-      std::all_of(tracks_.begin(), tracks_.end(), [&](const Track& track) { return is_complete(track); });
-  return !complete && !stop_;
+  return !stop_ && !std::ranges::all_of(queues_, [&](const Queue& queue) { return is_complete(queue); });
 }
 
-bool Ledger::is_complete(const Track& track) const {
-  return (is_closing_ || track.tally.next >= count_) && track.due.empty() && track.in_shrinking == 0;
+bool Ledger::is_complete(const Queue& queue) const {
+  return (is_closing_ || tallies_[target_of(queue)].next >= count_) && queue.due.empty() &&
+         queue.in_shrinking == 0;
 }
 
 // Returns whether there is a new finding to shrink.
-bool Ledger::record(std::size_t target) {
-  Track& track = tracks_[target];
-  std::vector<Finding> news = std::exchange(track.shrunk, {});
-  const std::size_t due_before = track.due.size();
-  const std::uint64_t before = track.tally.next;
-  for (auto first = track.ready.begin(); first != track.ready.end() && first->first == track.tally.next;
-       first = track.ready.begin()) {
-    if (is_closing_) break;
-    record(track, first->second.first, first->second.second, news);
-    track.ready.erase(first);
+bool Ledger::record(Queue& queue) {
+  const std::size_t target = target_of(queue), due_before = queue.due.size();
+  std::vector<Finding> news = std::exchange(queue.shrunk, {});
+  bool is_new = !news.empty();
+  for (; !is_closing_ && !queue.places.empty() && queue.places.front().result; is_new = true) {
+    record(queue, queue.places.front(), news);
+    queue.places.pop_front();
   }
-  if (track.tally.next != before || !news.empty()) journal_.record(*plan_.targets[target], track.tally, news);
-  tallies_[target] = track.tally;
-  return track.due.size() != due_before;
+  if (is_new) journal_.record(*plan_.targets[target], tallies_[target], news);
+  return queue.due.size() != due_before;
 }
 
 // Only now is it certain how many findings of each sort come before.
-void Ledger::record(Track& track, const Stint& stint, StintResult& result, std::vector<Finding>& kept) {
-  for (StintResult::Kept& one : result.kept) {
-    if (track.tally.sorts[one.finding.sort] + one.ordinal > plan_.keep) continue;
-    if (one.finding.shrinking == Shrinking::due) track.due.emplace(rank_of(one.finding.kind), one.finding);
+void Ledger::record(Queue& queue, Place& first, std::vector<Finding>& kept) {
+  TargetTally& tally = tallies_[target_of(queue)];
+  for (StintResult::Kept& one : first.result->kept) {
+    if (tally.sorts[one.finding.sort] + one.ordinal > plan_.keep) continue;
+    if (one.finding.shrinking == Shrinking::due) queue.due.emplace(rank_of(one.finding.kind), one.finding);
     kept.push_back(std::move(one.finding));
   }
-  track.tally.add(result.met);
-  track.tally.next = stint.end;
-  --track.in_work;
-  is_closing_ |= first_ && !result.met.sorts.empty();
+  tally.add(first.result->met);
+  tally.next = first.stint.end;
+  is_closing_ |= first_ && !first.result->met.sorts.empty();
 }
 
 }  // namespace lorentz::fuzz

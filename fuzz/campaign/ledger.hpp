@@ -1,11 +1,11 @@
-// The ledger of a campaign. It hands out stints, and records their results in the order of the indices, so
-// that it does not matter which thread did them, or when. It also hands out the recorded findings to be
-// shrunk.
+// The ledger of a campaign. Each target has a queue of the stints that are handed out. Their results are
+// recorded in the order of the indices, so that it does not matter which thread did them, or when. The ledger
+// also hands out the recorded findings to be shrunk.
 #pragma once
 
 #include <condition_variable>
+#include <deque>
 #include <mutex>
-#include <utility>
 
 #include "fuzz/campaign/work.hpp"
 
@@ -31,43 +31,46 @@ class Ledger final : public WorkSource {
   bool had_failing_answerer() const { return answerer_failed_; }
 
  private:
-  // A target in a running campaign.
-  struct Track {
-    TargetTally tally;                                             // of what is recorded
-    std::uint64_t handed_out = 0;                                  // the first index that is not handed out
-    std::size_t in_work = 0;                                       // stints handed out and not recorded
-    double seconds = 0;                                            // of all threads, shrinking included
-    std::optional<double> usual;                                   // recent seconds per case
-    std::uint64_t pending = 0;                                     // indices handed out and not handed in
-    std::map<std::uint64_t, std::pair<Stint, StintResult>> ready;  // by first index: done, not recorded
-
-    std::multimap<int, Finding> due;  // to be shrunk, by rank_of()
-    std::size_t in_shrinking = 0;     // handed out and not handed in
-    double shrinking_seconds = 0;     // the part of `seconds` that went into shrinking
-    std::uint64_t shrinkings = 0;     // number of findings shrunk in that time
-    std::vector<Finding> shrunk;      // not recorded
+  // A stint that is handed out and not recorded, with its result once it is done.
+  struct Place {
+    Stint stint;
+    std::optional<StintResult> result = {};
   };
 
-  Track* next_track();
-  Assignment assign(Track& track, std::uint64_t batch_size, double seconds);
-  Assignment assign_cases(Track& track, std::uint64_t batch_size, double seconds);
-  Assignment assign_shrinking(Track& track);
-  bool has_cases(const Track& track) const;
-  bool shrinks_next(const Track& track) const;
-  double usual_shrinking(const Track& track) const;
-  double time_of(const Track& track) const;
-  bool is_complete(const Track& track) const;
-  bool record(std::size_t target);
-  void record(Track& track, const Stint& stint, StintResult& result, std::vector<Finding>& kept);
+  // A target in a running campaign. Times are of all threads, as measured.
+  struct Queue {
+    std::deque<Place> places;         // consecutive, from the tally's `next` on
+    std::multimap<int, Finding> due;  // to be shrunk, by rank_of()
+    std::vector<Finding> shrunk;      // not recorded
+    std::size_t under_way = 0;        // handed out and not handed in: stints and findings,
+    std::size_t in_shrinking = 0;     // and the findings alone
+    double seconds = 0;               // shrinking included,
+    double shrinking_seconds = 0;     // and shrinking alone
+    double pace = 0;                  // recent seconds for a case, for the length of stints; 0: none is known
+  };
+
+  Queue* next_queue();
+  Assignment assign(Queue& queue, std::uint64_t batch_size);
+  Assignment assign_cases(Queue& queue, std::uint64_t batch_size);
+  Assignment assign_shrinking(Queue& queue);
+  std::size_t target_of(const Queue& queue) const {
+    return static_cast<std::size_t>(&queue - queues_.data());
+  }
+  std::uint64_t next_index(const Queue& queue) const;
+  bool has_cases(const Queue& queue) const;
+  bool shrinks_next(const Queue& queue) const;
+  bool is_complete(const Queue& queue) const;
+  bool record(Queue& queue);
+  void record(Queue& queue, Place& first, std::vector<Finding>& kept);
 
   const Plan& plan_;
   const std::uint64_t count_;
   const bool first_;
-  const std::size_t most_ahead_;
-  const double most_shrinking_;  // seconds for one finding
-  std::vector<TargetTally>& tallies_;
+  const std::size_t threads_;
+  const double most_shrinking_;        // seconds for one finding
+  std::vector<TargetTally>& tallies_;  // of what is recorded
   Journal& journal_;
-  std::vector<Track> tracks_;
+  std::vector<Queue> queues_;
   std::atomic<bool> stop_ = false, answerer_failed_ = false;
   bool is_closing_ = false;  // the first finding is recorded, and is the last: no more cases
   std::exception_ptr failure_;

@@ -1,10 +1,5 @@
 // Ranks by MPI. The only messages are a report from a rank and orders in return. Both sides poll for them and
 // sleep in between, because a wait inside MPI keeps a processor busy.
-#include <boost/serialization/array.hpp>
-#include <boost/serialization/map.hpp>
-#include <boost/serialization/string.hpp>
-#include <boost/serialization/utility.hpp>
-#include <boost/serialization/vector.hpp>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -14,16 +9,7 @@
 #include "fuzz/campaign/ledger.hpp"
 #include "fuzz/campaign/ranks.hpp"
 #include "runs/world_mpi.hpp"
-
-// Boost.Serialization looks for it beside the type.
-namespace lorentz::question {
-
-template <class Archive>
-void serialize(Archive& archive, Counts& counts, unsigned) {
-  for (const CountName& name : kCountNames) archive& counts[name.count];
-}
-
-}  // namespace lorentz::question
+#include "src/exchange/json_piece.hpp"
 
 namespace lorentz::fuzz {
 namespace {
@@ -35,60 +21,8 @@ enum Message { kReport = 1, kOrders };
 
 constexpr std::chrono::milliseconds kLook{2}, kLongestSilence{100};
 
-// Number of stints that a rank keeps ready for each of its threads.
-constexpr std::size_t kBatchesAhead = 4;
-
-}  // namespace
-
-// ---- what is sent, for Boost.Serialization
-
-template <class Archive, class T>
-void transfer(Archive& archive, std::optional<T>& value) {
-  bool is_there = value.has_value();
-  archive& is_there;
-  if (!is_there) return value.reset();
-  if (!value) value.emplace();
-  archive&* value;
-}
-
-template <class Archive>
-void serialize(Archive& archive, Stint& s, unsigned) {
-  archive& s.target& s.begin& s.end;
-}
-template <class Archive>
-void serialize(Archive& archive, TargetTally& a, unsigned) {
-  archive& a.next& a.cases& a.variants& a.reworded& a.counts& a.stages& a.sorts& a.margin& a.margin_index;
-}
-template <class Archive>
-void serialize(Archive& archive, CaseText& t, unsigned) {
-  archive& t.scene& t.query& t.given& t.exact& t.departs;
-  transfer(archive, t.margin);
-}
-template <class Archive>
-void serialize(Archive& archive, Finding& f, unsigned) {
-  archive& f.target& f.index& f.step& f.words& f.kind& f.sort& f.cause& f.text& f.shrunk;
-  archive& f.shrinking& f.bits& f.complexity& f.tries;
-}
-template <class Archive>
-void serialize(Archive& archive, StintResult::Kept& k, unsigned) {
-  archive& k.finding& k.ordinal;
-}
-template <class Archive>
-void serialize(Archive& archive, StintResult& r, unsigned) {
-  archive& r.met& r.kept;
-}
-template <class Archive>
-void serialize(Archive& archive, Done& d, unsigned) {
-  archive& d.stint& d.seconds& d.answerer_failed;
-  transfer(archive, d.result);
-  transfer(archive, d.shrunk);
-}
-template <class Archive>
-void serialize(Archive& archive, Assignment& a, unsigned) {
-  archive& a.stint& a.known& a.most_seconds;
-  transfer(archive, a.due);
-}
-namespace {
+// Number of stints that a rank keeps ready for each of its threads, which may take 2 ms each.
+constexpr std::size_t kStintsAhead = 8;
 
 struct Report {
   std::vector<Done> done;
@@ -96,9 +30,8 @@ struct Report {
   bool last = false;
   std::string failure;
 
-  template <class Archive>
-  void serialize(Archive& archive, unsigned) {
-    archive& done& wants& batch_size& last& failure;
+  friend auto members_of(Report& self) {
+    return std::tie(self.done, self.wants, self.batch_size, self.last, self.failure);
   }
 };
 
@@ -106,11 +39,22 @@ struct Orders {
   std::vector<Assignment> assignments;
   bool stop = false;
 
-  template <class Archive>
-  void serialize(Archive& archive, unsigned) {
-    archive& assignments& stop;
-  }
+  friend auto members_of(Orders& self) { return std::tie(self.assignments, self.stop); }
 };
+
+// Messages are pieces of JSON (src/exchange/json_piece.hpp).
+template <class T>
+void send(const mpi::communicator& world, int rank, Message message, const T& value) {
+  world.send(rank, message, json::piece_of(value));
+}
+template <class T>
+T received(const mpi::communicator& world, int rank, Message message) {
+  std::string piece;
+  world.recv(rank, message, piece);
+  T value;
+  json::read_piece(piece, value);
+  return value;
+}
 
 // ---- another rank's threads take from here
 
@@ -147,7 +91,7 @@ class RemoteWork final : public WorkSource {
   }
   Report report() {
     const std::lock_guard lock(mutex_);
-    const std::size_t most = kBatchesAhead * jobs_;
+    const std::size_t most = kStintsAhead * jobs_;
     report_.wants = most - std::min(most, waiting_.size());
     Report report = std::exchange(report_, {});
     report_.batch_size = report.batch_size;
@@ -174,14 +118,13 @@ class RemoteWork final : public WorkSource {
 void Ranks::serve(Ledger& ledger) {
   const mpi::communicator& world = mpi().world;
   while (const auto status = world.iprobe(mpi::any_source, kReport)) {
-    Report report;
-    world.recv(status->source(), kReport, report);
+    auto report = received<Report>(world, status->source(), kReport);
     for (Done& done : report.done) ledger.hand_in(std::move(done));
     if (!report.failure.empty()) ledger.fail(std::make_exception_ptr(std::runtime_error(report.failure)));
     dismissed_ += report.last;
     if (report.last) continue;
     Orders orders{ledger.take_some(report.wants, report.batch_size), ledger.stop()};
-    world.send(status->source(), kOrders, orders);
+    send(world, status->source(), kOrders, orders);
   }
 }
 
@@ -201,16 +144,14 @@ void Ranks::work(const Plan& plan, unsigned jobs, const MakeAnswerer& make_answe
     std::this_thread::sleep_for(kLook);
     if (!work.has_news() && SteadyClock::now() - last_sent < kLongestSilence) continue;
     last_sent = SteadyClock::now();
-    world.send(0, kReport, work.report());
+    send(world, 0, kReport, work.report());
     while (!world.iprobe(0, kOrders)) std::this_thread::sleep_for(kLook);
-    Orders orders;
-    world.recv(0, kOrders, orders);
-    work.obey(std::move(orders));
+    work.obey(received<Orders>(world, 0, kOrders));
   }
   workers.join();
   Report report = work.report();
   report.last = true;
-  world.send(0, kReport, report);
+  send(world, 0, kReport, report);
 }
 
 }  // namespace lorentz::fuzz

@@ -15,6 +15,8 @@ namespace lorentz::fuzz {
 struct Stint {
   std::size_t target;        ///< index in the plan's targets
   std::uint64_t begin, end;  ///< indices
+
+  friend auto members_of(Stint& self) { return std::tie(self.target, self.begin, self.end); }
 };
 
 struct StintResult {
@@ -22,8 +24,12 @@ struct StintResult {
   struct Kept {
     Finding finding;
     std::uint64_t ordinal;  ///< among the stint's findings of its sort, from 1
+
+    friend auto members_of(Kept& self) { return std::tie(self.finding, self.ordinal); }
   };
   std::vector<Kept> kept;
+
+  friend auto members_of(StintResult& self) { return std::tie(self.met, self.kept); }
 };
 
 class StintRunner {

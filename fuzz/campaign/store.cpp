@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 #include "fuzz/campaign/stint.hpp"
 #include "runs/database.hpp"
@@ -35,16 +36,16 @@ constexpr const char* kSchema = R"sql(
     campaign INTEGER NOT NULL, target TEXT NOT NULL, place INTEGER NOT NULL, step INTEGER NOT NULL,
     words TEXT NOT NULL, kind TEXT NOT NULL, sort TEXT NOT NULL, cause TEXT NOT NULL,
     scene TEXT NOT NULL, query TEXT NOT NULL, given TEXT NOT NULL, exact TEXT NOT NULL,
-    shrunk_scene TEXT NOT NULL, shrunk_query TEXT NOT NULL, shrunk_given TEXT NOT NULL,
-    shrunk_exact TEXT NOT NULL, departs REAL NOT NULL, margin REAL, shrunk_departs REAL NOT NULL,
-    shrunk_margin REAL, shrinking INTEGER NOT NULL, bits INTEGER NOT NULL, complexity INTEGER NOT NULL, tries INTEGER NOT NULL,
+    departs REAL NOT NULL, margin REAL, shrunk_scene TEXT NOT NULL, shrunk_query TEXT NOT NULL,
+    shrunk_given TEXT NOT NULL, shrunk_exact TEXT NOT NULL, shrunk_departs REAL NOT NULL, shrunk_margin REAL,
+    shrinking INTEGER NOT NULL, bits INTEGER NOT NULL, complexity INTEGER NOT NULL, tries INTEGER NOT NULL,
     PRIMARY KEY (campaign, target, place, step, words)) WITHOUT ROWID;
 )sql";
 
 const runs::FileKind& kind() {
   static const runs::FileKind kind{
       "store of lorentz fuzz", 0x6c6f667a,  // "lofz"
-      4, kSchema,                           // format 3 had a column for each count
+      5, kSchema,                           // format 4 had a finding's numbers behind its texts
       "another process is running a campaign on this store; wait for it, stop it, or use another store "
       "(shards have one each, `lorentz fuzz merge` joins them)"};
   return kind;
@@ -160,24 +161,32 @@ TargetTally Store::tally(std::int64_t campaign, std::string_view target) const {
 
 namespace {
 
-Finding finding_in(Statement& row) {
-  Finding f;
-  f.target = row.text();
-  f.index = row.count();
-  f.step = row.small();
-  for (std::string* text :
-       {&f.words, &f.kind, &f.sort, &f.cause, &f.text.scene, &f.text.query, &f.text.given, &f.text.exact,
-        &f.shrunk.scene, &f.shrunk.query, &f.shrunk.given, &f.shrunk.exact})
-    *text = row.text();
-  for (fuzz::CaseText* text : {&f.text, &f.shrunk}) {
-    text->departs = row.real();
-    text->margin = row.real_or_null();
-  }
-  f.shrinking = static_cast<Shrinking>(row.count(static_cast<std::uint64_t>(Shrinking::done)));
-  f.bits = row.small();
-  f.complexity = static_cast<long>(row.count());
-  f.tries = row.small();
-  return f;
+// The columns of a finding are its members, one after the other, and those of its texts.
+template <class T>
+void from_row(Statement& row, T& member) {
+  if constexpr (requires { members_of(member); })
+    std::apply([&](auto&... each) { (from_row(row, each), ...); }, members_of(member));
+  else if constexpr (std::is_same_v<T, std::string>)
+    member = row.text();
+  else if constexpr (std::is_same_v<T, double>)
+    member = row.real();
+  else if constexpr (std::is_same_v<T, std::optional<double>>)
+    member = row.real_or_null();
+  else if constexpr (std::is_same_v<T, Shrinking>)
+    member = static_cast<Shrinking>(row.count(static_cast<std::uint64_t>(Shrinking::done)));
+  else if constexpr (std::is_same_v<T, int>)
+    member = row.small();
+  else
+    member = static_cast<T>(row.count());
+}
+template <class T>
+void to_row(Statement& row, T& member) {
+  if constexpr (requires { members_of(member); })
+    std::apply([&](auto&... each) { (to_row(row, each), ...); }, members_of(member));
+  else if constexpr (std::is_same_v<T, Shrinking>)
+    row.bind(static_cast<int>(member));
+  else
+    row.bind(member);
 }
 
 }  // namespace
@@ -190,7 +199,7 @@ std::vector<Stored> Store::findings() const {
     std::string label = "in row " + std::to_string(number);
     try {
       Stored one{row.integer(), {}};
-      one.finding = finding_in(row);
+      from_row(row, one.finding);
       label = one.label();
       if (const std::string flaw = flaw_of(one.finding); !flaw.empty()) throw BadValue("it has " + flaw);
       all.push_back(std::move(one));
@@ -218,22 +227,14 @@ void Store::put(std::int64_t campaign, std::string_view target, const TargetTall
     sort.bind(campaign).bind(target).bind(name).bind(number).done();
 }
 
-void Store::put(std::int64_t campaign, const Finding& f) {
+void Store::put(std::int64_t campaign, const Finding& finding) {
   database_.begin();
   Statement row(database_.connection(),
                 "INSERT OR REPLACE INTO finding VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
                 "?, ?, ?, ?, ?, ?, ?)");
-  row.bind(campaign).bind(f.target).bind(f.index).bind(f.step);
-  for (const std::string* text :
-       {&f.words, &f.kind, &f.sort, &f.cause, &f.text.scene, &f.text.query, &f.text.given, &f.text.exact,
-        &f.shrunk.scene, &f.shrunk.query, &f.shrunk.given, &f.shrunk.exact})
-    row.bind(*text);
-  for (const fuzz::CaseText* text : {&f.text, &f.shrunk}) row.bind(text->departs).bind(text->margin);
-  row.bind(static_cast<int>(f.shrinking))
-      .bind(f.bits)
-      .bind(static_cast<std::int64_t>(f.complexity))
-      .bind(f.tries)
-      .done();
+  row.bind(campaign);
+  to_row(row, const_cast<Finding&>(finding));
+  row.done();
 }
 
 // ---- a campaign's journal

@@ -21,6 +21,10 @@ struct Assignment {
   std::map<std::string, std::uint64_t> known = {};
   std::optional<Finding> due = {};
   double most_seconds = std::numeric_limits<double>::infinity();  ///< for shrinking it
+
+  friend auto members_of(Assignment& self) {
+    return std::tie(self.stint, self.known, self.due, self.most_seconds);
+  }
 };
 
 /// The finished work; without a result or a finding if it was stopped.
@@ -30,6 +34,10 @@ struct Done {
   std::optional<Finding> shrunk = {};
   double seconds = 0;
   bool answerer_failed = false;  ///< the engine has broken at least once so far, and was started again
+
+  friend auto members_of(Done& self) {
+    return std::tie(self.stint, self.result, self.shrunk, self.seconds, self.answerer_failed);
+  }
 };
 
 /// Called by any thread.

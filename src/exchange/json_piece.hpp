@@ -38,13 +38,15 @@ struct ElementOf<Range> {
   using Type = std::pair<typename Range::key_type, typename Range::mapped_type>;
 };
 
-/// Appends a truth value, a number, a text, an optional, a struct with a list, or a range of these.
+/// Appends a truth value, a number, an enumerator, a text, an optional, a struct with a list, or a range.
 template <class T>
 void append_piece(std::string& out, const T& value) {
   if constexpr (std::floating_point<T>) {
     append(out, Digits{std::bit_cast<std::uint64_t>(value)});
   } else if constexpr (std::integral<T> && !std::same_as<T, bool>) {
     out += std::to_string(value);
+  } else if constexpr (std::is_enum_v<T>) {
+    append_piece(out, static_cast<std::uint64_t>(value));
   } else if constexpr (std::same_as<T, bool> || std::same_as<T, std::string>) {
     append(out, value);
   } else if constexpr (requires { value.has_value(); }) {
@@ -68,7 +70,7 @@ void read_piece(Value value, T& out) {
     out = std::bit_cast<double>(value.natural());
   } else if constexpr (std::same_as<T, bool>) {
     out = value.boolean();
-  } else if constexpr (std::unsigned_integral<T>) {
+  } else if constexpr (std::unsigned_integral<T> || std::is_enum_v<T>) {
     out = static_cast<T>(value.natural());
   } else if constexpr (std::integral<T>) {
     out = static_cast<T>(value.integer());
