@@ -17,7 +17,7 @@ constexpr std::size_t kAhead = 64;
 // many cases at once gets as many as take no longer than kSecondsOfMany, because another program's answers
 // are awaited once per stint.
 constexpr double kSecondsOfStint = 0.002, kSecondsOfMany = 0.25;
-constexpr std::uint64_t kMostCases = 1024;
+constexpr std::uint64_t kLongestStint = 1024;
 
 // The largest shares of a target's time that go into shrinking, while there are cases: kShareOfWrong if the
 // next finding is wrong in some way, kShareOfOthers otherwise.
@@ -114,7 +114,7 @@ Assignment Ledger::assign_cases(Queue& queue, std::uint64_t batch_size) {
       cases *= 2;
   };
   double_until(batch_size, kSecondsOfMany);
-  double_until(kMostCases, kSecondsOfStint);
+  double_until(kLongestStint, kSecondsOfStint);
   const std::size_t target = target_of(queue);
   const std::uint64_t begin = next_index(queue), end = std::min((begin / cases + 1) * cases, count_);
   queue.places.push_back({{target, begin, end}});

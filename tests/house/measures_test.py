@@ -15,7 +15,7 @@ PROGRAM = sys.argv.pop(1)
 NO_PRODUCTION = ("tests", "examples", "bench", "proof", "build", "fuzz/planted")
 TYPE = re.compile(r"^ *(?:template <.*> *)?(?:struct|class|enum(?: class)?) +\w+(?: final)?(?: *:[^;{]*)? *\{", re.MULTILINE)
 
-LIMITS = {"lines of production C++": 70_900, "type definitions": 922, "libraries": 49, "subcommands": 32, "options": 228}
+LIMITS = {"lines of production C++": 70_500, "type definitions": 920, "libraries": 49, "subcommands": 32, "options": 228}
 
 
 def sources():
