@@ -1,30 +1,64 @@
 #include "cli/compare_questions.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include <lorentz/exchange.hpp>
+#include "cli/numbers.hpp"
 #include "files/messages.hpp"
 #include "files/scene_file.hpp"
+#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 
 using question::Place, question::Question;
 
-ComparedQuestions::ComparedQuestions(const CompareOptions& options, DisagreementFile& disagreements)
-    : options_(options), claim_(options.claim.claim()), disagreements_(disagreements) {
-  std::optional<Scene> scene;
-  if (options.scene || !options.queries)
-    scene = load_scene(options.scene.value_or("square"), options.radius, options.unknown_keys());
-  else if (options.radius)
+namespace {
+
+// Each scene at each radius, rounded to the engine's precision.
+std::vector<Scene> scenes_named(const ExaminationOptions& options, NumberFormat precision) {
+  std::vector<std::string> names = options.scenes;
+  if (names.empty() && !options.queries) names = {"square"};
+  if (names.empty() && !options.radii.empty())
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
-  // The scene of --scene is rounded to the engine's precision. Scenes of a stream are used unchanged.
-  if (scene) scene = rounded_scene(*scene, claim_.precision, options.scene.value_or("square"));
-  if (scene) enter(*scene);
-  if (options.queries) given_.emplace(*options.queries, scene, options.unknown_keys());
+  std::vector<std::optional<std::string>> radii(options.radii.begin(), options.radii.end());
+  if (radii.empty()) radii.emplace_back();
+  std::vector<Scene> scenes;
+  for (const std::string& name : names)
+    for (const auto& radius : radii)
+      scenes.push_back(rounded_scene(
+          load_scene(name, positive_number(radius, "--radius"), options.unknown_keys()), precision, name));
+  if (options.queries && scenes.size() > 1) throw InputError("--scene: with --queries there is one at most");
+  return scenes;
+}
+
+}  // namespace
+
+// Scenes of a stream are used unchanged.
+ComparedQuestions::ComparedQuestions(const ExaminationOptions& options, DisagreementFile& disagreements)
+    : options_(options),
+      claim_(options.claim.claim()),
+      disagreements_(disagreements),
+      named_(scenes_named(options, claim_.precision)) {
+  std::optional<Scene> first;
+  if (!named_.empty()) enter(*(first = named_[0]));
+  if (options.queries) given_.emplace(*options.queries, first, options.unknown_keys());
 }
 
 void ComparedQuestions::enter(const Scene& scene) {
   place_ = std::make_shared<Place>(scene, question::Truth::oracle, claim_);
   disagreements_.begin(place_);
   is_new_ = true;
+}
+
+std::string ComparedQuestions::title() const {
+  if (scenes_ > 1) return fmt::format("{} scenes", scenes_);
+  const std::string name =
+      !options_.scenes.empty() ? options_.scenes[0] : options_.queries.value_or("square");
+  return options_.radii.empty()
+             ? name
+             : fmt::format("{} (radius {})", name, *positive_number(options_.radii[0], "--radius"));
 }
 
 std::vector<Question> ComparedQuestions::next(std::size_t most) {
@@ -49,10 +83,14 @@ void ComparedQuestions::add(Questions& questions, const Query& query, const Id& 
 
 std::vector<Question> ComparedQuestions::draw(std::size_t most) {
   Questions questions;
-  const std::size_t left = options_.count - count_;
-  if (!starts_) starts_.emplace(place_->scene(), starts::Kind::uniform, options_.seed, claim_.precision);
-  for (const Query& query : starts_->some(count_, std::min(most, left)))
-    add(questions, query, std::to_string(count_));
+  for (; scene_ < named_.size(); ++scene_, drawn_ = 0) {
+    if (drawn_ == 0 && scene_ > 0) enter(named_[scene_]);
+    const starts::FreeStarts starts(place_->scene(), starts::Kind::uniform, options_.seed, claim_.precision);
+    const std::size_t number = std::min(most - questions.size(), options_.count - drawn_);
+    for (const Query& query : starts.some(drawn_, number)) add(questions, query, std::to_string(count_));
+    drawn_ += number;
+    if (drawn_ < options_.count) break;
+  }
   return questions;
 }
 

@@ -7,31 +7,18 @@
 #include <unordered_set>
 #include <vector>
 
-#include "cli/claim_options.hpp"
 #include "cli/disagreement_file.hpp"
+#include "cli/examination_options.hpp"
 #include "cli/given_queries.hpp"
 #include "question/question.hpp"
-#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
-
-struct CompareOptions {
-  std::vector<std::string> engines, answers;
-  std::optional<std::string> scene, queries, disagreements;
-  std::optional<double> radius, ulps, timeout;
-  std::uint64_t jobs = 1, count = 10'000, seed = starts::kDefaultSeed, failures = 3;
-  std::string judge = "oracle";
-  ClaimOptions claim;
-  bool json = false, strict = false, times = false, no_oracle = false;
-
-  UnknownKeys unknown_keys() const { return strict ? UnknownKeys::errors : UnknownKeys::warned; }
-};
 
 /// The questions that the options specify, part by part, without answers.
 class ComparedQuestions {
  public:
-  /// Throws InputError and FileError. The scenes are written at the beginning of the file of disagreements.
-  ComparedQuestions(const CompareOptions& options, DisagreementFile& disagreements);
+  /// Throws InputError and FileError. The first scene is written at the beginning of the file of disagreements.
+  ComparedQuestions(const ExaminationOptions& options, DisagreementFile& disagreements);
 
   /// The next questions, at most `most`; empty at the end.
   std::vector<question::Question> next(std::size_t most);
@@ -39,7 +26,8 @@ class ComparedQuestions {
   bool had_bad_input() const { return bad_ids_ || (given_ && given_->had_bad_input()); }
   std::size_t count() const { return count_; }
   std::size_t not_asked() const { return not_asked_; }  ///< because their numbers have another precision
-  std::size_t scenes() const { return scenes_; }        ///< scenes with questions
+  /// The scene's name, or the number of scenes if there are several.
+  std::string title() const;
 
   /// The questions since the last call that were not asked. Logged answers to them must be skipped.
   std::vector<question::Question> passed_over() { return std::exchange(passed_over_, {}); }
@@ -57,12 +45,13 @@ class ComparedQuestions {
   Questions read(std::size_t most);
   void add(Questions& questions, const Query& query, const Id& id);
 
-  const CompareOptions& options_;
+  const ExaminationOptions& options_;
   const Claim claim_;
   DisagreementFile& disagreements_;
+  std::vector<Scene> named_;           // the scenes of --scene and --radius
+  std::size_t drawn_ = 0, scene_ = 0;  // queries of the current one of these; the next one
   std::optional<GivenQueries> given_;  // or drawn
   std::shared_ptr<question::Place> place_;
-  std::optional<starts::FreeStarts> starts_;  // for drawn queries
   bool is_new_ = false, bad_ids_ = false;
   std::vector<question::Question> passed_over_;
   std::size_t not_asked_ = 0, count_ = 0, scenes_ = 0;

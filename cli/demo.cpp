@@ -4,11 +4,10 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/disagreement_file.hpp"
+#include "cli/lineup.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
 #include "question/examine.hpp"
-#include "question/race.hpp"
 #include "report/table.hpp"
 #include "starts/free_starts.hpp"
 
@@ -46,33 +45,50 @@ std::vector<Question> drawn(const std::string& name, starts::Kind kind, int dime
                       starts::free_starts(scene, kind, starts::kDefaultSeed, count));
 }
 
+constexpr const char* kPublished = "published";
+
+ExaminationOptions options_for(const std::optional<std::string>& disagreements) {
+  ExaminationOptions options;
+  options.engines = {"classical", kPublished, "oracle"};
+  options.disagreements = disagreements;
+  return options;
+}
+
 class DemoReport {
  public:
-  explicit DemoReport(const std::optional<std::string>& disagreements) : disagreements_(disagreements) {}
+  explicit DemoReport(const std::optional<std::string>& disagreements)
+      : options_(options_for(disagreements)), lineup_(options_, options_.named_engines()) {}
 
   void add(const std::string& what, std::vector<Question> questions) {
-    disagreements_.begin(questions[0].place);
+    lineup_.disagreements().begin(questions[0].place);
     answer_exactly(questions, Truth::oracle, terminal());
-    const std::vector<EngineInfo> engines = engines_named({"classical", kPublished, "oracle"});
-    RaceOptions options;
-    options.answerer.listener = terminal();
-    const std::vector<Speed> speeds = race(questions, engines, options);
-    for (std::size_t i = 0; i < engines.size(); ++i) {
-      const Tally t = tally_of(engines[i], questions);
+    lineup_.begin(what);
+    const AskedPart part{std::move(questions)};
+    lineup_.ask(part);
+    lineup_.race(part.questions);
+    for (const LineupEntry& one : lineup_.all()) {
+      const Tally& t = one.row->tally;
+      const bool is_first = &one == &lineup_.all().front();
       const auto error = [&](double ulps) { return t.timed_hits ? fmt::format("{:.3g}", ulps) : "-"; };
-      std::vector<std::string> row{i == 0 ? what : "", i == 0 ? std::to_string(t.queries) : "",
-                                   engines[i].name};
+      std::vector<std::string> row{is_first ? what : "", is_first ? std::to_string(t.queries) : "",
+                                   one.examination.name()};
       for (const Count count : kShown) row.push_back(std::to_string(t[count]));
       for (const std::string& cell :
-           {error(t.mean_ulp()), error(t.max_ulp()), fmt::format("{:.2f}", speeds[i].ns_per_query / 1000)})
+           {error(t.mean_ulp()), error(t.max_ulp()), fmt::format("{:.2f}", one.speed.ns_per_query / 1000)})
         row.push_back(cell);
       table_.add(row);
-      if (engines[i].name == kPublished) published_.add(t);
     }
   }
 
   void show() {
-    disagreements_.close();
+    lineup_.finish();
+    std::size_t departing = 0;
+    Tally published;
+    for (const LineupEntry& one : lineup_.all()) {
+      const Tally t = one.total();
+      departing += t.counts.sum({Count::wrong, Count::ill_posed});
+      if (t.name == kPublished) published = t;
+    }
     print(table_.text());
     print(fmt::format(
         "\nright, wrong, undecided: the obstacle that each engine says is hit first, against the exact "
@@ -81,30 +97,20 @@ class DemoReport {
         "makes of them.\n"
         "error: of the time of the hits it got right, in units in the last place (ulp) of a binary64.\n"
         "The published algorithm was wrong {} times in {}; docs/published.md says why. To check it:\n"
-        "lorentz demo --disagreements FILE writes these {} cases for any program to run again.\n",
-        published_[Count::wrong], published_.counts.answers(), published_[Count::wrong]));
+        "lorentz demo --disagreements FILE writes the {} wrong or ill-posed answers for any program to run "
+        "again.\n",
+        published[Count::wrong], published.counts.answers(), departing));
   }
 
  private:
-  static constexpr const char* kPublished = "published";
   // As the table's header has them; "right" is what agrees.
   static constexpr Count kShown[] = {Count::agree, Count::ill_posed, Count::wrong, Count::wrong_time,
                                      Count::undecided};
 
-  Tally tally_of(const EngineInfo& engine, const std::vector<Question>& questions) {
-    Tally tally;
-    examine(all_of(questions), *engine.answerer({}), oracle::kDefaultUlps, [&](const Judged& judged) {
-      tally.count(judged.judgement);
-      if (engine.name == kPublished && judged.judgement.verdict == oracle::Verdict::wrong)
-        disagreements_.add(judged, engine.name);  // counted below
-    });
-    return tally;
-  }
-
-  DisagreementFile disagreements_;
+  const ExaminationOptions options_;
+  Lineup lineup_;
   report::Table table_{{"flights", "number", "engine", "right", "ill-posed", "wrong", "wrong time",
                         "undecided", "mean error", "worst", "us/query"}};
-  Tally published_;  // of all flights together
 };
 
 int act(const std::optional<std::string>& disagreements) {
@@ -129,19 +135,15 @@ int act(const std::optional<std::string>& disagreements) {
 }  // namespace
 
 Command demo_command() {
-  auto disagreements = std::make_shared<std::optional<std::string>>();
+  auto options = std::make_shared<ExaminationOptions>();
   return {
-      "demo",
-      "The known algorithms against the oracle, on the paper's example and on drawn queries.",
-      {
-          {"--disagreements", disagreements.get(), "FILE", "write each wrong answer there, as a query stream",
-           kOutput},
-      },
+      "demo", "The known algorithms against the oracle, on the paper's example and on drawn queries.",
+      options->rows({"--disagreements"}),
 
       "Exits with 0 when all was done: the wrong answers of the known algorithms are what it shows.\n"
       "Example:\n  lorentz demo --disagreements wrong.ndjson && lorentz compare --queries wrong.ndjson -e "
       "classical",
-      [disagreements] { return act(*disagreements); }};
+      [options] { return act(options->disagreements); }};
 }
 
 }  // namespace lorentz::cli

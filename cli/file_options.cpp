@@ -42,7 +42,6 @@ const KindMarks& marks_of(OutputKind kind) {
       {"an SVG", "<svg", "<?xml", "<svg"},
       {"a page", "<!doctypehtml", "<html", ""},
       {"a report of JUnit", "<?xml", "<testsuite", "<testsuite"},
-      {"a list of known failures", "#knownfailures", "#knownfailures", ""},
       {"a CSV table", "", "", ","},
   };
   return kMarks[static_cast<std::size_t>(kind)];
@@ -80,15 +79,14 @@ bool is_set(const Command& command, const std::string& flag) {
   return target && **target;
 }
 
-// Nothing for stores and for what merges them, which look at these files themselves.
+// Nothing for stores and lists of known failures, which are read, too: their readers look at these files.
 std::optional<OutputKind> kind_of(const Command& command, const std::string& option) {
   if (option.ends_with("svg") || command.name == "draw") return OutputKind::picture;
   if (option == "--html") return OutputKind::page;
   if (option == "--junit") return OutputKind::test_report;
   if (option == "--csv") return OutputKind::table;
-  if (option == "--write-baseline") return OutputKind::known_failures;
   if (option == "--disagreements") return OutputKind::queries;
-  if (option == "--store" || command.name == "merge") return std::nullopt;
+  if (option == "--store" || option == "--baseline" || command.name == "merge") return std::nullopt;
   return is_set(command, "--queries") ? OutputKind::queries : OutputKind::golden_set;
 }
 

@@ -15,7 +15,7 @@ namespace lorentz::cli {
 /// pipes may be named several times.
 void check_files(const Command& command);
 
-enum class OutputKind { golden_set, queries, picture, page, test_report, known_failures, table };
+enum class OutputKind { golden_set, queries, picture, page, test_report, table };
 
 /// Throws InputError if there is a file that holds something and does not begin as one of this kind; the
 /// message begins with `by`, an option. Throws FileError if the file cannot be read.

@@ -243,7 +243,7 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, fuzz::Bound
                  const question::MakeAnswerer& make_answerer, fuzz::Ranks* ranks) {
   const Interrupt interrupt;
   bounds.stop = &Interrupt::came();
-  FailureLedger ledger(options.files, options.files.baseline_text());
+  FailureLedger ledger(options.files);
   Store store(options.store.value_or(":memory:"), Store::Access::write, say_left_out);
   auto [report, campaign, unshrunk] = opened(store, plan, options);
   std::optional<LastResort> last_resort;

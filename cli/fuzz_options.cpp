@@ -175,7 +175,6 @@ std::string command_of(const FuzzOptions& o) {
   add_flag("--json", o.json);
   add_if("--store", o.store);
   add_if("--baseline", o.files.baseline);
-  add_if("--write-baseline", o.files.write_baseline);
   add_if("--junit", o.files.junit);
   return command;
 }
@@ -219,10 +218,7 @@ std::vector<Option> rows_of(FuzzOptions& options) {
       {"--no-undecided", &options.no_undecided, "", "`undecided` is not a finding", kPlain, "--undecided"},
       {"--progress", Positive{&options.progress}, "SECONDS",
        "where stderr is not a terminal: print a line there every SECONDS (default: 60)"},
-      options.files.baseline_row(
-          "with --count: failures that are known, lines \"TARGET ID\": only others count; stale ones are "
-          "told of"),
-      options.files.write_baseline_row(),
+      options.files.baseline_row(),
       options.files.junit_row(),
       {"--json", &options.json, "", "one JSON object instead of tables"}};
 }

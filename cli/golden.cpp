@@ -1,11 +1,10 @@
-// lorentz golden: sets of cases with their exact answers and proofs; lorentz golden list, index.
+// lorentz golden: sets of cases with their exact answers and proofs; lorentz golden list.
 #include "cli/app.hpp"
 
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
 #include "cli/output.hpp"
-#include "cli/set_output.hpp"
 #include "golden/find_sets.hpp"
 #include "golden/reader.hpp"
 #include "golden/sets.hpp"
@@ -53,19 +52,6 @@ Command golden_list_command() {
           [json] { return list(*json); }};
 }
 
-Command golden_index_command() {
-  auto folder = std::make_shared<std::string>();
-  return {"index",
-          "Writes index.json, schema.json and SHA256SUMS beside the sets in a folder.",
-          {{"folder", folder.get(), "FOLDER", "with sets, *.ndjson", kRequired}},
-          "Example:\n  mkdir mine; lorentz golden filter --tag superposed ties > mine/ties.ndjson; "
-          "lorentz golden index mine",
-          [folder] {
-            write_beside_sets(*folder);
-            return kDone;
-          }};
-}
-
 }  // namespace
 
 Command golden_command() {
@@ -79,7 +65,7 @@ Command golden_command() {
       "docs/formats.md has the format, docs/certificates.md the proofs, data/README.md the committed sets.",
       {},
       {golden_make_command(), golden_check_command(), golden_verify_command(), golden_explain_command(),
-       golden_export_command(), golden_filter_command(), golden_index_command(), golden_list_command()}};
+       golden_export_command(), golden_filter_command(), golden_list_command()}};
 }
 
 }  // namespace lorentz::cli

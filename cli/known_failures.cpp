@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <sstream>
 
 #include <lorentz/errors.hpp>
@@ -56,8 +57,8 @@ void check_is_list(const std::string& text, const std::string& name) {
                      : begin == '<'                 ? "is XML"
                                                     : nullptr;
   if (kind)
-    throw InputError(fmt::format(
-        "--baseline: {} {}, not a list of known failures as --write-baseline writes it", name, kind));
+    throw InputError(
+        fmt::format("--baseline: {} {}, not a list of known failures as --baseline writes it", name, kind));
 }
 
 // The records that a baseline names.
@@ -81,19 +82,12 @@ std::set<RecordKey> records_in(const std::string& text, const std::string& name)
 
 }  // namespace
 
-std::optional<std::string> FailureFiles::baseline_text() const {
-  return baseline ? std::optional(text_of_file(*baseline)) : std::nullopt;
-}
-
-Option FailureFiles::baseline_row(const std::string& baseline_help) {
-  return {"--baseline", &baseline, "FILE",
-          baseline_help.empty()
-              ? "failures that are known, lines \"SET ID\": only others count, and stale lines are told of"
-              : baseline_help};
-}
-
-Option FailureFiles::write_baseline_row() {
-  return {"--write-baseline", &write_baseline, "FILE", "write all failures there as such a file", kOutput};
+Option FailureFiles::baseline_row() {
+  return {
+      "--baseline", &baseline, "FILE",
+      "failures that are known, lines \"SET ID\" (SET: the set, row or target): only others count, and stale "
+      "lines are told of. If there is no FILE, it is written with the failures of this run",
+      kOutput};
 }
 
 Option FailureFiles::junit_row() {
@@ -101,9 +95,9 @@ Option FailureFiles::junit_row() {
 }
 
 std::optional<std::string> FailureFiles::first_option() const {
-  if (baseline) return "--baseline";
-  if (write_baseline) return "--write-baseline";
-  return junit ? std::optional<std::string>("--junit") : std::nullopt;
+  return baseline ? std::optional<std::string>("--baseline")
+         : junit  ? std::optional<std::string>("--junit")
+                  : std::nullopt;
 }
 
 std::optional<std::string> failure_of(const oracle::Judgement& judgement, bool times, bool strict) {
@@ -124,11 +118,15 @@ std::optional<std::string> failure_of(const oracle::Judgement& judgement, bool t
   }
 }
 
-FailureLedger::FailureLedger(const FailureFiles& files, const std::optional<std::string>& baseline)
-    : makes_junit_(files.junit.has_value()),
-      known_(baseline ? std::optional(records_in(*baseline, *files.baseline)) : std::nullopt),
-      baseline_file_(files.write_baseline),
-      junit_file_(files.junit) {}
+FailureLedger::FailureLedger(const FailureFiles& files)
+    : makes_junit_(files.junit.has_value()), junit_file_(files.junit) {
+  if (!files.baseline) return;
+  std::error_code error;
+  if (std::filesystem::exists(*files.baseline, error))
+    known_ = records_in(text_of_file(*files.baseline), *files.baseline);
+  else
+    makes_baseline_ = true, baseline_file_.emplace(files.baseline);
+}
 
 bool FailureLedger::take(const std::string& set, const std::string& id,
                          const std::optional<std::string>& failure) {
@@ -139,10 +137,18 @@ bool FailureLedger::take(const std::string& set, const std::string& id,
     if (!failure) stale_.push_back(record);
     met_ += failure.has_value();
   }
-  if (is_new) new_.push_back(fmt::format("new: {} {} {}", record.first, record.second, *failure));
-  if (failure) failures_.emplace(record, *failure);
+  number_of_new_ += is_new;
+  if (is_new && known_) new_.push_back(fmt::format("new: {} {} {}", record.first, record.second, *failure));
+  if (failure && makes_baseline_) failures_.emplace(record, *failure);
   if (makes_junit_) add_case(record, is_new ? failure : std::nullopt);
   return is_new;
+}
+
+std::size_t FailureLedger::failures(const question::Counts& counts, bool times, bool strict) const {
+  using question::Count;
+  if (known_) return number_of_new_;
+  return counts.sum({Count::wrong, Count::error, Count::missing}) + (times ? counts[Count::wrong_time] : 0) +
+         (strict ? counts.sum({Count::ill_posed, Count::undecided, Count::nonsense}) : 0);
 }
 
 void FailureLedger::end(const std::string& set) {
@@ -155,14 +161,17 @@ void FailureLedger::end(const std::string& set) {
 
 void FailureLedger::finish(const std::string& engine) {
   if (known_) {
-    say("{} failures are known, {} are new", met_, new_.size());
+    say("{} failures are known, {} are new", met_, number_of_new_);
     say_first(new_);
     std::vector<std::string> stale;
     for (const auto& [set, id] : stale_)
       stale.push_back(fmt::format("stale: {} {} fails no more; take it out of the baseline", set, id));
     say_first(stale);
   }
-  baseline_file_.write([&] { return baseline_text(failures_); });
+  if (baseline_file_) {
+    baseline_file_->write([&] { return baseline_text(failures_); });
+    say("--baseline: there was no such file; it has the {} failures of this run now", failures_.size());
+  }
   junit_file_.write([&] { return junit_text(engine); });
 }
 

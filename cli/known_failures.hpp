@@ -11,26 +11,21 @@
 #include <lorentz/verdict.hpp>
 #include "cli/command.hpp"
 #include "files/whole_file.hpp"
+#include "question/counts.hpp"
 
 namespace lorentz::cli {
 
 /// The key of a question: the set, row or target that asks it, and its id as a golden record.
 using RecordKey = std::pair<std::string, std::string>;
 
-/// The options --baseline, --write-baseline and --junit.
+/// The options --baseline and --junit.
 struct FailureFiles {
-  std::optional<std::string> baseline, write_baseline, junit;
+  std::optional<std::string> baseline, junit;
 
-  /// The text of the baseline, if one is given: lines "SET ID", optionally followed by further text. # begins
-  /// a comment. Throws FileError.
-  std::optional<std::string> baseline_text() const;
-
-  /// The rows of help. `baseline_help` replaces the usual text for --baseline.
-  Option baseline_row(const std::string& baseline_help = "");
-  Option write_baseline_row();
+  Option baseline_row();
   Option junit_row();
 
-  /// The first of the three options that is given, or nothing.
+  /// The first of the options that is given, or nothing.
   std::optional<std::string> first_option() const;
 };
 
@@ -38,13 +33,16 @@ struct FailureFiles {
 /// ill-posed and undecided answers.
 std::optional<std::string> failure_of(const oracle::Judgement& judgement, bool times, bool strict);
 
-/// Records the failures of one engine, and writes the requested files: a baseline, and XML in the format of
-/// JUnit with a suite for each set and a case for each question.
+/// Records the failures of one engine. The baseline is a list of known failures, lines "SET ID", optionally
+/// followed by further text; # begins a comment. If there is no such file yet, it is written with the failures of
+/// this run. The report is XML in the format of JUnit with a suite for each set and a case for each question.
 class FailureLedger {
  public:
-  /// `baseline`: what files.baseline names, as files.baseline_text() has it, or nothing. Opens the requested
-  /// files. Throws FileError, and InputError with the number of a bad line.
-  FailureLedger(const FailureFiles& files, const std::optional<std::string>& baseline);
+  /// Reads or opens the files. Throws FileError, and InputError with the number of a bad line.
+  explicit FailureLedger(const FailureFiles& files);
+
+  /// True if a file is about each question; otherwise ids have no effect.
+  bool needs_ids() const { return known_ || makes_junit_ || makes_baseline_; }
 
   /// Records a question that was asked, and returns whether its failure is new. A known failure that did not
   /// happen is stale. Blanks in the set's name become hyphens.
@@ -52,8 +50,11 @@ class FailureLedger {
   /// Ends a set. Known failures of it that were not asked are stale.
   void end(const std::string& set);
 
+  /// The number of failures of a run with these counts; with a baseline, of new ones only.
+  std::size_t failures(const question::Counts& counts, bool times, bool strict) const;
+
   bool has_baseline() const { return known_.has_value(); }
-  std::size_t new_failures() const { return new_.size(); }
+  std::size_t new_failures() const { return number_of_new_; }
 
   /// Reports known, new and stale failures on stderr, and writes the files.
   void finish(const std::string& engine);
@@ -68,14 +69,17 @@ class FailureLedger {
   std::string junit_text(const std::string& engine) const;
 
   const bool makes_junit_;
-  const std::optional<std::set<RecordKey>> known_;
+  bool makes_baseline_ = false;
+  std::optional<std::set<RecordKey>> known_;
   std::set<RecordKey> asked_;  // of the known ones
   std::vector<RecordKey> stale_;
   std::size_t met_ = 0;  // known ones that failed again
   std::map<RecordKey, std::string> failures_;
-  std::vector<std::string> new_;  // the lines that describe them
+  std::size_t number_of_new_ = 0;
+  std::vector<std::string> new_;  // the lines that describe them, if others are known
   std::map<std::string, Suite> suites_;
-  RequestedFile baseline_file_, junit_file_;
+  std::optional<RequestedFile> baseline_file_;  // to be written
+  RequestedFile junit_file_;
 };
 
 }  // namespace lorentz::cli

@@ -82,7 +82,7 @@ std::string LoggedAnswers::flaw_of_cell(const Logged& logged) const {
 void LoggedAnswers::ask(const Id& id, const Query&) {
   Logged logged;
   if (id == "null" || !find(id, logged))
-    return deliver({Answer::error("no answer"), question::Origin::not_asked});
+    return deliver({Answer::error("no answer"), question::Origin::fault});
   ++matched_;
   if (const std::string flaw = flaw_of_cell(logged); !flaw.empty()) {
     complain(logged.line, flaw);

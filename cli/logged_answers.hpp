@@ -11,7 +11,7 @@
 
 namespace lorentz::cli {
 
-/// Answers are matched by id; a query without an answer is `not_asked`. A file in the order of the queries is
+/// Answers are matched by id; a query without an answer counts as left out. A file in the order of the queries is
 /// read as they are asked. Answers that come early are kept until they are needed. Bad lines and repeated ids
 /// are reported. Answers without an id (to lines that were not queries) are skipped.
 class LoggedAnswers final : public question::Answerer {

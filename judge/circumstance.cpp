@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
+#include "judge/diagnosis.hpp"
 #include "question/radii.hpp"
 #include "src/exchange/exchange_number.hpp"
 #include "src/problem/scene_geometry.hpp"

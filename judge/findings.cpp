@@ -19,12 +19,14 @@ std::pair<bool, long> complexity_of(const Question& question) {
 }
 
 // The share among all questions that were asked in the hard rows, or in the others.
-double share_of(const std::map<std::string, std::size_t>& by_row, const Asked& asked, bool hard) {
+double share_of(const std::map<std::string, std::size_t>& by_row,
+                const std::deque<question::ExaminedRow>& rows, bool hard) {
   double all = 0, its = 0;
-  for (const auto& [row, asked_of] : asked) {
-    if (asked_of.is_hard != hard) continue;
-    all += static_cast<double>(asked_of.number);
-    if (const auto place = by_row.find(row); place != by_row.end()) its += static_cast<double>(place->second);
+  for (const question::ExaminedRow& row : rows) {
+    if (row.is_hard != hard) continue;
+    all += static_cast<double>(row.asked() - row.tally[question::Count::unsupported]);
+    if (const auto place = by_row.find(row.name); place != by_row.end())
+      its += static_cast<double>(place->second);
   }
   return all > 0 ? its / all : 0;
 }
@@ -91,12 +93,12 @@ void Findings::add(const std::pair<Severity, Cause>& key, const Finding& other) 
   its.where = other.where;
 }
 
-std::vector<Finding> Findings::all(const Asked& asked) const {
+std::vector<Finding> Findings::all(const std::deque<question::ExaminedRow>& rows) const {
   std::vector<Finding> all;
   for (const auto& [key, finding] : findings_) {
     all.push_back(finding);
-    all.back().share_of_plain = share_of(finding.by_row, asked, false);
-    all.back().share_of_hard = share_of(finding.by_row, asked, true);
+    all.back().share_of_plain = share_of(finding.by_row, rows, false);
+    all.back().share_of_hard = share_of(finding.by_row, rows, true);
     all.back().circumstance = circumstance_of(finding.features, right_);
   }
   const auto rank = [](const Finding& finding) {

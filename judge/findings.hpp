@@ -1,8 +1,7 @@
 // Answers that went wrong, by cause.
 #pragma once
 
-#include <functional>
-#include <limits>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "judge/circumstance.hpp"
 #include "judge/diagnosis.hpp"
+#include "question/examination.hpp"
 
 namespace lorentz::judge {
 
@@ -62,14 +62,6 @@ struct Finding {
   std::string explanation() const;
 };
 
-/// How many questions a row asked.
-struct AskedOf {
-  std::size_t number = 0;
-  bool is_hard = false;  ///< chosen to be difficult
-};
-/// By the row's name.
-using Asked = std::map<std::string, AskedOf>;
-
 class Findings {
  public:
   /// Adds an example that was met in the row of this name.
@@ -81,7 +73,8 @@ class Findings {
 
   /// All findings with their circumstances, group by group. In each group the worst comes first; among equals
   /// the one most frequent in plain flights, then in hard ones.
-  std::vector<Finding> all(const Asked& asked) const;
+  /// Unsupported questions of the rows do not count as asked.
+  std::vector<Finding> all(const std::deque<question::ExaminedRow>& rows) const;
 
  private:
   void add(const std::pair<Severity, Cause>& key, const Finding& other);

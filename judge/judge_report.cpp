@@ -63,7 +63,7 @@ std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& 
   const std::string lines = lines_of_question(finding);
   std::string engine = shell_quoted(report.engine.name);
   const std::string claim = report::arguments_of(report.claim);
-  if (finding.cause() == Cause::no_answer) engine += fmt::format(" --timeout {:g}", report.timeout);
+  if (finding.cause() == Cause::no_answer) engine += fmt::format(" --timeout {:g}", report.longest_wait);
   if (finding.simplest.question.is_query())
     return {fmt::format("{} | lorentz compare --queries - --engine {}{}{}", lines, engine, claim,
                         option_for(finding.severity())),
@@ -287,7 +287,7 @@ std::string table_of(const JudgeReport& report) {
          line_of(RowState::too_slow,
                  fmt::format("too slow to ask (no answer within {:.3g} s, or more than "
                              "0.1 s each in earlier rows)",
-                             report.timeout),
+                             report.longest_wait),
                  report) +
          line_of(RowState::other_numbers, "not asked, numbers of another precision", report) +
          given_up_lines(report);

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "judge/examination.hpp"
 #include "judge/free_paths.hpp"
-#include "question/engines.hpp"
-#include "starts/free_starts.hpp"
+#include "judge/order.hpp"
+#include "judge/results.hpp"
 
 namespace lorentz::judge {
 
@@ -20,26 +19,13 @@ struct ThreeLines {
   const Finding* finding = nullptr;  ///< this fault; null if there is none
 };
 
-/// What is judged, and by what.
-struct JudgeTerms {
-  question::EngineInfo engine = {};
-  /// What the engine reports about itself, if it was asked.
-  std::optional<question::Introduction> introduction = {};
-  std::string command = {};  ///< the shell line as typed
-  std::uint64_t seed = starts::kDefaultSeed;
-  double ulps = oracle::kDefaultUlps;  ///< the tolerance k
-  Claim claim = {};
-  bool times = false;   ///< wrong times count
-  bool strict = false;  ///< answers to invalid questions count
-};
-
-struct JudgeReport : JudgeTerms {
-  std::vector<ExaminedRow> rows = {};
+struct JudgeReport : JudgeOrder {
+  std::deque<ExaminedRow> rows = {};
   std::vector<Finding> findings = {};
   Curves curves = {};
   std::optional<double> own_ns = {};  ///< per query, in the engine's own calls, if it reports that
   std::vector<FlownScene> flown = {};
-  double timeout = 0;       ///< seconds of silence after which an external engine has failed
+  double longest_wait = 0;  ///< seconds of silence after which an external engine has failed
   double start_up = 0;      ///< seconds that an external engine took to start
   double first_answer = 0;  ///< seconds until its first answer
   std::optional<double> ns_per_query = {}, ns_of_reduction = {};            ///< on the same drawn flights

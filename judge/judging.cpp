@@ -18,22 +18,6 @@ using starts::Kind;
 
 namespace {
 
-using JudgingClock = std::chrono::steady_clock;
-
-// A stretch of time.
-class Countdown {
- public:
-  explicit Countdown(double seconds, JudgingClock::time_point begun = JudgingClock::now())
-      : end_(begun +
-             std::chrono::duration_cast<JudgingClock::duration>(std::chrono::duration<double>(seconds))) {}
-  double left() const {
-    return std::max(std::chrono::duration<double>(end_ - JudgingClock::now()).count(), 0.0);
-  }
-
- private:
-  JudgingClock::time_point end_;
-};
-
 // Parts of one stretch of time. The others get the time that one leaves.
 class Shares {
  public:
@@ -44,8 +28,6 @@ class Shares {
   Countdown all_;
   std::size_t parts_;
 };
-
-constexpr double kEver = 1e7;  // seconds
 
 // The order, how its engine is asked, and the time until the end of the run.
 struct Terms {
@@ -61,18 +43,18 @@ struct Terms {
   }
 
   unsigned jobs() const { return order.questions ? 1 : order.jobs; }
-  std::unique_ptr<Examination> examination() const {
-    auto one = std::make_unique<Examination>(order.engine, answerer, order.ulps, stop, order.claim);
+  std::unique_ptr<TimedExamination> examination(const JudgeOrder& its) const {
+    auto one = std::make_unique<TimedExamination>(its, answerer, stop);
     one->limit(all.left());
-    if (order.questions) one->ask_exactly(*order.questions);
-    if (!order.questions && !order.timeout) one->take_silence_for_slowness();
     return one;
   }
-  /// An examination without a listener.
-  std::unique_ptr<Examination> silent_examination() const {
+  /// An examination that reports to nobody.
+  std::unique_ptr<TimedExamination> silent_examination(const question::Listener& listener = {}) const {
     Terms silent = *this;
-    silent.answerer.listener = {};
-    return silent.examination();
+    silent.answerer.listener = listener;
+    JudgeOrder its = order;
+    its.on_progress = {}, its.on_judged = {};
+    return silent.examination(its);
   }
 };
 
@@ -91,7 +73,7 @@ double length_of_flight(const Question& question) {
 
 // Asks one question of each row, the one with the shortest flight first: an engine that is slow has then
 // answered something everywhere before long flights take all the time.
-void ask_one_each(Examination& examination, JudgePlan& plan, const Terms& terms) {
+void ask_one_each(TimedExamination& examination, JudgePlan& plan, const Terms& terms) {
   struct First {
     const PlannedRow* row;
     Question question;
@@ -109,13 +91,13 @@ void ask_one_each(Examination& examination, JudgePlan& plan, const Terms& terms)
 }
 
 // The campaign runs in threads, each with an examination and scenes of its own.
-void run_campaign(Examination& first, JudgePlan& plan, const Terms& terms) {
+void run_campaign(TimedExamination& first, JudgePlan& plan, const Terms& terms) {
   const unsigned jobs = terms.jobs();
   const double seconds = terms.seconds_of(JudgePart::campaign);
-  std::vector<std::unique_ptr<Examination>> others;
+  std::vector<std::unique_ptr<TimedExamination>> others;
   std::vector<std::future<void>> threads;
   for (unsigned part = 1; part < jobs; ++part) {
-    others.push_back(terms.examination());
+    others.push_back(terms.silent_examination(terms.answerer.listener));
     threads.push_back(
         std::async(std::launch::async, [seconds, &its = *others.back(), source = plan.campaign(part, jobs)] {
           its.run(campaign_row(), source, seconds);
@@ -125,17 +107,18 @@ void run_campaign(Examination& first, JudgePlan& plan, const Terms& terms) {
   for (std::future<void>& thread : threads) thread.get();
   for (const auto& other : others) {
     other->finish();
-    first.take_over(*other);
+    first.results().add(other->results());
   }
 }
 
 // Asks the rows of each part in turn; then the campaign, which depends on what the engine did in them.
-void ask_all(Examination& examination, JudgePlan& plan, const Terms& terms) {
-  for (const PlannedRow& row : plan.rows()) examination.add(row.row);
-  examination.add(campaign_row());
+void ask_all(TimedExamination& examination, JudgePlan& plan, const Terms& terms) {
+  for (const PlannedRow& row : plan.rows()) examination.results().row(row.row);
+  examination.results().row(campaign_row());
   if (!terms.order.questions) ask_one_each(examination, plan, terms);
   for (const JudgePart part : {JudgePart::drawn, JudgePart::hard, JudgePart::paths, JudgePart::golden}) {
-    Shares shares(terms.seconds_of(part), plan.number_of(part));
+    const auto rows = std::ranges::count(plan.rows(), part, &PlannedRow::part);
+    Shares shares(terms.seconds_of(part), static_cast<std::size_t>(rows));
     for (const PlannedRow& row : plan.rows())
       if (row.part == part) examination.run(row.row, row.source, shares.next(), row.look);
   }
@@ -144,7 +127,7 @@ void ask_all(Examination& examination, JudgePlan& plan, const Terms& terms) {
 
 // ---- The simplest case of each finding
 
-void find_simplest(std::vector<Finding>& findings, Examination& examination, double seconds) {
+void find_simplest(std::vector<Finding>& findings, TimedExamination& examination, double seconds) {
   examination.limit(seconds);
   Shares shares(seconds, findings.size());
   for (Finding& finding : findings) {
@@ -173,7 +156,7 @@ void recheck_all(std::vector<Finding>& findings, const Terms& terms, double seco
 }
 
 // Finds the simplest case of each finding.
-void simplify(std::vector<Finding>& findings, Examination& examination, const Terms& terms,
+void simplify(std::vector<Finding>& findings, TimedExamination& examination, const Terms& terms,
               double first_answer) {
   const double seconds = terms.seconds_of(JudgePart::simplest);
   if (!terms.order.engine.runs_apart()) return find_simplest(findings, examination, seconds);
@@ -265,21 +248,20 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   const Terms terms{order, options_of(order), stop,
                     order.questions ? Countdown(kEver) : Countdown(order.seconds(), order.begun)};
   JudgeReport report{order};
-  report.timeout = terms.answerer.timeout;
-  const std::unique_ptr<Examination> examination = terms.examination();
-  if (order.questions) examination->on_judged(order.on_judged);
-  examination->on_progress(order.on_progress);
-  const Examination::Start start = examination->warm_up();
-  report.start_up = start.start_up, report.first_answer = start.first_answer;
+  report.longest_wait = terms.answerer.timeout;
+  const std::unique_ptr<TimedExamination> examination = terms.examination(order);
+  if (const std::vector<double> seconds = examination->warm_up(); !seconds.empty()) {
+    report.first_answer = std::ranges::max(seconds);
+    report.start_up = report.first_answer - seconds.back();
+  }
   JudgePlan plan(order);
   ask_all(*examination, plan, terms);
   report.flown = plan.flown();
-  report.rows = examination->rows();
-  report.findings = examination->findings();
-  report.curves = examination->curves();
+  report.rows = examination->results().rows;
+  report.findings = examination->results().all_findings();
+  report.curves = examination->results().curves;
   if (!stop) simplify(report.findings, *examination, terms, report.first_answer);
   report.misbehaved = examination->failed();
-  examination->on_progress({});
   examination->finish();
   report.was_stopped = stop;
   if (!stop && !report.is_broken()) race(report, plan.places(), terms);

@@ -54,6 +54,10 @@ const std::vector<Scenery> kSceneries{{"square", {0.3, 0.1, 0.01, 0.001, 1e-6}},
                                       {"ellipsoid", {}},
                                       {"ball", {}}};
 
+// The scenes of the row `free paths`, and its number of flights.
+constexpr std::pair<const char*, double> kFlown[] = {{"square", 0.1}, {"square", 0.01}, {"cubic", 0.1}};
+constexpr std::size_t kFlights = 30'000;
+
 std::vector<NamedPlace> places_of(const Scenery& scenery, const Claim& claim) {
   if (scenery.radii.empty()) return {{scenery.scene, place_for(read_scene(scenery.scene, {}), claim)}};
   std::vector<NamedPlace> places;
@@ -93,57 +97,59 @@ double seconds_of(JudgePart part, const JudgeOrder& order, double left) {
   return its * std::min(order.seconds() / all, left / needed);
 }
 
-JudgePlan::JudgePlan(const JudgeOrder& order) : order_(order), free_flights_(order.seed, order.claim) {
-  add_drawn_rows();
-  rows_.push_back(
-      {.part = JudgePart::paths,
-       .row = {.name = "free paths",
-               .explanation = "from collision to collision: starts on obstacles, by the cosine law",
-               .is_hard = false},
-       .source = free_flights_.source(),
-       .look = free_flights_.look()});
-  add_golden_rows();
+void JudgePlan::add(JudgePart part, ExaminedRow row, Source source) {
+  rows_.push_back({part, std::move(row), std::move(source), {}});
 }
 
-// One row for each scene; then two rows of hard flights in all these scenes that have balls.
-void JudgePlan::add_drawn_rows() {
+// One row for each scene; then two rows of hard flights in all these scenes that have balls; then free paths and
+// golden sets.
+JudgePlan::JudgePlan(const JudgeOrder& order) : order_(order) {
   for (const Scenery& scenery : kSceneries) sceneries_.push_back(places_of(scenery, order_.claim));
   const std::size_t number = number_of_flights(order_);
   for (std::size_t i = 0; i < kSceneries.size(); ++i) {
     places_.insert(places_.end(), sceneries_[i].begin(), sceneries_[i].end());
-    rows_.push_back({.part = JudgePart::drawn,
-                     .row = {.name = fmt::format("drawn {}", kSceneries[i].scene),
-                             .explanation = "uniform starts, isotropic directions",
-                             .is_hard = false},
-                     .source = drawn(sceneries_[i], Kind::uniform, order_.seed, number)});
+    add(JudgePart::drawn,
+        {.name = fmt::format("drawn {}", kSceneries[i].scene),
+         .explanation = "uniform starts, isotropic directions",
+         .is_hard = false},
+        drawn(sceneries_[i], Kind::uniform, order_.seed, number));
   }
-  rows_.push_back(
-      {.part = JudgePart::hard,
-       .row = {.name = "near-rational",
-               .explanation =
-                   "directions along small lattice vectors but for ulps to 2^-40, in these scenes"},
-       .source = drawn(places_, Kind::near_rational, order_.seed, 2 * number)});
-  rows_.push_back(
-      {.part = JudgePart::hard,
-       .row = {.name = "grazing",
-               .explanation = "the first ball is passed or met within r 2^-10 to r 2^-52 of its edge"},
-       .source = drawn(places_, Kind::grazing, order_.seed, 2 * number)});
-}
-
-void JudgePlan::add_golden_rows() {
+  add(JudgePart::hard,
+      {.name = "near-rational",
+       .explanation = "directions along small lattice vectors but for ulps to 2^-40, in these scenes"},
+      drawn(places_, Kind::near_rational, order_.seed, 2 * number));
+  add(JudgePart::hard,
+      {.name = "grazing",
+       .explanation = "the first ball is passed or met within r 2^-10 to r 2^-52 of its edge"},
+      drawn(places_, Kind::grazing, order_.seed, 2 * number));
+  for (const auto& [scene, radius] : kFlown) {
+    flown_.emplace_back(scene, radius);
+    flown_places_.push_back({flown_.back().name(), place_for(read_scene(scene, radius), order_.claim)});
+  }
+  add(JudgePart::paths,
+      {.name = "free paths",
+       .explanation = "from collision to collision: starts on obstacles, by the cosine law",
+       .is_hard = false},
+      drawn(flown_places_, Kind::surface, order_.seed, kFlights));
+  rows_.back().look = [this](const question::Judged& judged) {
+    for (std::size_t i = 0; i < flown_.size(); ++i)
+      if (judged.question.place == flown_places_[i].place)
+        flown_[i].add(judged.question, judged.reply.answer);
+  };
   for (const std::string& file : golden_sets_for(order_.claim.precision)) {
     const golden::Header header = golden::Reader(file).header();
-    rows_.push_back({.part = JudgePart::golden,
-                     .row = {.name = "golden " + std::filesystem::path(file).stem().string(),
-                             .explanation = header.description,
-                             .records = header.count},
-                     .source = golden_set(file, order_.claim)});
+    add(JudgePart::golden,
+        {.name = "golden " + std::filesystem::path(file).stem().string(),
+         .explanation = header.description,
+         .records = header.count},
+        golden_set(file, order_.claim));
   }
 }
 
-std::size_t JudgePlan::number_of(JudgePart part) const {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(rows_, [&](const PlannedRow& row) { return row.part == part; }));
+std::vector<FlownScene> JudgePlan::flown() const {
+  std::vector<FlownScene> flown = flown_;
+  std::erase_if(flown, [](const FlownScene& scene) { return scene.flights() == 0; });
+  return flown;
 }
 
 ExaminedRow campaign_row() {

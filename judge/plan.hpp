@@ -1,13 +1,9 @@
 // The plan of `judge`: the parts of a run with their times, and the rows of its report with their questions.
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "judge/free_paths.hpp"
-#include "judge/judging.hpp"
 #include "judge/questions.hpp"
 
 namespace lorentz::judge {
@@ -24,7 +20,7 @@ struct PlannedRow {
   JudgePart part;
   ExaminedRow row;  ///< without results
   Source source;
-  Look look = {};
+  question::Sink look = {};  ///< sees each answer
 };
 
 /// The row of the campaign, the last one of the report.
@@ -38,26 +34,23 @@ class JudgePlan {
   JudgePlan& operator=(const JudgePlan&) = delete;
 
   std::vector<PlannedRow>& rows() { return rows_; }
-  /// The number of rows of a part.
-  std::size_t number_of(JudgePart part) const;
 
-  /// The questions of the campaign: scenes of the kind in which the engine has answered so far. JudgePart 0 goes
-  /// on where it was left, unless there are more such scenes by now.
+  /// The questions of the campaign: scenes of the kind in which the engine has answered so far. Part 0 goes on
+  /// where it was left, unless there are more such scenes by now.
   Source campaign(unsigned part, unsigned parts);
 
   /// The places of the drawn rows.
   const std::vector<NamedPlace>& places() const { return places_; }
-  /// The flights of the row `free paths`, of each scene in which the engine flew.
-  std::vector<FlownScene> flown() const { return free_flights_.flown(); }
+  /// The flights of the row `free paths`, in each scene in which the engine flew.
+  std::vector<FlownScene> flown() const;
 
  private:
-  void add_drawn_rows();
-  void add_golden_rows();
+  void add(JudgePart part, ExaminedRow row, Source source);
 
   const JudgeOrder& order_;
   std::vector<std::vector<NamedPlace>> sceneries_;
-  std::vector<NamedPlace> places_;
-  FreeFlights free_flights_;
+  std::vector<NamedPlace> places_, flown_places_;
+  std::vector<FlownScene> flown_;  // in the order of their places
   std::vector<PlannedRow> rows_;
   fuzz::Scope scope_;  // of campaign_
   Source campaign_;

@@ -1,5 +1,6 @@
 #include "judge/simplest.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include <lorentz/geometry.hpp>
@@ -18,18 +19,18 @@ bool is_alike(const Example& a, const Example& b, const std::optional<double>& b
 // Tests whether a case goes wrong like the example.
 class SameWay {
  public:
-  SameWay(const Finding& finding, Examination& examination)
+  SameWay(const Finding& finding, TimedExamination& examination)
       : like_(finding.simplest), by_radii_(finding.by_radii), examination_(examination) {}
 
   bool operator()(const Scene& scene, const Query& query) {
     if (!place_ || place_->scene() != scene) {
       if (!fuzz::is_sound(scene) || !fuzz::is_sane(scene)) return false;
-      place_ = std::make_shared<Place>(scene, question::Truth::oracle, examination_.claim());
+      place_ = std::make_shared<Place>(scene, question::Truth::oracle, examination_.order().claim);
     }
     if (flaw_of(query, scene) || !place_->has_numbers_for(query)) return false;
     const Question question{
         .place = place_, .query = query, .exact = place_->exact(query), .where = like_.question.where};
-    last_ = examination_.example_of(question);
+    last_ = example_of(question, examination_);
     return last_ && is_alike(*last_, like_, by_radii_);
   }
 
@@ -42,7 +43,7 @@ class SameWay {
  private:
   const Example& like_;
   std::optional<double> by_radii_;
-  Examination& examination_;
+  TimedExamination& examination_;
   std::shared_ptr<Place> place_;
   std::optional<Example> last_;
 };
@@ -50,7 +51,7 @@ class SameWay {
 }  // namespace
 
 // A program that gives no answer is not asked thousands of times, because it would be given up.
-Example simplest(const Finding& finding, Examination& examination, double seconds) {
+Example simplest(const Finding& finding, TimedExamination& examination, double seconds) {
   using Clock = std::chrono::steady_clock;
   const Example& example = finding.simplest;
   const Cause cause = example.diagnosis.cause;
@@ -67,13 +68,31 @@ Example simplest(const Finding& finding, Examination& examination, double second
   return same(shrunk.scene, shrunk.query) ? *same.last() : example;
 }
 
-void recheck(Finding& finding, const std::function<std::unique_ptr<Examination>()>& start, double seconds) {
+std::optional<Example> example_of(const Question& question, TimedExamination& examination) {
+  const auto examples = examination.examples_of({&question, 1});
+  return examples.empty() ? std::nullopt : examples[0];
+}
+
+std::optional<std::size_t> failed_copy(const Question& question, std::size_t copies, Diagnosis like,
+                                       TimedExamination& examination, bool& all_answered) {
+  const std::vector<std::optional<Example>> examples =
+      examination.examples_of(std::vector<Question>(copies, question));
+  all_answered = examples.size() == copies;
+  const auto failed = std::ranges::find_if(examples, [&](const auto& example) {
+    return example && example->diagnosis.cause == like.cause && example->diagnosis.severity == like.severity;
+  });
+  return failed == examples.end() ? std::nullopt : std::optional<std::size_t>(failed - examples.begin() + 1);
+}
+
+void recheck(Finding& finding, const std::function<std::unique_ptr<TimedExamination>()>& start,
+             double seconds) {
   const Example& example = finding.simplest;
   finding.recheck = Recheck::no_time;
   for (const std::size_t copies : {std::size_t{1}, kMostRepetitions}) {
-    const std::unique_ptr<Examination> anew = start();
+    const std::unique_ptr<TimedExamination> anew = start();
     anew->limit(seconds);
-    const auto [failed, all_answered] = anew->repeat(example.question, copies, example.diagnosis);
+    bool all_answered = false;
+    const auto failed = failed_copy(example.question, copies, example.diagnosis, *anew, all_answered);
     anew->finish();
     if (failed) {
       finding.recheck = Recheck::fails;

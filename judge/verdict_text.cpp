@@ -37,7 +37,7 @@ std::string percent(std::size_t part, std::size_t whole) {
 }
 
 // The largest radii_off of the rows that are hard, or of the others.
-std::optional<double> largest_radii(const std::vector<ExaminedRow>& rows, bool hard) {
+std::optional<double> largest_radii(const std::deque<ExaminedRow>& rows, bool hard) {
   std::optional<double> largest;
   for (const ExaminedRow& row : rows)
     if (row.is_hard == hard && row.max_radii) largest = std::max(largest.value_or(0), *row.max_radii);
@@ -45,7 +45,7 @@ std::optional<double> largest_radii(const std::vector<ExaminedRow>& rows, bool h
 }
 
 // The sum over the hard rows, or over the others.
-question::Tally sum_of(const std::vector<ExaminedRow>& rows, bool hard) {
+question::Tally sum_of(const std::deque<ExaminedRow>& rows, bool hard) {
   question::Tally sum;
   for (const ExaminedRow& row : rows)
     if (row.is_hard == hard) sum.add(row.tally);
@@ -53,7 +53,7 @@ question::Tally sum_of(const std::vector<ExaminedRow>& rows, bool hard) {
 }
 
 // "undecided 0.2 % of drawn flights, 16 % of hard ones"; nothing if there are none.
-std::string shares_text(const char* what, const std::vector<ExaminedRow>& rows, Count count) {
+std::string shares_text(const char* what, const std::deque<ExaminedRow>& rows, Count count) {
   const question::Tally drawn = sum_of(rows, false), hard = sum_of(rows, true);
   if (drawn[count] + hard[count] == 0) return "";
   return fmt::format("; {} {} of drawn flights, {} of hard ones", what,

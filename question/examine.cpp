@@ -80,44 +80,25 @@ void ask_all(const Source& source, Answerer& answerer,
   answerer.on_reply([](Reply&) {});
 }
 
+Judgement judgement_of(const Question& question, const Reply& reply, double ulps) {
+  if (!reply.was_asked() || reply.is_fault()) return {Verdict::missing};
+  return judgement_of(question, reply.answer, ulps);
+}
+
 void examine(const Source& source, Answerer& answerer, double ulps, const Sink& sink) {
   ask_all(source, answerer, [&](const Question& question, const Reply& reply) {
-    sink({question, reply, reply.was_asked() ? judgement_of(question, reply.answer, ulps) : Judgement()});
+    sink({question, reply, judgement_of(question, reply, ulps)});
   });
 }
 
-namespace {
-
-// Cuts [0, count) into one stretch per job and calls act(job, begin, end) for each in a thread of its own.
-template <class Act>
-void in_stretches(std::size_t count, std::size_t jobs, const Act& act) {
+void in_stretches(std::size_t count, std::size_t jobs,
+                  const std::function<void(std::size_t job, std::size_t begin, std::size_t end)>& act) {
   const auto bound = [&](std::size_t job) { return job * count / jobs; };
   std::vector<std::future<void>> others;
   for (std::size_t job = 1; job < jobs; ++job)
     others.push_back(std::async(std::launch::async, [&, job] { act(job, bound(job), bound(job + 1)); }));
   act(0, bound(0), bound(1));
   for (std::future<void>& other : others) other.get();
-}
-
-}  // namespace
-
-void examine(std::span<const Question> questions, std::span<const std::unique_ptr<Answerer>> answerers,
-             double ulps, const Sink& sink) {
-  if (answerers.size() == 1) return examine(all_of(questions), *answerers[0], ulps, sink);
-  for (const Question& question : questions)
-    question.place->judge();  // made here, because threads may only read it
-  struct Came {
-    Reply reply;
-    Judgement judgement;
-  };
-  std::vector<Came> came(questions.size());
-  in_stretches(questions.size(), answerers.size(), [&](std::size_t job, std::size_t begin, std::size_t end) {
-    std::size_t next = begin;
-    examine(all_of(questions.subspan(begin, end - begin)), *answerers[job], ulps, [&](const Judged& judged) {
-      came[next++] = {judged.reply, judged.judgement};
-    });
-  });
-  for (std::size_t i = 0; i < questions.size(); ++i) sink({questions[i], came[i].reply, came[i].judgement});
 }
 
 namespace {

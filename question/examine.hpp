@@ -17,13 +17,17 @@ void ask_all(const Source& source, Answerer& answerer,
 /// is ill-posed at the question's limit, because an engine that is asked with a limit knows its times.
 oracle::Judgement judgement_of(const Question& question, const Answer& given, double ulps);
 
+/// The same of a reply: `missing` without an answer, because the question was not asked or an external engine
+/// failed on it.
+oracle::Judgement judgement_of(const Question& question, const Reply& reply, double ulps);
+
 /// True if nothing is entered before the question's limit.
 bool is_later(const Question& question);
 
 /// True if the answer is wrong, ill-posed or wrong in time.
 bool departs(const oracle::Judgement& judgement);
 
-/// A question and the reply to it. `judgement` is `missing` if the question was not asked.
+/// A question and the reply to it, judged.
 struct Judged {
   const Question& question;
   const Reply& reply;
@@ -34,10 +38,9 @@ using Sink = std::function<void(const Judged&)>;
 /// Asks all questions of the source and judges the replies. The sink gets them in the order of the questions.
 void examine(const Source& source, Answerer& answerer, double ulps, const Sink& sink);
 
-/// The same with one thread per answerer; each is asked one stretch of the questions. The calling thread
-/// calls the sink, in the order of the questions.
-void examine(std::span<const Question> questions, std::span<const std::unique_ptr<Answerer>> answerers,
-             double ulps, const Sink& sink);
+/// Cuts [0, count) into one stretch per job and calls act(job, begin, end) for each in a thread of its own.
+void in_stretches(std::size_t count, std::size_t jobs,
+                  const std::function<void(std::size_t job, std::size_t begin, std::size_t end)>& act);
 
 /// Sets the exact answer of each question, on `jobs` threads.
 void answer_exactly(std::span<Question> questions, Truth truth, const Listener& listener = {}, int jobs = 1);

@@ -118,17 +118,6 @@ inline std::vector<Question> questions_of(const std::shared_ptr<Place>& place,
 /// Returns the next question, or nothing at the end.
 using Source = std::function<std::optional<Question>()>;
 
-/// The next questions, at most `most`; empty at the end.
-inline std::vector<Question> some_of(const Source& source, std::size_t most) {
-  std::vector<Question> questions;
-  while (questions.size() < most) {
-    std::optional<Question> next = source();
-    if (!next) break;
-    questions.push_back(std::move(*next));
-  }
-  return questions;
-}
-
 /// A source of questions in memory, which must outlast it.
 inline Source all_of(std::span<const Question> questions) {
   return [questions, next = std::size_t{0}]() mutable -> std::optional<Question> {

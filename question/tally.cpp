@@ -30,7 +30,6 @@ double quantile(std::vector<double> values, double share) {
 void Tally::add(const Tally& other) {
   counts += other.counts;
   queries += other.queries, timed_hits += other.timed_hits;
-  failed |= other.failed;
   for (const auto errors : {&Tally::ulps, &Tally::wrong_ulps, &Tally::wrong_conditions})
     (this->*errors).insert((this->*errors).end(), (other.*errors).begin(), (other.*errors).end());
 }

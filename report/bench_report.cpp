@@ -68,8 +68,8 @@ std::optional<PowerFit> power_fit(const std::vector<std::pair<double, double>>& 
 std::vector<BenchFit> bench_fits(const std::vector<Cell>& cells) {
   std::map<std::tuple<std::string, std::string, std::string>, std::vector<std::pair<double, double>>> points;
   for (const Cell& cell : cells)
-    if (!cell.skipped && cell.radius && *cell.radius <= kSmall && cell.ns && cell.ns->median > 0)
-      points[{cell.scene, cell.engine, cell.difficulty}].emplace_back(*cell.radius, cell.ns->median);
+    if (!cell.skipped && cell.radius && *cell.radius <= kSmall && cell.speed && cell.speed->ns_median > 0)
+      points[{cell.scene, cell.engine, cell.difficulty}].emplace_back(*cell.radius, cell.speed->ns_median);
   std::vector<BenchFit> fits;
   for (const auto& [key, values] : points)
     if (const auto fit = power_fit(values))
@@ -95,8 +95,8 @@ std::string table_of(const std::vector<Cell>& cells) {
     }
     const auto number = [&](Count count) { return std::to_string(cell.counts[count]); };
     table.add({what, cell.engine, std::to_string(cell.queries),
-               cell.ns ? fmt::format("{:.0f}", cell.ns->median) : "-",
-               cell.ns ? fmt::format("{:.0f}-{:.0f}", cell.ns->q1, cell.ns->q3) : "-",
+               cell.speed ? fmt::format("{:.0f}", cell.speed->ns_median) : "-",
+               cell.speed ? fmt::format("{:.0f}-{:.0f}", cell.speed->ns_low, cell.speed->ns_high) : "-",
                number(Count::undecided), number(Count::ill_posed), number(Count::wrong),
                number(Count::wrong_time), fmt::format("{:.3g}", cell.ulps.mean),
                fmt::format("{:.3g}", cell.ulps.p99), fmt::format("{:.3g}", cell.ulps.max)});
@@ -122,9 +122,9 @@ class Summary {
       ++(cell.counts[Count::unsupported] > 0 ? beyond_ : skipped_);
       return;
     }
-    if (cell.ns) {
-      fastest_ = std::min(fastest_.value_or(cell.ns->median), cell.ns->median);
-      slowest_ = std::max(slowest_, cell.ns->median);
+    if (cell.speed) {
+      fastest_ = std::min(fastest_.value_or(cell.speed->ns_median), cell.speed->ns_median);
+      slowest_ = std::max(slowest_, cell.speed->ns_median);
     }
     queries_ += cell.queries;
     counts_ += cell.counts;
@@ -212,20 +212,21 @@ std::string bench_csv(const std::vector<Cell>& cells) {
       "condition_99_percent,max_condition,instructions\n";
   for (const Cell& cell : cells) {
     if (cell.skipped) continue;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.6g},{}", csv_field(cell.scene),
-                       radius_of(cell), cell.difficulty, csv_field(cell.engine), cell.queries,
-                       cell.ns ? fmt::format("{:.1f},{:.1f},{:.1f},{:.1f}", cell.ns->mean, cell.ns->median,
-                                             cell.ns->q1, cell.ns->q3)
-                               : ",,,",
-                       cell.counts[Count::undecided], cell.counts[Count::wrong],
-                       cell.counts[Count::wrong_time], cell.ulps.mean, cell.ulps.p99, cell.ulps.max,
-                       cell.mean_path, cell.counts[Count::ill_posed]);
+    csv += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.6g},{}", csv_field(cell.scene), radius_of(cell),
+        cell.difficulty, csv_field(cell.engine), cell.queries,
+        cell.speed ? fmt::format("{:.1f},{:.1f},{:.1f},{:.1f}", cell.speed->ns_per_query,
+                                 cell.speed->ns_median, cell.speed->ns_low, cell.speed->ns_high)
+                   : ",,,",
+        cell.counts[Count::undecided], cell.counts[Count::wrong], cell.counts[Count::wrong_time],
+        cell.ulps.mean, cell.ulps.p99, cell.ulps.max, cell.mean_path, cell.counts[Count::ill_posed]);
     for (const Count count : {Count::undecided, Count::ill_posed, Count::wrong, Count::wrong_time}) {
       const Share share = share_of(cell.counts[count], cell.queries);
       csv += fmt::format(",{:.4g},{:.4g}", share.low, share.high);
     }
-    csv += fmt::format(",{:.4g},{:.4g},{}\n", cell.conditions.p99, cell.conditions.max,
-                       cell.instructions ? fmt::format("{:.1f}", *cell.instructions) : "");
+    csv += fmt::format(
+        ",{:.4g},{:.4g},{}\n", cell.conditions.p99, cell.conditions.max,
+        cell.speed && cell.speed->instructions ? fmt::format("{:.1f}", *cell.speed->instructions) : "");
   }
   return csv;
 }

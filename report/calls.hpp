@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <tuple>
 
 #include "question/counts.hpp"
 
@@ -14,8 +13,6 @@ namespace lorentz::report {
 struct Call {
   question::Counts counts;  ///< of Counted::curves
   double radii_off = 0;     ///< the largest error of a time, along the ray, in radii
-  friend bool operator==(const Call&, const Call&) = default;
-  friend auto members_of(Call& self) { return std::tie(self.counts, self.radii_off); }
 };
 
 /// Answers by decade. A tolerance shows as an edge: wrong below, right above.
@@ -29,8 +26,6 @@ class Calls {
   void add(int decade, const Call& call);
 
   const std::map<int, Call>& by_decade() const { return by_decade_; }
-  friend bool operator==(const Calls&, const Calls&) = default;
-  friend auto members_of(Calls& self) { return std::tie(self.by_decade_); }
 
  private:
   std::map<int, Call> by_decade_;

@@ -5,7 +5,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "src/exchange/json_piece.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace lorentz::report {
 
@@ -33,8 +33,8 @@ Histogram histogram_of(const std::vector<double>& errors) {
 
 namespace {
 
-void add_times(json::Members& object, const CellTimes& ns) {
-  object.add("median", ns.median, "q1", ns.q1, "q3", ns.q3, "mean", ns.mean);
+void add_times(json::Members& object, const question::Speed& speed) {
+  object.add("median", speed.ns_median, "q1", speed.ns_low, "q3", speed.ns_high, "mean", speed.ns_per_query);
 }
 
 void add_worst(json::Members& object, const Worst& worst) {
@@ -62,40 +62,16 @@ void append_json(std::string& out, const Cell& cell) {
                                      ? std::nullopt
                                      : std::optional(share_of(cell.counts[name.count], cell.queries)));
     object.add("ns",
-               cell.ns && !cell.skipped ? std::optional([&](json::Members& ns) { add_times(ns, *cell.ns); })
-                                        : std::nullopt,
-               "instructions", cell.skipped ? std::nullopt : cell.instructions, "mean_path",
-               measured(cell.mean_path), "ulps", measured(members_of(cell.ulps)), "conditions",
+               cell.speed && !cell.skipped
+                   ? std::optional([&](json::Members& ns) { add_times(ns, *cell.speed); })
+                   : std::nullopt,
+               "instructions", cell.speed && !cell.skipped ? cell.speed->instructions : std::nullopt,
+               "mean_path", measured(cell.mean_path), "ulps", measured(members_of(cell.ulps)), "conditions",
                measured(members_of(cell.conditions)), "calls", measured(cell.calls), "worst",
                cell.worst && !cell.skipped
                    ? std::optional([&](json::Members& worst) { add_worst(worst, *cell.worst); })
                    : std::nullopt);
   });
-}
-
-static auto members_of(CellTimes& self) {
-  return std::tie(self.median, self.q1, self.q3, self.mean);
-}
-static auto members_of(Histogram& self) {
-  return std::tie(self.exact, self.first, self.counts, self.mean, self.p99, self.max);
-}
-static auto members_of(Worst& self) {
-  return std::tie(self.verdict, self.ulps, self.query, self.command);
-}
-static auto members_of(Cell& self) {
-  return std::tie(self.scene, self.radius, self.dimension, self.difficulty, self.engine, self.queries,
-                  self.skipped, self.ns, self.instructions, self.mean_path, self.counts, self.ulps,
-                  self.conditions, self.calls, self.worst);
-}
-
-std::string piece_of(const Cell& cell) {
-  return json::piece_of(cell);
-}
-
-Cell cell_of(std::string_view piece) {
-  Cell cell;
-  json::read_piece(piece, cell);
-  return cell;
 }
 
 }  // namespace lorentz::report

@@ -4,22 +4,13 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "question/counts.hpp"
+#include "question/tally.hpp"
 #include "report/calls.hpp"
 #include "report/share.hpp"
 
 namespace lorentz::report {
-
-/// Nanoseconds per query.
-struct CellTimes {
-  double median = 0, q1 = 0, q3 = 0;  ///< over the means of blocks of queries
-  double mean = 0;
-
-  friend bool operator==(const CellTimes&, const CellTimes&) = default;
-};
 
 /// Errors over many powers of two, counted in bins of a factor of two.
 struct Histogram {
@@ -27,8 +18,6 @@ struct Histogram {
   int first = 0;                      ///< counts[i] errors are in [2^(first + i), 2^(first + i + 1))
   std::vector<std::size_t> counts;    ///< neither the first nor the last is zero
   double mean = 0, p99 = 0, max = 0;  ///< of all errors, including zeros; 0 without errors
-
-  friend bool operator==(const Histogram&, const Histogram&) = default;
 };
 
 /// The errors must be finite and not below zero; throws std::invalid_argument otherwise.
@@ -41,34 +30,25 @@ struct Worst {
   std::optional<double> ulps;  ///< error of the time, if the obstacle is right
   std::string query;           ///< as JSON, with hexadecimal numbers
   std::string command;         ///< a shell line that shows it
-
-  friend bool operator==(const Worst&, const Worst&) = default;
 };
 
 struct Cell {
   std::string scene;
-  std::optional<double> radius;  ///< nothing: the scene's own sizes
+  std::optional<double> radius = {};  ///< nothing: the scene's own sizes
   int dimension = 2;
-  std::string difficulty, engine;
+  std::string difficulty = {}, engine = {};
   std::size_t queries = 0;
-  bool skipped = false;                ///< too slow, or all unsupported: nothing was measured
-  std::optional<CellTimes> ns;         ///< empty if the program failed
-  std::optional<double> instructions;  ///< per query, if the processor counts them
-  double mean_path = 0;                ///< mean time of the flights that hit; 0 if none does
-  question::Counts counts;             ///< of Counted::examinations
-  Histogram ulps;                      ///< errors of the times of right hits, in ulps
-  Histogram conditions;                ///< the same in units of the condition (lorentz/margin.hpp)
-  Calls calls;  ///< by how many radii the line enters or misses the obstacle in question
-  std::optional<Worst> worst;
-
-  friend bool operator==(const Cell&, const Cell&) = default;
+  bool skipped = false;                       ///< too slow, or all unsupported: nothing was measured
+  std::optional<question::Speed> speed = {};  ///< empty if the program failed
+  double mean_path = 0;                       ///< mean time of the flights that hit; 0 if none does
+  question::Counts counts = {};               ///< of Counted::examinations
+  Histogram ulps = {};                        ///< errors of the times of right hits, in ulps
+  Histogram conditions = {};                  ///< the same in units of the condition (lorentz/margin.hpp)
+  Calls calls = {};  ///< by how many radii the line enters or misses the obstacle in question
+  std::optional<Worst> worst = {};
 };
 
 /// An object; the keys are the members' names. A skipped cell has null for all that was not measured.
 void append_json(std::string& out, const Cell& cell);
-
-/// A cell in a store, and the inverse. Throws InputError.
-std::string piece_of(const Cell& cell);
-Cell cell_of(std::string_view piece);
 
 }  // namespace lorentz::report

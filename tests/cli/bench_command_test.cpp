@@ -1,8 +1,9 @@
 // lorentz bench as its users call it.
-#include "runs/sqlite.hpp"
 #include "tests/support/command_line.hpp"
 
 #include <catch2/catch.hpp>
+
+#include <algorithm>
 
 using namespace lorentz::test;
 
@@ -59,70 +60,21 @@ TEST_CASE("bench takes scenes with semiaxes at their own size", "[cli][bench_com
   CHECK(folder.lorentz("bench --scene ellipse --radius 0.1 --engine reduction --count 32").status == 2);
 }
 
-namespace {
-
-// The text between the first `before` and the next `after`.
-std::string between(const std::string& text, const std::string& before, const std::string& after) {
-  const std::size_t begin = text.find(before) + before.size();
-  return text.substr(begin, text.find(after, begin) - begin);
-}
-
-std::string last_cell(const std::string& out) {
-  return out.substr(out.rfind("\"difficulty\":", out.find("\"fits\":")));
-}
-
-std::vector<std::string> pieces_in(const std::string& path) {
-  const lorentz::runs::Connection store(path, path, SQLITE_OPEN_READONLY);
-  lorentz::runs::Statement row(store, "SELECT text FROM piece ORDER BY number");
-  std::vector<std::string> pieces;
-  while (row.step()) pieces.push_back(row.text());
-  return pieces;
-}
-
-}  // namespace
-
-TEST_CASE("bench goes on with what its store has, and refuses that of another run", "[cli][bench_command]") {
+TEST_CASE("bench --json: what it is, the fit of three radii, and a worst input, which its command shows",
+          "[cli][bench_command]") {
   const Folder folder;
-  const std::string
-      options = "bench --scene square --count 32 --difficulty drawn --engine published,published-float",
-      radii = " --radius 0.01,0.001,0.0001", store = " --json --store " + folder.file("cells");
-  const Run first = folder.lorentz(options + radii + store);
-  INFO(first.err);
-  REQUIRE(first.status == 0);
-  const std::vector<std::string> kept = pieces_in(folder.file("cells"));
-  REQUIRE(kept.size() == 7);  // with what it was measured, and six cells
-  CHECK(folder.lorentz(options + radii + store).out == first.out);  // times and all: nothing is done again
-
-  // Killed while the last group was measured: its two cells are missing, or one of them.
-  for (std::size_t missing = 1; missing <= 2; ++missing) {
-    lorentz::runs::Connection(folder.file("cells"), folder.file("cells"), SQLITE_OPEN_READWRITE)
-        .run(("DELETE FROM piece WHERE number > " + std::to_string(kept.size() - missing)).c_str());
-    const Run rest = folder.lorentz(options + radii + store);
-    CHECK(rest.status == 0);
-    const std::vector<std::string> again = pieces_in(folder.file("cells"));
-    REQUIRE(again.size() == kept.size());
-    for (std::size_t i = 0; i + missing < kept.size(); ++i) CHECK(again[i] == kept[i]);
-    for (const char* key : {"\"wrong\":{", "\"ulps\":{", "\"worst\":{"})
-      CHECK(between(last_cell(rest.out), key, "}") == between(last_cell(first.out), key, "}"));
-  }
-  const Run other = folder.lorentz(options + " --radius 0.01" + store);
-  CHECK(other.status == 2);
-  CHECK(contains(other.err, "is of another run: its cells is"));
-  folder.write("cells", "not this\n");
-  const Run foreign = folder.lorentz(options + radii + store);
-  CHECK(foreign.status == 3);
-  CHECK(contains(foreign.err, "cells: is not a store of lorentz, nor any database"));
-  CHECK(folder.read("cells") == "not this\n");
-  CHECK(folder.lorentz(options + radii + " --store /nowhere/cells").status == 3);
-
-  // The report: what it is, the fit of three radii, and a worst input, which its command shows.
-  CHECK(first.out.starts_with("{\"format\":1,\"kind\":\"bench\","));
-  CHECK(contains(first.out,
-                 "\"fits\":[\n{\"scene\":\"square\",\"engine\":\"published\",\"difficulty\":\"drawn\","));
-  CHECK(contains(first.out, "\"command\":\"lorentz bench --scene square --count 32 "));
+  const std::string out = folder
+                              .lorentz(
+                                  "bench --scene square --count 32 --difficulty drawn --engine "
+                                  "published,published-float --radius 0.01,0.001,0.0001 --json")
+                              .out;
+  CHECK(out.starts_with("{\"format\":1,\"kind\":\"bench\","));
+  CHECK(
+      contains(out, "\"fits\":[\n{\"scene\":\"square\",\"engine\":\"published\",\"difficulty\":\"drawn\","));
+  CHECK(contains(out, "\"command\":\"lorentz bench --scene square --count 32 "));
   const std::string call =
       "lorentz compare --scene square --radius 1e-04 --queries - --engine published-float";
-  std::string line = first.out.substr(first.out.rfind("echo '"));
+  std::string line = out.substr(out.rfind("echo '"));
   line.resize(line.find("\"}"));
   line.erase(std::remove(line.begin(), line.end(), '\\'), line.end());
   REQUIRE(line.ends_with(call));
@@ -132,25 +84,10 @@ TEST_CASE("bench goes on with what its store has, and refuses that of another ru
   CHECK(contains(shown.out, "published-float: wrong in 1 of 1 answers"));
 }
 
-TEST_CASE("bench: one process at a time writes a store, no page without a name, no times without answers",
-          "[cli][bench_command]") {
+TEST_CASE("bench: no page without a name, no times without answers", "[cli][bench_command]") {
   const Folder folder;
   const std::string bench =
-                        LORENTZ_PROGRAM " bench --scene square --radius 0.1 --difficulty drawn --count 32",
-                    store = " --store " + folder.file("cells");
-  // The first waits for a program that says nothing, until it is told to end, and leaves nothing behind.
-  const std::string script = folder.write(
-      "two.sh", bench + store + " --csv " + folder.file("csv") +
-                    " --engine 'cmd:exec sleep 60' &\nfirst=$!\n" + "n=0\nuntil [ -e " +
-                    folder.file("cells.lock") + " ] || [ $n = 200 ]; do n=$((n + 1)); sleep 0.05; done\n" +
-                    bench + store +
-                    " --engine reduction\nstatus=$?\nsleep 0.5\nkill $first\nwait $first\nexit $status\n");
-  const Run two = folder.run("sh " + script);
-  INFO(two.out << two.err);
-  CHECK(two.status == 3);
-  CHECK(contains(two.err,
-                 "cells: another process is writing this store; wait for it, stop it, or name another file"));
-  CHECK(folder.run("ls " + folder.file("") + " | grep csv").status == 1);
+      LORENTZ_PROGRAM " bench --scene square --radius 0.1 --difficulty drawn --count 32";
   CHECK(folder.run(bench + " --engine reduction --html ''").status == 2);
   // A program that dies is not slow, however long that takes.
   for (const std::string& engine :

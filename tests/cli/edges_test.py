@@ -43,7 +43,7 @@ class Edge:
 def old_file(command, option):
     """A file of the kind that the option writes."""
     kinds = {"--csv": "x,old", "--html": "<!doctype html><html>old", "--junit": "<?xml version=\"1.0\"?><testsuites>old",
-             "--write-baseline": "# Known failures: old", "--disagreements": '{"scene":old', "--golden": '{"golden":old'}
+             "--disagreements": '{"scene":old', "--golden": '{"golden":old'}
     if option in ("-o", "--output"):
         return "<svg old" if command == "scene draw" else '{"golden":old'
     return kinds.get(option, "<svg old")
@@ -51,10 +51,10 @@ def old_file(command, option):
 
 EDGES = {
     "first-hit": Edge("q.ndjson", "many.ndjson -e published-256", missing="/no/such/file"),
-    "compare": Edge("--count 100", "--count 9 --disagreements OUT -e cmd:sleep${IFS}99", ["--disagreements"],
+    "compare": Edge("--count 100", "--count 9 --disagreements OUT -e cmd:sleep${IFS}99", ["--disagreements", "--baseline", "--junit"],
                     "--queries /no/such/file"),
     "judge": Edge("-e reduction --questions 1", "-e published",
-                  ["--html", "--golden", "--write-baseline", "--junit"],
+                  ["--html", "--golden", "--baseline", "--junit"],
                   "-e cmd:/no/such/file --time 2", report=True, reports=True),
     "convergents": Edge("0.5"),
     "horizon": Edge("square", missing="/no/such/file"),
@@ -62,21 +62,20 @@ EDGES = {
     "demo": Edge("", "--disagreements OUT", slow=True),
     "doctor": Edge("", slow=True),
     "bench": Edge("--scene square --radius 0.3 -e reduction --count 100 --difficulty drawn", "--count 1e6 --csv OUT",
-                  ["--csv", "--store", "--html"], "--scene /no/such/file", report=True),
+                  ["--csv", "--html"], "--scene /no/such/file", report=True),
     "scene list": Edge(),
     "scene show": Edge("square", missing="/no/such/file"),
     "scene draw": Edge("square", "", ["-o"], "/no/such/file"),
     "golden make": Edge("--set ties --count 5", "--set grazing --count 1e8 -o OUT", ["-o"]),
-    "golden check": Edge("ties -e reduction --first 10", "-e oracle,walk,published-256", ["--write-baseline", "--junit"],
+    "golden check": Edge("ties -e reduction --first 10", "-e oracle,walk,published-256", ["--disagreements", "--baseline", "--junit"],
                          missing="/no/such/file -e oracle"),
     "golden verify": Edge("bad-queries", "--walk", missing="/no/such/file"),
     "golden explain": Edge("9cbb135e set.ndjson", "", ["--svg", "--html"], "9cbb /no/such/file", report=True),
     "golden export": Edge("ball-2d", missing="/no/such/file"),
     "golden filter": Edge("--margin-below 4 ties", missing="/no/such/file"),
-    "golden index": Edge("sets", missing="/no/such/file", prints=False),
     "golden list": Edge(),
     "fuzz": Edge("-e published -t leaving --count 8 --keep 1 --mutate 0 --reword 0", "--time 600",
-                 ["--store", "--write-baseline", "--junit"], status=1),
+                 ["--store", "--baseline", "--junit"], status=1),
     "fuzz list": Edge("--store published.campaign", missing="--store /no/such/file"),
     "fuzz show": Edge("1/leaving/6 --store published.campaign", "", ["--svg", "--html"], "1 --store /no/such/file",
                       room=1000, report=True),
@@ -256,7 +255,7 @@ class Test:
             run = self.run(self.words + [option])
             good = run.status == 2 and ": needs a value, FILE; lorentz" in run.err
             self.check(good, f"{option} without a value", run)
-            fresh = option == "--store" or self.name in ("golden make", "fuzz merge")  # must not be there
+            fresh = option in ("--store", "--baseline") or self.name in ("golden make", "fuzz merge")  # must not be there
             self.folder.clear()
             old = old_file(self.name, option)
             if not fresh:
@@ -381,8 +380,6 @@ def prepare(made):
     for name in ("data", "examples"):
         os.symlink(Path(SOURCE) / name, made / name)
     shutil.copy(Path(SOURCE) / "data" / "golden" / "near-rational.ndjson", made / "set.ndjson")
-    (made / "sets").mkdir()
-    shutil.copy(made / "set.ndjson", made / "sets")
     (made / "start").write_text('{"x":["1/2","1/10"],"v":[1,0]}\n')
     for file, words in {
         "q.ndjson": "sample --count 1",

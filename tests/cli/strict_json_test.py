@@ -29,7 +29,7 @@ COMMANDS = {
     "judge": (["-e", "cmd:cat > /dev/null # \"\\ \u00fc", "--time", "0.2", "--html", "page.html"], ["page.html"]),
     "convergents": (["0.4142135", "--limit", "9"], []),
     "horizon": (["--scene", SCENE], []),
-    "bench": (["--scene", SCENE, "--radius", "0.1", "-e", "published", "--count", "50", "--store", "cells",
+    "bench": (["--scene", SCENE, "--radius", "0.1", "-e", "published", "--count", "50",
                "--html", "page.html"], ["page.html"]),
     "scene list": ([], []),
     "scene show": ([SCENE], []),

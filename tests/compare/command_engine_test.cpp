@@ -779,7 +779,7 @@ TEST_CASE("Names: commands with commas, none, and who else there is", "[compare]
   CHECK(contains(run.out, R"(first-hit","queries":50,"agree":50)"));
 }
 
-TEST_CASE("compare counts a failed query as an error and has exit status 3, before 2 and 1",
+TEST_CASE("compare counts a failed query as missing and has exit status 3, before 2 and 1",
           "[compare][command_engine]") {
   const Folder folder;
   const Run run = folder.lorentz("compare --json --queries " + folder.write("q", stream() + "bad\n") +
@@ -788,7 +788,7 @@ TEST_CASE("compare counts a failed query as an error and has exit status 3, befo
   CHECK(run.status == 3);
   CHECK(contains(
       run.out,
-      R"("queries":20,"agree":0,"ill_posed":0,"wrong":19,"wrong_time":0,"other_quantity":0,"undecided":0,"unsupported":0,"error":1,)"));
+      R"("queries":20,"agree":0,"ill_posed":0,"wrong":19,"wrong_time":0,"other_quantity":0,"undecided":0,"unsupported":0,"error":0,"missing":1,)"));
   const std::string said = "died (exit 3) on this query";  // and it is not run again
   CHECK(contains(run.err, said));
   CHECK(run.err.find(said) == run.err.rfind(said));

@@ -1,5 +1,5 @@
 // Questions, their exact answers, and what comes of an engine's: judged, counted, raced.
-#include "question/examine.hpp"
+#include "question/examination.hpp"
 
 #include <algorithm>
 
@@ -227,10 +227,9 @@ TEST_CASE("Threads come to what one comes to, in the order of the questions", "[
   question::answer_exactly(alone, question::Truth::oracle);
   const question::EngineInfo engine = question::engine_named("published");
   const auto run = [&](std::size_t jobs) {
-    std::vector<std::unique_ptr<question::Answerer>> answerers;
-    for (std::size_t job = 0; job < jobs; ++job) answerers.push_back(engine.answerer({}));
+    question::Examination examination(engine, {}, 4, jobs);
     std::string text;
-    question::examine(alone, answerers, 4, [&](const question::Judged& judged) {
+    examination.ask(alone, [&](const question::Judged& judged) {
       append_answer_line(text, judged.question.id, judged.reply.answer, 3);
       text += std::to_string(static_cast<int>(judged.judgement.verdict));
     });

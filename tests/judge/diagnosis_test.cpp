@@ -290,7 +290,11 @@ TEST_CASE("Findings of one cause are one, the simplest case in front, the most f
   add(odd, Answer::never(), "many");
   add(odd, Answer::hit(disc(2, 0), *odd.exact.time + 1), "few");
   add(odd, Answer::inside(disc(1, 0)), "many");
-  const std::vector<Finding> all = findings.all({{"many", {100, true}}, {"few", {20, false}}, {"none", {}}});
+  std::deque<question::ExaminedRow> rows(3);
+  rows[0].name = "many", rows[0].tally.queries = 100;
+  rows[1].name = "few", rows[1].tally.queries = 20, rows[1].is_hard = false;
+  rows[2].name = "none", rows[2].is_hard = false;
+  const std::vector<Finding> all = findings.all(rows);
   REQUIRE(all.size() == 4);
   // One of twenty plain flights is more than three of a hundred hard ones; but no wrong time is.
   CHECK(all[0].cause() == Cause::passed_over);

@@ -26,6 +26,13 @@ std::string tolerant(const std::string& fault) {
   return "cmd:exec " LORENTZ_TOLERANT_ENGINE " " + fault;
 }
 
+// An order to judge this engine, in which silence is a fault.
+JudgeOrder order_of(const question::EngineInfo& engine, std::optional<std::size_t> questions = {}) {
+  JudgeOrder order;
+  order.engine = engine, order.questions = questions, order.timeout = 60;
+  return order;
+}
+
 // Drawn questions of each of these scenes in turn, in the square or cubic lattice.
 Source questions(std::vector<int> dimensions, std::size_t number) {
   const auto all = std::make_shared<std::vector<Question>>();
@@ -61,14 +68,14 @@ class Flagging final : public question::Answerer {
 TEST_CASE("A program is given up for a scene, not for the run, and the row says why",
           "[judge][examination]") {
   const std::atomic<bool> stop = false;
-  Examination examination(question::engine_named(tolerant("dies-in 3")), {}, 4, stop);
-  examination.ask_exactly(1000);  // no scene is left because starting takes long here
+  // Counted: no scene is left because starting takes long here.
+  TimedExamination examination(order_of(question::engine_named(tolerant("dies-in 3")), 1000), {}, stop);
   examination.run({"plane", ""}, questions({2}, 20), kForEver);
   examination.run({"space", ""}, questions({3}, 20), kForEver);
   examination.run({"plane again", ""}, questions({2}, 20), kForEver);
   examination.run({"both", ""}, questions({3, 2, 3}, 20), kForEver);
   examination.finish();
-  const std::vector<ExaminedRow>& rows = examination.rows();
+  const std::deque<ExaminedRow>& rows = examination.results().rows;
   REQUIRE(rows.size() == 4);
   for (const std::size_t i : {0, 2}) {
     CHECK(rows[i].tally[Count::agree] == 20);
@@ -83,7 +90,7 @@ TEST_CASE("A program is given up for a scene, not for the run, and the row says 
   CHECK(rows[3].tally[Count::agree] == 20);
   CHECK(rows[3].tally[Count::missing] == 10);
   CHECK(rows[3].scenes_given_up == 2);
-  const std::vector<Finding> findings = examination.findings();
+  const std::vector<Finding> findings = examination.results().all_findings();
   REQUIRE(findings.size() == 1);
   CHECK(findings[0].cause() == Cause::no_answer);
   CHECK(findings[0].count == 15);
@@ -93,10 +100,10 @@ TEST_CASE("An invalid answer is told apart from a missing one, with what the pro
           "[judge][examination]") {
   const std::atomic<bool> stop = false;
   const auto finding_of = [&](const std::string& command) {
-    Examination examination(question::engine_named("cmd:" + command), {}, 4, stop);
+    TimedExamination examination(order_of(question::engine_named("cmd:" + command)), {}, stop);
     examination.run({"plane", ""}, questions({2}, 1), kForEver);
     examination.finish();
-    const std::vector<Finding> findings = examination.findings();
+    const std::vector<Finding> findings = examination.results().all_findings();
     REQUIRE(findings.size() == 1);
     return findings[0];
   };
@@ -112,14 +119,14 @@ TEST_CASE("An invalid answer is told apart from a missing one, with what the pro
 
 TEST_CASE("A program that never answered is not asked on and on", "[judge][examination]") {
   const std::atomic<bool> stop = false;
-  Examination examination(question::engine_named("cmd:exit 3"), {}, 4, stop);
-  examination.ask_exactly(1000);  // no scene is left because starting takes long here
+  // Counted: no scene is left because starting takes long here.
+  TimedExamination examination(order_of(question::engine_named("cmd:exit 3"), 1000), {}, stop);
   examination.run({"first", ""}, questions({2, 3}, 20), kForEver);
   examination.run({"second", ""}, questions({2, 3}, 20), kForEver);
   examination.finish();
-  CHECK(examination.rows()[0].tally[Count::missing] == 5);
-  CHECK(examination.rows()[1].tally.queries == 0);
-  CHECK(examination.rows()[1].scenes_given_up > 0);
+  CHECK(examination.results().rows[0].tally[Count::missing] == 5);
+  CHECK(examination.results().rows[1].tally.queries == 0);
+  CHECK(examination.results().rows[1].scenes_given_up > 0);
 }
 
 TEST_CASE("An engine is asked no more where it is slow, or does none of the first questions",
@@ -148,16 +155,15 @@ TEST_CASE("Counted questions: each row asks its number, in slow scenes, too", "[
   const std::string slow =
       "cmd:while read line; do case $line in *'\"x\"'*) sleep 0.12;; esac; "
       "printf '%s\\n' \"$line\"; done | exec " LORENTZ_TOLERANT_ENGINE;
-  Examination timed(question::engine_named(slow), {}, 4, stop),
-      counted(question::engine_named(slow), {}, 4, stop);
+  TimedExamination timed(order_of(question::engine_named(slow)), {}, stop),
+      counted(order_of(question::engine_named(slow), 12), {}, stop);
   timed.run({"row", ""}, questions({2, 3}, 8), kForEver);
-  counted.ask_exactly(12);
   counted.run({"row", ""}, questions({2, 3}, 8), kForEver);
   counted.run({"few", ""}, questions({2}, 8), kForEver);
   timed.finish(), counted.finish();
-  CHECK(timed.rows()[0].tally.queries < 16);  // both scenes are left
-  CHECK(counted.rows()[0].tally.queries == 12);
-  CHECK(counted.rows()[1].tally.queries == 8);
+  CHECK(timed.results().rows[0].tally.queries < 16);  // both scenes are left
+  CHECK(counted.results().rows[0].tally.queries == 12);
+  CHECK(counted.results().rows[1].tally.queries == 8);
 }
 
 TEST_CASE("Counted questions: where scenes are left, each row asks the same, however long an answer takes",
@@ -182,10 +188,9 @@ TEST_CASE("Counted questions: where scenes are left, each row asks the same, how
     const question::EngineInfo planar = question::guest_engine(
         "planar" + std::to_string(milliseconds),
         [=](const question::AnswererOptions&) { return std::make_unique<Planar>(milliseconds); });
-    Examination examination(planar, {}, 4, stop);
-    examination.ask_exactly(60);
+    TimedExamination examination(order_of(planar, 60), {}, stop);
     examination.run({"row", ""}, questions({2, 3}, 40), kForEver);
-    return examination.rows()[0].tally;
+    return examination.results().rows[0].tally;
   };
   const question::Tally fast = asked(0), slow = asked(30);
   CHECK(fast.queries == slow.queries);
@@ -202,45 +207,46 @@ TEST_CASE(
   options.timeout = 0.5;
   options.start_timeout = 60;
   const auto examined = [&](bool is_slowness, const std::string& fault) {
-    auto one = std::make_unique<Examination>(question::engine_named(tolerant(fault)), options, 4, stop);
-    if (is_slowness) one->take_silence_for_slowness();
+    JudgeOrder order = order_of(question::engine_named(tolerant(fault)));
+    if (is_slowness) order.timeout.reset();
+    auto one = std::make_unique<TimedExamination>(order, options, stop);
     one->run({"plane", ""}, questions({2}, 40), kForEver);
     one->finish();
     return one;
   };
   const auto slow = examined(true, "hangs 10"), broken = examined(false, "hangs 10");
-  CHECK(slow->rows()[0].tally[Count::missing] == 0);
-  CHECK(slow->rows()[0].tally[Count::too_slow] > 0);
-  CHECK(slow->rows()[0].is_exhausted);  // the scene is left
-  CHECK(slow->findings().size() == 1);  // with the question
-  CHECK(broken->rows()[0].tally[Count::too_slow] == 0);
-  CHECK(broken->rows()[0].tally[Count::missing] > 0);
+  CHECK(slow->results().rows[0].tally[Count::missing] == 0);
+  CHECK(slow->results().rows[0].tally[Count::too_slow] > 0);
+  CHECK(slow->results().rows[0].is_exhausted);        // the scene is left
+  CHECK(slow->results().all_findings().size() == 1);  // with the question
+  CHECK(broken->results().rows[0].tally[Count::too_slow] == 0);
+  CHECK(broken->results().rows[0].tally[Count::missing] > 0);
 }
 
 TEST_CASE("The first 500 questions of each row are compared, and a row without any has no speed",
           "[judge][examination]") {
   const std::atomic<bool> stop = false;
-  Examination whole(question::engine_named("oracle"), {}, 4, stop),
-      none(question::engine_named("oracle"), {}, 4, stop);
+  TimedExamination whole(order_of(question::engine_named("oracle")), {}, stop),
+      none(order_of(question::engine_named("oracle")), {}, stop);
   whole.run({"row", ""}, questions({2}, 510), kForEver);
   long calls = 0;
-  for (const auto& [decade, call] : whole.curves()[0].by_decade())
+  for (const auto& [decade, call] : whole.results().curves[0].by_decade())
     calls += static_cast<long>(call.counts.answers() + call.counts[Count::undecided]);
-  CHECK(whole.rows()[0].tally[Count::agree] == 510);
+  CHECK(whole.results().rows[0].tally[Count::agree] == 510);
   CHECK(calls == 500);
   none.run({"row", ""}, questions({2}, 0), kForEver);
-  Examination more(question::engine_named("oracle"), {}, 4, stop);
+  TimedExamination more(order_of(question::engine_named("oracle")), {}, stop);
   more.run({"row", ""}, questions({2}, 0), kForEver);
-  more.take_over(none);
-  CHECK(more.rows()[0].tally.speed.ns_per_query == 0);
+  more.results().add(none.results());
+  CHECK(more.results().rows[0].tally.speed.ns_per_query == 0);
 }
 
 TEST_CASE("The first question to another program is at an empty place", "[judge][examination]") {
   const Folder folder;
   const std::atomic<bool> stop = false;
-  Examination examination(
-      question::engine_named("cmd:tee " + folder.file("asked") + " | exec " LORENTZ_TOLERANT_ENGINE), {}, 4,
-      stop);
+  TimedExamination examination(order_of(question::engine_named("cmd:tee " + folder.file("asked") +
+                                                               " | exec " LORENTZ_TOLERANT_ENGINE)),
+                               {}, stop);
   examination.warm_up();
   examination.finish();
   CHECK(contains(folder.read("asked"), R"("x":[0.5,0],"v":[1,0])"));
@@ -250,19 +256,19 @@ TEST_CASE("Nothing is asked when the time is over, and no answer is waited for",
   std::atomic<bool> stop = false;
   const question::EngineInfo guest = question::guest_engine(
       "flagging", [&](const question::AnswererOptions&) { return std::make_unique<Flagging>(stop, 30); });
-  Examination examination(guest, {}, 4, stop);
+  TimedExamination examination(order_of(guest), {}, stop);
   examination.run({"asked", ""}, questions({2}, 1000), kForEver);
   examination.run({"not asked", ""}, questions({2}, 1000), kForEver);
-  const std::size_t asked = examination.rows()[0].tally.queries;
+  const std::size_t asked = examination.results().rows[0].tally.queries;
   CHECK(asked >= 30);
   CHECK(asked < 30 + 32);  // those that were asked together with it
-  CHECK(examination.rows()[1].tally.queries == 0);
-  CHECK_FALSE(examination.rows()[1].is_exhausted);
+  CHECK(examination.results().rows[1].tally.queries == 0);
+  CHECK_FALSE(examination.results().rows[1].is_exhausted);
   // A program that never answers, and would be waited for for years.
   std::atomic<bool> over = false;
   question::AnswererOptions options;
   options.timeout = kForEver;
-  Examination silent(question::engine_named(tolerant("hangs 1")), options, 4, over);
+  TimedExamination silent(order_of(question::engine_named(tolerant("hangs 1"))), options, over);
   std::thread clock([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     over = true;
@@ -270,7 +276,7 @@ TEST_CASE("Nothing is asked when the time is over, and no answer is waited for",
   silent.run({"silent", ""}, questions({2}, 1000), kForEver);
   silent.finish();
   clock.join();
-  CHECK(silent.rows()[0].tally.queries == 0);
+  CHECK(silent.results().rows[0].tally.queries == 0);
 }
 
 TEST_CASE("Asked again: it fails, it does not, or there is no time to see", "[judge][repetition]") {
@@ -282,8 +288,8 @@ TEST_CASE("Asked again: it fails, it does not, or there is no time to see", "[ju
     recheck(
         finding,
         [&] {
-          return std::make_unique<Examination>(question::engine_named(tolerant(fault)),
-                                               question::AnswererOptions{}, 4, over);
+          return std::make_unique<TimedExamination>(order_of(question::engine_named(tolerant(fault))),
+                                                    question::AnswererOptions{}, over);
         },
         kForEver);
     return finding.recheck;

@@ -10,7 +10,7 @@ using namespace lorentz::judge;
 namespace {
 
 // A flight of exactly this length.
-Question flight(double path) {
+question::Question flight(double path) {
   return {nullptr, {}, Answer::hit({}, path), "here", ""};
 }
 
@@ -18,7 +18,7 @@ Question flight(double path) {
 
 TEST_CASE("Free paths that are cut short are seen, with the place where it shows most",
           "[judge][free_paths]") {
-  FreePaths right, cut;
+  FlownScene right, cut;
   for (int i = 1; i <= 1000; ++i) {
     const double path = 1000.0 / i;  // P(path > t) = 1 / t
     right.add(flight(path), Answer::hit({}, path * (1 + 0x1p-50)));
@@ -30,7 +30,7 @@ TEST_CASE("Free paths that are cut short are seen, with the place where it shows
   REQUIRE(cut.farthest_apart());
   CHECK(cut.farthest_apart()->t == Approx(32));
   CHECK(cut.farthest_apart()->survival == Approx(0.009));
-  CHECK(cut.farthest_apart()->exact == Approx(0.031));
+  CHECK(cut.farthest_apart()->exact.value() == Approx(0.031));
   CHECK(cut.mean() < cut.exact_mean());
   // From where some have ended to the longest.
   CHECK(right.points().front().t == Approx(std::sqrt(2)));
@@ -38,7 +38,7 @@ TEST_CASE("Free paths that are cut short are seen, with the place where it shows
 }
 
 TEST_CASE("What an engine does not decide is in neither distribution", "[judge][free_paths]") {
-  FreePaths paths;
+  FlownScene paths;
   paths.add(flight(1), Answer::undecided());
   paths.add(flight(1), Answer::error("cmd died"));
   CHECK(paths.flights() == 0);

@@ -82,47 +82,11 @@ TEST_CASE("judge --questions: the same is asked and found, however long the engi
   CHECK(folder.lorentz("judge --questions 0 --engine classical").status == 2);
 }
 
-TEST_CASE("judge --baseline: only what is worse than in an earlier report fails", "[judge][judge_command]") {
-  const Folder folder;
-  const std::string judge = "judge --questions 8 --json --engine 'cmd:" LORENTZ_TOLERANT_ENGINE "'";
-  const std::string report = folder.lorentz(judge).out;
-  const auto against = [&](const std::string& before) {
-    return folder.lorentz(judge + " --baseline " + folder.write("before", before));
-  };
-  const Run same = against(report);
-  INFO(same.err);
-  CHECK(same.status == 0);
-  CHECK(contains(same.err, "nothing is worse than in "));
-  const auto changed = [&](const char* from, const char* to) {
-    return std::regex_replace(report, std::regex(from), to, std::regex_constants::format_first_only);
-  };
-  const Run fewer = against(changed(
-      R"re("wrong":[1-9]\d*,("wrong_time":\d+,"other_quantity":\d+,"undecided":\d+,"unsupported":\d+,"error":\d+,"missing":\d+,"nonsense":\d+,"too_slow":\d+,"max))re",
-      R"("wrong":0,$1)"));
-  INFO(fewer.err);
-  CHECK(fewer.status == 1);
-  CHECK(contains(fewer.err, " answers are wrong, errors or missing, 0 before"));
-  const Run kind =
-      against(changed(R"re("cause":"[^"]*","explanation")re", R"("cause":"other","explanation")"));
-  CHECK(kind.status == 1);
-  CHECK(contains(kind.err, ": new: passes over obstacles that the line enters by less than "));
-  const Run others = against(
-      changed(R"re("name":"drawn square"(.*?)"queries":8,)re", R"("name":"drawn square"$1"queries":9,)"));
-  CHECK(others.status == 0);
-  CHECK(contains(others.err, "1 rows asked another number of questions"));
-  CHECK(contains(others.err, ": drawn square\n"));
-  CHECK(against(changed(R"re("queries":8,("agree":\d+,"ill_posed":\d+),"wrong":[1-9]\d*,)re",
-                        R"("queries":9,$1,"wrong":0,)"))
-            .status == 0);
-  for (const char* bad : {"{}", "[]", R"({"kind":"bench"})", "hello", ""}) CHECK(against(bad).status == 2);
-  CHECK(folder.lorentz(judge + " --baseline " + folder.file("none")).status != 0);
-}
-
 TEST_CASE("judge --baseline: failures that are known by row and id do not count", "[judge][judge_command]") {
   const Folder folder;
   const std::string judge = "judge --questions 8 --engine published ";
   const std::string known = folder.file("known"), report = folder.file("report.xml");
-  CHECK(folder.lorentz(judge + "--write-baseline " + known + " --junit " + report).status == 1);
+  CHECK(folder.lorentz(judge + "--baseline " + known + " --junit " + report).status == 1);
   const std::string text = folder.read("known");
   std::istringstream lines(text);
   std::string heading, first;
@@ -144,7 +108,7 @@ TEST_CASE("judge --baseline: failures that are known by row and id do not count"
   CHECK(contains(other.err, "new: " + first + "\n"));
   CHECK(contains(other.err, "stale: " + stale + " fails no more"));
   // Without a number of questions another run asks others.
-  for (const std::string option : {"--baseline ", "--write-baseline ", "--junit "})
+  for (const std::string option : {"--baseline ", "--junit "})
     CHECK(folder.lorentz("judge --time 1 -e published " + option + folder.file("known")).status == 2);
 }
 

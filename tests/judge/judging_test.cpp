@@ -80,6 +80,13 @@ void two_faults(const Scene& scene, const Query& query, Answer& answer) {
   if (scene.dimension == 3 && query.v[0] < 0 && answer.outcome == Outcome::hit) answer = Answer::never();
 }
 
+// An order to judge this engine, in which silence is a fault.
+JudgeOrder order_of(const question::EngineInfo& engine, std::optional<std::size_t> questions = {}) {
+  JudgeOrder order;
+  order.engine = engine, order.questions = questions, order.timeout = 60;
+  return order;
+}
+
 Source drawn_in(const std::vector<int>& dimensions, std::uint64_t seed, std::size_t number) {
   const auto all = std::make_shared<std::vector<Question>>();
   for (const int dimension : dimensions) {
@@ -222,19 +229,19 @@ TEST_CASE("What several examinations come to is what one comes to", "[judge][exa
   const auto engine = guest("two-faults", two_faults);
   const std::atomic<bool> stop = false;
   const auto examined = [&](const std::vector<std::uint64_t>& seeds) {
-    std::unique_ptr<Examination> first;
+    std::unique_ptr<TimedExamination> first;
     for (const std::uint64_t seed : seeds) {
-      auto one = std::make_unique<Examination>(engine, question::AnswererOptions{}, 4, stop);
+      auto one = std::make_unique<TimedExamination>(order_of(engine), question::AnswererOptions{}, stop);
       one->run({"row", ""}, drawn_in({2, 3}, seed, 30), kForEver);
       if (first)
-        first->take_over(*one);
+        first->results().add(one->results());
       else
         first = std::move(one);
     }
     return first;
   };
   // One that asks the same in one row.
-  Examination whole(engine, {}, 4, stop);
+  TimedExamination whole(order_of(engine), {}, stop);
   const std::vector<std::uint64_t> seeds{1, 2, 3};
   std::vector<Source> sources;
   for (const std::uint64_t seed : seeds) sources.push_back(drawn_in({2, 3}, seed, 30));
@@ -248,16 +255,16 @@ TEST_CASE("What several examinations come to is what one comes to", "[judge][exa
       },
       kForEver);
   const auto parts = examined(seeds), backwards = examined({3, 2, 1});
-  for (const Examination* one : {parts.get(), backwards.get()}) {
-    REQUIRE(one->rows().size() == 1);
-    const question::Tally &its = one->rows()[0].tally, &all = whole.rows()[0].tally;
+  for (TimedExamination* one : {parts.get(), backwards.get()}) {
+    REQUIRE(one->results().rows.size() == 1);
+    const question::Tally &its = one->results().rows[0].tally, &all = whole.results().rows[0].tally;
     CHECK(its.queries == 3 * 2 * 30);
     CHECK(its[Count::agree] == all[Count::agree]);
     CHECK(its[Count::wrong] == all[Count::wrong]);
     CHECK(all[Count::wrong] > 30);
     CHECK(its.speed.ns_per_query > 0);
-    CHECK(text_of(one->curves()[0]) == text_of(whole.curves()[0]));
-    const auto found = one->findings(), expected = whole.findings();
+    CHECK(text_of(one->results().curves[0]) == text_of(whole.results().curves[0]));
+    const auto found = one->results().all_findings(), expected = whole.results().all_findings();
     REQUIRE(found.size() == expected.size());
     REQUIRE(found.size() >= 2);
     for (std::size_t i = 0; i < found.size(); ++i) CHECK(text_of(found[i]) == text_of(expected[i]));
@@ -302,8 +309,8 @@ std::string text_of(const fuzz::Scope& scope) {
 TEST_CASE("What another program failed in, and what was nonsense, is added up, too", "[judge][examination]") {
   const std::atomic<bool> stop = false;
   const auto examined = [&](const question::EngineInfo& engine, const Source& source) {
-    auto one = std::make_unique<Examination>(engine, question::AnswererOptions{}, 4, stop);
-    one->ask_exactly(1000);  // no scene is left because starting takes long here
+    // Counted: no scene is left because starting takes long here.
+    auto one = std::make_unique<TimedExamination>(order_of(engine, 1000), question::AnswererOptions{}, stop);
     one->run({"row", ""}, source, kForEver);
     one->finish();
     return one;
@@ -312,14 +319,14 @@ TEST_CASE("What another program failed in, and what was nonsense, is added up, t
   const auto fine = examined(fragile, drawn_in({2}, 1, 5)), broken = examined(fragile, drawn_in({3}, 1, 20)),
              also = examined(fragile, drawn_in({3}, 2, 20));
   CHECK_FALSE(fine->failed());
-  fine->take_over(*broken);
+  fine->results().add(broken->results());
   CHECK(fine->failed());
-  CHECK(fine->rows()[0].scenes_given_up == 1);
-  CHECK(fine->rows()[0].last_failure == broken->rows()[0].last_failure);
-  fine->take_over(*also);
-  CHECK(fine->rows()[0].scenes_given_up == 2);
-  CHECK(fine->findings().size() == 1);
-  CHECK(fine->findings()[0].count == fine->rows()[0].tally[Count::missing]);
+  CHECK(fine->results().rows[0].scenes_given_up == 1);
+  CHECK(fine->results().rows[0].last_failure == broken->results().rows[0].last_failure);
+  fine->results().add(also->results());
+  CHECK(fine->results().rows[0].scenes_given_up == 2);
+  CHECK(fine->results().all_findings().size() == 1);
+  CHECK(fine->results().all_findings()[0].count == fine->results().rows[0].tally[Count::missing]);
   const question::EngineInfo gullible = question::guest_engine(
       "gullible", [](const question::AnswererOptions&) { return std::make_unique<Gullible>(); });
   const auto nonsense = [&](std::size_t number) {
@@ -334,10 +341,10 @@ TEST_CASE("What another program failed in, and what was nonsense, is added up, t
     });
   };
   const auto two = nonsense(2), three = nonsense(3);
-  two->take_over(*three);
-  CHECK(two->rows()[0].tally[Count::nonsense] == 5);
-  CHECK(two->rows()[0].asked() == 5);
-  CHECK(two->findings()[0].count == 5);
+  two->results().add(three->results());
+  CHECK(two->results().rows[0].tally[Count::nonsense] == 5);
+  CHECK(two->results().rows[0].asked() == 5);
+  CHECK(two->results().all_findings()[0].count == 5);
 }
 
 TEST_CASE("What sets failures apart is true of all that were added up, equal ones keep their order",
@@ -351,7 +358,8 @@ TEST_CASE("What sets failures apart is true of all that were added up, equal one
     right.in_space = true;
     solid.add_right(right);
   }
-  const judge::Asked asked{{"row", {100, false}}};
+  std::deque<ExaminedRow> asked(1);
+  asked[0].name = "row", asked[0].is_hard = false, asked[0].tally.queries = 100;
   Findings both = solid;
   both.add(flat);
   for (const Finding& finding : both.all(asked))
@@ -382,14 +390,18 @@ TEST_CASE("A grazing fault says once that it is about grazing", "[judge][examina
 TEST_CASE("A fault is made again in cause and severity, or not at all", "[judge][repetition]") {
   const auto engine = guest("two-faults", two_faults);
   const std::atomic<bool> stop = false;
-  Examination examination(engine, {}, 4, stop);
+  TimedExamination examination(order_of(engine), {}, stop);
   const Query query{{0.5, 0.5, 0.5}, {-1, 0.125, 0.25}, {}};
   const auto place = std::make_shared<Place>(unit_scene(3, 0.25));
   const Question question{.place = place, .query = query, .exact = place->exact(query), .where = "here"};
-  CHECK(examination.repeat(question, 3, {Cause::never_for_hit, Severity::wrong}).failed == 1);
-  CHECK_FALSE(examination.repeat(question, 3, {Cause::never_for_hit, Severity::ill_posed}).failed);
-  CHECK_FALSE(examination.repeat(question, 3, {Cause::false_hit, Severity::wrong}).failed);
-  CHECK(examination.repeat(question, 3, {Cause::false_hit, Severity::wrong}).all_answered);
+  bool all_answered = false;
+  const auto failed = [&](const Diagnosis& like) {
+    return failed_copy(question, 3, like, examination, all_answered);
+  };
+  CHECK(failed({Cause::never_for_hit, Severity::wrong}) == 1);
+  CHECK_FALSE(failed({Cause::never_for_hit, Severity::ill_posed}));
+  CHECK_FALSE(failed({Cause::false_hit, Severity::wrong}));
+  CHECK(all_answered);
 }
 
 TEST_CASE("The scope of a campaign is the narrowest with all that was answered", "[judge][questions]") {
@@ -447,9 +459,10 @@ TEST_CASE("The simplest case keeps what was said, and what is true", "[judge][si
   });
   const std::atomic<bool> stop = false;
   const auto simplest_of = [&](const question::EngineInfo& one, const Query& query) {
-    Examination examination(one, {}, 4, stop);
+    TimedExamination examination(order_of(one), {}, stop);
     const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
-    const auto example = examination.example_of({place, query, place->oracle().first_hit(query), "here", ""});
+    const auto example =
+        example_of({place, query, place->oracle().first_hit(query), "here", ""}, examination);
     REQUIRE(example);
     const Example kept = simplest({*example, "here", 1, 1e300}, examination, 1e9);
     CHECK(kept.diagnosis.cause == example->diagnosis.cause);

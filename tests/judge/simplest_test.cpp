@@ -10,15 +10,26 @@
 using namespace lorentz;
 using namespace lorentz::judge;
 
+namespace {
+
+// An order to judge this engine, in which silence is a fault.
+JudgeOrder order_of(const question::EngineInfo& engine, std::optional<std::size_t> questions = {}) {
+  JudgeOrder order;
+  order.engine = engine, order.questions = questions, order.timeout = 60;
+  return order;
+}
+
+}  // namespace
+
 TEST_CASE("The simplest case is simpler, of the same cause, and no deeper than what was met",
           "[judge][simplest]") {
   // `published` may pass over a disc on its way from one: here over (1, 1), which the line enters by 0.018
   // radii.
   const std::atomic<bool> stop = false;
-  Examination examination(question::engine_named("published"), {}, 4, stop);
+  TimedExamination examination(order_of(question::engine_named("published")), {}, stop);
   const auto place = std::make_shared<Place>(unit_scene(2, 0.5));
   const Query query{{-0.25, 0, 0}, {2, 0.7601234567, 0}, ObstacleId{0, 0, {0, 0, 0}}};
-  const auto example = examination.example_of({place, query, place->oracle().first_hit(query), "here", ""});
+  const auto example = example_of({place, query, place->oracle().first_hit(query), "here", ""}, examination);
   REQUIRE(example);
   REQUIRE(example->diagnosis.by_radii);
   Finding finding{*example, "here", 1, example->diagnosis.by_radii};
@@ -38,13 +49,13 @@ TEST_CASE("The simplest case keeps the cause, where simpler ones go wrong in ano
           "[judge][simplest]") {
   // In binary32 most times are off so far that they count as another quantity; few discs are passed over.
   const std::atomic<bool> stop = false;
-  Examination examination(question::engine_named("published-float"), {}, 4, stop);
+  TimedExamination examination(order_of(question::engine_named("published-float")), {}, stop);
   const auto place = std::make_shared<Place>(unit_scene(2, 0.01));
   constexpr std::uint64_t kSeed = 20161115;
   std::map<Cause, Example> met;
   for (const Query& query : starts::free_starts(place->scene(), starts::Kind::uniform, kSeed, 300))
     if (const auto example =
-            examination.example_of({place, query, place->oracle().first_hit(query), "here", ""}))
+            example_of({place, query, place->oracle().first_hit(query), "here", ""}, examination))
       met.try_emplace(example->diagnosis.cause, *example);
   REQUIRE(met.contains(Cause::passed_over));
   REQUIRE(met.contains(Cause::not_the_time));

@@ -23,7 +23,7 @@ void turn(judge::ExaminedRow& row, Count verdict, std::size_t number) {
   row.tally.counts[verdict] += number;
 }
 
-JudgeReport report_of(std::vector<judge::ExaminedRow> rows) {
+JudgeReport report_of(std::deque<judge::ExaminedRow> rows) {
   JudgeReport report;
   report.engine = question::engine_named("cmd:it");
   report.rows = std::move(rows);

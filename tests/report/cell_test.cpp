@@ -10,10 +10,10 @@
 #include "report/bench_report.hpp"
 #include "report/curves.hpp"
 #include "report/query_text.hpp"
-#include "src/exchange/json_piece.hpp"
+#include "src/exchange/json_writer.hpp"
 
 namespace json = lorentz::json;
-using lorentz::InputError, lorentz::Integer, lorentz::ObstacleId, lorentz::Query;
+using lorentz::Integer, lorentz::ObstacleId, lorentz::Query;
 using namespace lorentz::report;
 using lorentz::question::Count;
 
@@ -30,7 +30,7 @@ TEST_CASE("Histograms count errors by their binary exponent", "[report][histogra
   CHECK(histogram_of(hundred).p99 == 1);  // 99 of 100 do not exceed it
   hundred[5] = 1e6;
   CHECK(histogram_of(hundred).p99 == 1e6);
-  CHECK(histogram_of({}) == Histogram{});
+  CHECK((histogram_of({}).exact == 0 && histogram_of({}).counts.empty()));
   CHECK(histogram_of({0, 0}).counts.empty());
   CHECK_THROWS_AS(histogram_of({-1}), std::invalid_argument);
   CHECK_THROWS_AS(histogram_of({INFINITY}), std::invalid_argument);
@@ -97,51 +97,29 @@ TEST_CASE("Calls are counted by decade and verdict", "[report][calls]") {
          close.counts[Count::ill_posed] == 1));
   CHECK(close.counts[Count::undecided] == 0);
   CHECK(calls.by_decade().at(-3).counts[Count::undecided] == 1);
-  Calls read;
-  json::read_piece(json::piece_of(calls), read);
-  CHECK(read == calls);
 }
 
-TEST_CASE("What a store keeps of cells reads back as the same cells, or is refused", "[report][cell]") {
+TEST_CASE("Cells are written with null for what was not measured", "[report][cell]") {
   Cell cell;
   cell.scene = "a \"scene\"", cell.radius = 0.1, cell.dimension = 2;
   cell.difficulty = "drawn", cell.engine = "cmd:a 'b'", cell.queries = 50;
-  cell.ns = {1.5, 1, 2, 1.75};
-  cell.instructions = 812.5;
-  cell.mean_path = 1.0 / 3;
-  cell.counts[Count::undecided] = 1;
-  cell.counts[Count::ill_posed] = 2;
   cell.counts[Count::wrong] = 3;
-  cell.counts[Count::wrong_time] = 4;
-  cell.counts[Count::unsupported] = 5;
-  cell.counts[Count::error] = 6;
-  cell.counts[Count::missing] = 7;
   cell.ulps = histogram_of({0, 1, 1e9});
-  cell.conditions = histogram_of({0.1});
   cell.calls.add(3e-10, lorentz::oracle::Verdict::wrong);
-  cell.calls.add(0.5, lorentz::oracle::Verdict::agree, 1e-9);
-  cell.conditions.p99 = 0.0625;  // which of few is the largest, too
   Query query{{0.75, 0, 0}, {1, -0x1p-30, 0}, ObstacleId{0, 0, {Integer(1), Integer(-2), Integer(0)}}};
   cell.worst = Worst{"wrong", {}, hexadecimal_query(query, 2), "echo '\n"};
   CHECK(
       cell.worst->query ==
       R"({"x":["0x1.8p-1","0x0p+0"],"v":["0x1p+0","-0x1p-30"],"from":{"lattice":0,"atom":0,"cell":[1,-2]}})");
-  Cell skipped;
-  skipped.scene = "ellipse", skipped.dimension = 2, skipped.difficulty = "grazing", skipped.engine = "oracle";
-  skipped.skipped = true;
-  skipped.counts[Count::unsupported] = 3;
-  for (const Cell& one : {cell, skipped}) {
-    const std::string text = piece_of(one);
-    CHECK(cell_of(text) == one);
-    for (std::size_t cut = 0; cut < text.size(); cut += 5)
-      CHECK_THROWS_AS(cell_of(text.substr(0, cut)), InputError);
-  }
-  cell.mean_path = INFINITY;  // as large as flights come
-  cell.ns.reset();            // of a program that broke
-  CHECK(cell_of(piece_of(cell)) == cell);
-  std::string text;
-  append_json(text, cell);
-  CHECK(text.find("\"ns\":null") != text.npos);
+  const auto has = [&](const char* part) { return json::text_of(cell).find(part) != std::string::npos; };
+  CHECK(
+      (has(R"("ns":null,"instructions":null)") && has(R"("wrong":{"count":3,)")));  // of a program that broke
+  cell.speed = lorentz::question::Speed{1.75, 1.5, 1, 2};
+  cell.speed->instructions = 812.5;
+  CHECK(has(R"("ns":{"median":1.5,"q1":1,"q3":2,"mean":1.75},"instructions":812.5)"));
+  CHECK(has(R"("worst":{"verdict":"wrong","ulps":null,"query":{"x":)"));
+  cell.skipped = true;
+  CHECK((has(R"("ns":null,"instructions":null,"mean_path":null,"ulps":null)") && has(R"("worst":null)")));
 }
 
 TEST_CASE("Curves are written with every number under its own name", "[report][curves]") {

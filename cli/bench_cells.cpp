@@ -1,4 +1,4 @@
-#include "question/cells/cells.hpp"
+#include "cli/bench_cells.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
-#include "files/messages.hpp"
+#include "cli/terminal.hpp"
 #include "files/scene_file.hpp"
-#include "question/examine.hpp"
+#include "question/examination.hpp"
 #include "question/race.hpp"
 #include "question/radii.hpp"
 #include "report/claim_words.hpp"
@@ -16,7 +16,10 @@
 #include "src/exchange/json_writer.hpp"
 #include "starts/free_starts.hpp"
 
-namespace lorentz::question {
+namespace lorentz::cli {
+
+using namespace question;
+using report::Cell;
 
 namespace {
 
@@ -24,32 +27,39 @@ constexpr double kSecondsPerRound = 0.1;  // a slower engine gets fewer queries,
 constexpr std::size_t kPilot = 16;
 constexpr int kRounds = 5;
 
-std::vector<Question> questions_of(const BenchPlan& plan, const BenchGroup& group) {
-  const NumberFormat format = plan.claim.precision;
+// What does not depend on the scene.
+struct Bench {
+  const ExaminationOptions& options;
+  const std::vector<EngineInfo>& engines;
+  const Claim claim = options.claim.claim();
+  const AnswererOptions asking{.timeout = options.longest_wait(), .listener = terminal()};
+};
+
+std::vector<Question> questions_of(const Bench& bench, const Cell& like) {
+  const NumberFormat format = bench.claim.precision;
   const auto place = std::make_shared<Place>(
-      rounded_scene(load_scene(group.scene, group.radius), format, group.scene), Truth::oracle, plan.claim);
-  const starts::Kind kind = group.difficulty == "drawn"
-                                ? starts::Kind::uniform
-                                : starts::kind_named(group.difficulty, "--difficulty");
-  return question::questions_of(place,
-                                starts::free_starts(place->scene(), kind, plan.seed, plan.count, format));
+      rounded_scene(load_scene(like.scene, like.radius), format, like.scene), Truth::oracle, bench.claim);
+  const starts::Kind kind = like.difficulty == "drawn" ? starts::Kind::uniform
+                                                       : starts::kind_named(like.difficulty, "--difficulty");
+  return question::questions_of(
+      place, starts::free_starts(place->scene(), kind, bench.options.seed, bench.options.count, format));
 }
 
 // How many of the queries an engine answers in the time of a round, estimated from the first kPilot, or from
 // the first two if these already take too long.
-std::size_t affordable(const BenchPlan& plan, const std::vector<Question>& all, const EngineInfo& engine,
+std::size_t affordable(const Bench& bench, const std::vector<Question>& all, const EngineInfo& engine,
                        bool& failed) {
   RaceOptions options;
   options.rounds = engine.runs_apart() ? 3 : 1;  // the first round of an external engine includes its start
-  options.answerer = plan.answerer;
+  options.answerer = bench.asking;
   double count = 0;
   for (const std::size_t pilot : {std::size_t{2}, kPilot}) {
     options.counts = {pilot};
-    const Speed t = race(all, {engine}, options).front();
+    const Speed t = question::race(all, {engine}, options).front();
     failed |= t.failed;
     // A program that dies is not slow, however busy the machine is; one that is silent would be silent each
     // time.
-    if (t.failed && t.ns_per_query * 1e-9 < plan.answerer.timeout / 4)
+    if (t.failed && t.ns_per_query * 1e-9 < bench.asking.timeout / 4)
       return std::min(all.size(), kFewestQueries);
     count = kSecondsPerRound * 1e9 / std::max(t.ns_per_query, 1.0);
     if (count < kFewestQueries / 8.0) break;
@@ -106,7 +116,7 @@ class Errors {
   const std::vector<double>& in_conditions() const { return in_conditions_; }
   const report::Calls& calls() const { return calls_; }
 
-  std::optional<report::Worst> worst(const BenchGroup& group, const std::string& engine) const {
+  std::optional<report::Worst> worst(const Cell& cell) const {
     if (rank_ == 0) return std::nullopt;
     report::Worst worst;
     worst.verdict = rank_ == 3          ? "wrong"
@@ -115,18 +125,18 @@ class Errors {
                                         : "agree";
     worst.ulps = worst_.ulps;
     worst.query = report::hexadecimal_query(question_.query, question_.place->scene());
-    worst.command = command_of(group, worst.query) + shell_quoted(engine);
+    worst.command = command_of(cell, worst.query) + shell_quoted(cell.engine);
     return worst;
   }
 
  private:
   // The command without the engine. A scene whose numbers were rounded is written in full.
-  std::string command_of(const BenchGroup& group, const std::string& query) const {
+  std::string command_of(const Cell& cell, const std::string& query) const {
     const Place& place = *question_.place;
     if (place.claim() == Claim())
       return fmt::format("echo '{}' | lorentz compare --scene {}{} --queries - --engine ", query,
-                         shell_quoted(group.scene),
-                         group.radius ? " --radius " + json::text_of(*group.radius) : "");
+                         shell_quoted(cell.scene),
+                         cell.radius ? " --radius " + json::text_of(*cell.radius) : "");
     std::string scene;
     append_scene_line(scene, place.scene());
     return fmt::format("echo '{}{}' | lorentz compare --queries -{} --engine ", scene, query,
@@ -141,82 +151,64 @@ class Errors {
   oracle::Judgement worst_;
 };
 
-report::Cell named_cell(const BenchGroup& group, const Scene& scene, const std::string& engine) {
-  report::Cell cell;
-  cell.scene = group.scene;
-  cell.radius = group.radius;
-  cell.dimension = scene.dimension;
-  cell.difficulty = group.difficulty;
-  cell.engine = engine;
-  return cell;
-}
-
-void fill(report::Cell& cell, const Tally& t) {
-  cell.queries = t.queries;
-  cell.counts = t.counts;
-  cell.ulps = report::histogram_of(t.ulps);
-  cell.skipped = t[Count::unsupported] == cell.queries;  // the speed of refusals means nothing
-}
-
 // Asks an engine the questions and judges its answers.
-void examine_into(report::Cell& cell, Answerer& answerer, const BenchGroup& group,
-                  std::span<const Question> questions) {
-  Tally tally;
+void examine_into(Cell& cell, Examination& examination, std::span<const Question> questions) {
+  ExaminedRow row;
   Errors errors;
-  examine(all_of(questions), answerer, oracle::kDefaultUlps, [&](const Judged& judged) {
-    tally.count(judged.judgement);
+  examination.ask(questions, [&](const Judged& judged) {
+    row.tally.count(judged.judgement);
     errors.add(judged);
   });
-  fill(cell, tally);
+  cell.queries = row.tally.queries;
+  cell.counts = row.tally.counts;
+  cell.ulps = report::histogram_of(row.tally.ulps);
+  cell.skipped = row.tally[Count::unsupported] == cell.queries;  // the speed of refusals means nothing
   cell.mean_path = mean_path(questions);
   cell.conditions = report::histogram_of(errors.in_conditions());
   cell.calls = errors.calls();
-  cell.worst = errors.worst(group, cell.engine);
+  cell.worst = errors.worst(cell);
 }
 
-// Times the engines with these numbers in plan.engines, and writes the times into their cells. True if one of
-// them failed.
-bool race(const BenchPlan& plan, const std::vector<Question>& questions,
-          const std::vector<std::size_t>& numbers, const std::vector<std::size_t>& counts,
-          std::vector<report::Cell>& cells) {
-  RaceOptions options{kRounds, plan.answerer};
+// Times the engines with these numbers, and writes the times into their cells. True if one of them failed.
+bool race(const Bench& bench, const std::vector<Question>& questions, const std::vector<std::size_t>& numbers,
+          const std::vector<std::size_t>& counts, std::vector<Cell>& cells) {
+  RaceOptions options{kRounds, bench.asking};
   std::vector<EngineInfo> engines;
-  for (const std::size_t i : numbers) engines.push_back(plan.engines[i]), options.counts.push_back(counts[i]);
+  for (const std::size_t i : numbers)
+    engines.push_back(bench.engines[i]), options.counts.push_back(counts[i]);
   const std::vector<Speed> speeds = question::race(questions, engines, options);
-  for (std::size_t i = 0; i < speeds.size(); ++i) {
-    const Speed& speed = speeds[i];
-    report::Cell& cell = cells[numbers[i]];
-    cell.ns = report::CellTimes{speed.ns_median, speed.ns_low, speed.ns_high, speed.ns_per_query};
-    cell.instructions = speed.instructions;
-  }
+  for (std::size_t i = 0; i < speeds.size(); ++i) cells[numbers[i]].speed = speeds[i];
   return std::ranges::any_of(speeds, &Speed::failed);
 }
 
 }  // namespace
 
-BenchCells measure_cells(const BenchPlan& plan, const BenchGroup& group) {
-  BenchCells result;
-  std::vector<Question> questions = questions_of(plan, group);
-  const Scene scene = questions[0].place->scene();
+MeasuredCells measure_cells(const ExaminationOptions& options, const std::vector<EngineInfo>& engines,
+                            const Cell& like) {
+  const Bench bench{options, engines};
+  MeasuredCells result;
+  std::vector<Question> questions = questions_of(bench, like);
+  const int dimension = questions[0].place->scene().dimension;
   std::vector<std::size_t> counts;
-  for (const EngineInfo& engine : plan.engines)
-    counts.push_back(affordable(plan, questions, engine, result.failed));
+  for (const EngineInfo& engine : engines)
+    counts.push_back(affordable(bench, questions, engine, result.failed));
   const std::size_t most = *std::max_element(counts.begin(), counts.end());
   questions.resize(most < kFewestQueries ? 0 : most);
-  answer_exactly(questions, Truth::oracle, plan.answerer.listener);
+  answer_exactly(questions, Truth::oracle, bench.asking.listener);
   for (Question& question : questions) question.condition = condition_of(question);
   std::vector<std::size_t> racing;
-  for (std::size_t i = 0; i < plan.engines.size(); ++i) {
-    report::Cell& cell = result.cells.emplace_back(named_cell(group, scene, plan.engines[i].name));
+  for (std::size_t i = 0; i < engines.size(); ++i) {
+    Cell& cell = result.cells.emplace_back(like);
+    cell.dimension = dimension, cell.engine = engines[i].name;
     if ((cell.skipped = counts[i] < kFewestQueries)) continue;
-    const auto answerer = plan.engines[i].answerer(plan.answerer);
-    examine_into(cell, *answerer, group, std::span(questions).first(counts[i]));
-    if (!cell.skipped && !answerer->failed()) racing.push_back(i);
-    answerer->finish();
-    result.failed |= answerer->failed();
+    Examination examination(engines[i], bench.asking, options.tolerance());
+    examine_into(cell, examination, std::span(questions).first(counts[i]));
+    if (!cell.skipped && !examination.failed()) racing.push_back(i);
+    examination.finish();
+    result.failed |= examination.failed();
   }
-  result.failed |= race(plan, questions, racing, counts, result.cells);
+  result.failed |= race(bench, questions, racing, counts, result.cells);
   return result;
 }
 
-}  // namespace lorentz::question
+}  // namespace lorentz::cli
