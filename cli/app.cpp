@@ -12,7 +12,7 @@
 #include "cli/manual.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
-#include "files/signals.hpp"
+#include "report/files/signals.hpp"
 #include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {

@@ -7,14 +7,14 @@
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
 #include "cli/terminal.hpp"
-#include "files/scene_file.hpp"
 #include "question/examination.hpp"
 #include "question/race.hpp"
 #include "question/radii.hpp"
+#include "question/starts/free_starts.hpp"
 #include "report/claim_words.hpp"
+#include "report/files/scene_file.hpp"
 #include "report/query_text.hpp"
 #include "src/exchange/json_writer.hpp"
-#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 

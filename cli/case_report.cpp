@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <lorentz/exchange.hpp>
-#include "files/messages.hpp"
-#include "files/whole_file.hpp"
-#include "pictures/finding_drawing.hpp"
 #include "report/claim_words.hpp"
+#include "report/files/messages.hpp"
+#include "report/files/whole_file.hpp"
 #include "report/manifest.hpp"
 #include "report/page.hpp"
+#include "report/pictures/finding_drawing.hpp"
 #include "report/query_text.hpp"
 #include "report/reason.hpp"
 #include "src/exchange/exchange_write.hpp"

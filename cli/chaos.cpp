@@ -7,7 +7,7 @@
 #include "cli/progress.hpp"
 #include "cli/scan.hpp"
 #include "report/query_text.hpp"
-#include "runs/piece_store.hpp"
+#include "report/runs/piece_store.hpp"
 #include "statistics/chaos/diffusion.hpp"
 #include "statistics/chaos/lyapunov.hpp"
 

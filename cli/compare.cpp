@@ -1,12 +1,14 @@
 // lorentz compare: compares engines, and answers logged elsewhere, with the oracle.
+#include <limits>
+
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
 #include "cli/compare_questions.hpp"
 #include "cli/lineup.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
-#include "files/signals.hpp"
 #include "report/claim_words.hpp"
+#include "report/files/signals.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
 #include "src/exchange/json_writer.hpp"
@@ -25,11 +27,11 @@ auto spread_of(const std::vector<double>& values) {
   return values.empty() ? std::nullopt : std::optional(spread);
 }
 
-void add_tally(json::Members& object, const Tally& t) {
+void add_tally(json::Members& object, const Tally& t, bool judged) {
   const auto if_timed = [&](double ulps) { return t.timed_hits > 0 ? std::optional(ulps) : std::nullopt; };
   const auto if_fast = [&](double ns) { return t.speed.ns_per_query > 0 ? std::optional(ns) : std::nullopt; };
   object.add("engine", t.name, "queries", t.queries);
-  add_counts(object, t.counts, Counted::examinations);
+  add_counts(object, t.counts, Counted::examinations, judged);
   object.add("max_ulp", if_timed(t.max_ulp()), "mean_ulp", if_timed(t.mean_ulp()), "ns_per_query",
              if_fast(t.speed.ns_per_query), "ns_median", if_fast(t.speed.ns_median), "engine_ns",
              t.speed.own_ns, "wrong_time_ulps", spread_of(t.wrong_ulps), "wrong_time_conditions",
@@ -38,12 +40,14 @@ void add_tally(json::Members& object, const Tally& t) {
 
 std::string json_of(const ExaminationOptions& options, const ComparedQuestions& questions,
                     const std::list<LineupEntry>& all) {
+  const auto judge = options.no_oracle ? std::nullopt : std::optional(options.judge);
   return json::line_of([&](json::Members& object) {
-    object.add("scene", questions.title(), "seed", options.seed, "judge", options.judge);
+    object.add("scene", questions.title(), "seed", options.seed, "judge", judge);
     report::add_claim(object, options.claim.claim());
-    object.add(
-        "not_asked", questions.not_asked(), "engines",
-        json::objects(all, [&](json::Members& one, const LineupEntry& its) { add_tally(one, its.total()); }));
+    object.add("not_asked", questions.not_asked(), "engines",
+               json::objects(all, [&](json::Members& one, const LineupEntry& its) {
+                 add_tally(one, its.total(), judge.has_value());
+               }));
   });
 }
 
@@ -80,7 +84,9 @@ std::string text_of(const ExaminationOptions& options, const ComparedQuestions& 
       fmt::format("{}: {} {} queries{}{}{}\n{}\n{}", questions.title(), questions.count(),
                   drawn ? "drawn" : "given", drawn ? ", seed " + std::to_string(options.seed) : "",
                   options.judge == "oracle" ? "" : ", judged by " + options.judge,
-                  report::words_of(options.claim.claim()), not_asked_of(questions), table_of(all));
+                  report::words_of(options.claim.claim()), not_asked_of(questions),
+                  options.no_oracle ? times_of(all) : table_of(all));
+  if (options.no_oracle) return text;
   for (const LineupEntry& one : all)
     text += fmt::format("\n{}\n{}{}", verdict_of(one.total()),
                         one.failures.empty() ? "" : "  The first failures:\n", fmt::join(one.failures, ""));
@@ -106,10 +112,19 @@ std::vector<Question> examine_all(const ExaminationOptions& options, ComparedQue
   return first;
 }
 
+// All questions, which are not judged.
+std::vector<Question> all_to_time(ComparedQuestions& questions, Lineup& lineup) {
+  std::vector<Question> all = questions.next(std::numeric_limits<std::size_t>::max());
+  lineup.begin("timed");
+  for (const LineupEntry& one : lineup.all()) one.row->tally.queries = all.size();
+  return all;
+}
+
 int act(ExaminationOptions options) {
   if (options.engines.empty() && options.answers.empty()) options.engines = {"classical", "published"};
   const std::vector<EngineInfo> engines = options.named_engines();
-  truth_named(options.judge, engines);  // throws
+  if (truth_named(options.judge, engines) != Truth::oracle && options.no_oracle)
+    throw InputError("--judge: has no effect with --no-oracle; leave one of them out");
   if (!options.queries && !options.answers.empty())
     throw InputError("--answers needs --queries: the queries that were answered");
   options.claim.ask(engines);
@@ -117,7 +132,7 @@ int act(ExaminationOptions options) {
   ComparedQuestions questions(options, lineup.disagreements());
   for (const std::string& argument : options.answers)
     add_logged(lineup, argument, questions, options.unknown_keys());
-  lineup.race(examine_all(options, questions, lineup));
+  lineup.race(options.no_oracle ? all_to_time(questions, lineup) : examine_all(options, questions, lineup));
   const int status = lineup.finish(questions.had_bad_input());
   print(options.json ? json_of(options, questions, lineup.all()) : text_of(options, questions, lineup.all()));
   return status;
@@ -131,10 +146,11 @@ Command compare_command() {
       "compare",
       "Engines, and answers that other programs logged, against the exact "
       "oracle: right or wrong, error, speed.",
-      options->rows({"--engine",    "--answers",        "--scene",  "--radius",        "--queries",
-                     "--jobs",      "--count",          "--seed",   "--disagreements", "--ulps",
-                     "--precision", "--time-tolerance", "--judge",  "--timeout",       "--json",
-                     "--failures",  "--times",          "--strict", "--baseline",      "--junit"}),
+      options->rows({"--engine",    "--answers",        "--scene", "--radius",        "--queries",
+                     "--jobs",      "--count",          "--seed",  "--disagreements", "--ulps",
+                     "--precision", "--time-tolerance", "--judge", "--no-oracle",     "--timeout",
+                     "--json",      "--failures",       "--times", "--strict",        "--baseline",
+                     "--junit"}),
 
       "wrong: another obstacle or outcome than any error of k ulps in the inputs explains. wrong time: the "
       "right obstacle,\n"

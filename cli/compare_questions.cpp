@@ -6,9 +6,9 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/numbers.hpp"
-#include "files/messages.hpp"
-#include "files/scene_file.hpp"
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
+#include "report/files/messages.hpp"
+#include "report/files/scene_file.hpp"
 
 namespace lorentz::cli {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <sstream>
 
-#include "cases/families/target.hpp"
-#include "files/scene_file.hpp"
-#include "golden/sets.hpp"
+#include "fuzz/families/target.hpp"
+#include "judge/golden/sets.hpp"
 #include "question/engines.hpp"
+#include "report/files/scene_file.hpp"
 
 namespace lorentz::cli {
 namespace {

@@ -8,8 +8,8 @@
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
 #include "question/examine.hpp"
+#include "question/starts/free_starts.hpp"
 #include "report/table.hpp"
-#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "files/whole_file.hpp"
 #include "question/examine.hpp"
+#include "report/files/whole_file.hpp"
 
 namespace lorentz::cli {
 

@@ -7,7 +7,7 @@
 
 #include "cli/app.hpp"
 #include "cli/output.hpp"
-#include "fitness/examination.hpp"
+#include "judge/fitness/examination.hpp"
 #include "report/manifest.hpp"
 #include "src/exchange/json_writer.hpp"
 #include "src/exchange/nearest_name.hpp"

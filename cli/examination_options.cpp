@@ -44,8 +44,7 @@ std::vector<Option> rows_of_sources(O& o) {
 std::vector<Option> rows_of_engines(O& o) {
   return {
       {"-e,--engine", &o.engines, "ENGINE",
-       names_for_help() + "; several with commas between them, or once each",
-       kOneAtATime | kToldDefault},
+       names_for_help() + "; several with commas between them, or once each", kOneAtATime | kToldDefault},
       {"--answers", &o.answers, "NAME=FILE",
        "judge answers that some program wrote, as an engine NAME: a stream; or columns (.npy, .csv), "
        "to queries in columns"},
@@ -54,6 +53,7 @@ std::vector<Option> rows_of_engines(O& o) {
        "--questions"},
       {"--timeout", Positive{&o.timeout}, "SECONDS", kTimeoutHelp},
       {"--judge", &o.judge, "oracle|certified", kJudgeHelp},
+      {"--no-oracle", &o.no_oracle, "", "only take times, judge nothing", kPlain, "--answers"},
       {"--ulps", Tolerance{&o.ulps}, "K",
        "the tolerance k: answers that k ulps in every input would make right are ill-posed, not wrong; 0 "
        "forgives nothing (default: 4)"},
@@ -110,8 +110,7 @@ double ExaminationOptions::longest_wait() const {
 
 std::vector<question::EngineInfo> ExaminationOptions::named_engines() const {
   std::vector<question::EngineInfo> named = question::engines_named(engines, timeout);
-  if (named.empty() && answers.empty())
-    throw InputError("--engine: name one (" + names_for_help() + ")");
+  if (named.empty() && answers.empty()) throw InputError("--engine: name one (" + names_for_help() + ")");
   if (const auto option = files.first_option(); option && named.size() + answers.size() > 1)
     throw InputError(*option + ": is of one engine; name one");
   return named;

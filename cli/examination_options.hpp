@@ -8,8 +8,8 @@
 
 #include "cli/claim_options.hpp"
 #include "cli/known_failures.hpp"
-#include "files/unknown_keys.hpp"
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
+#include "report/files/unknown_keys.hpp"
 
 namespace lorentz::cli {
 
@@ -22,7 +22,7 @@ struct ExaminationOptions {
   std::string judge = "oracle";
   ClaimOptions claim;
   FailureFiles files;
-  bool json = false, strict = false, times = false, quick = false;
+  bool json = false, no_oracle = false, strict = false, times = false, quick = false;
 
   /// The rows of these names, in this order. The defaults in help are those that the members have now.
   std::vector<Option> rows(std::initializer_list<const char*> names);

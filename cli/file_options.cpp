@@ -1,5 +1,5 @@
 #include "cli/file_options.hpp"
-#include "golden/find_sets.hpp"
+#include "judge/golden/find_sets.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include <lorentz/errors.hpp>
-#include "files/beside.hpp"
-#include "files/scene_file.hpp"
+#include "report/files/beside.hpp"
+#include "report/files/scene_file.hpp"
 
 namespace lorentz::cli {
 namespace {

@@ -8,9 +8,9 @@
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/terminal.hpp"
-#include "files/scene_file.hpp"
 #include "question/answerer.hpp"
 #include "question/engines.hpp"
+#include "report/files/scene_file.hpp"
 #include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {

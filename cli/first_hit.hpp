@@ -7,8 +7,8 @@
 #include <lorentz/scene.hpp>
 #include "cli/command.hpp"
 #include "cli/given_queries.hpp"
-#include "files/unknown_keys.hpp"
 #include "question/engines.hpp"
+#include "report/files/unknown_keys.hpp"
 
 namespace lorentz::cli {
 

@@ -2,7 +2,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/output.hpp"
-#include "files/messages.hpp"
+#include "report/files/messages.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
 

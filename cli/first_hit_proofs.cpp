@@ -3,8 +3,8 @@
 #include <lorentz/exchange.hpp>
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
-#include "files/messages.hpp"
-#include "golden/maker.hpp"
+#include "judge/golden/maker.hpp"
+#include "report/files/messages.hpp"
 #include "src/exchange/exchange_write.hpp"
 #include "src/problem/same_answer.hpp"
 

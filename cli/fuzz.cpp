@@ -22,7 +22,7 @@
 #include "cli/terminal.hpp"
 #include "fuzz/campaign/ranks.hpp"
 #include "fuzz/examine/answerers.hpp"
-#include "golden/record.hpp"
+#include "judge/golden/record.hpp"
 #include "question/answerer.hpp"
 #include "report/claim_words.hpp"
 

@@ -9,8 +9,8 @@
 #include "cli/claim_options.hpp"
 #include "cli/known_failures.hpp"
 #include "fuzz/campaign/store.hpp"
+#include "question/starts/free_starts.hpp"
 #include "src/exchange/json_writer.hpp"
-#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 

@@ -8,7 +8,7 @@
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "cli/set_output.hpp"
-#include "golden/production.hpp"
+#include "judge/golden/production.hpp"
 #include "question/engines.hpp"
 #include "report/claim_words.hpp"
 #include "src/exchange/nearest_name.hpp"

@@ -9,10 +9,10 @@
 #include <lorentz/exchange.hpp>
 #include "cli/help_texts.hpp"
 #include "cli/numbers.hpp"
-#include "files/messages.hpp"
 #include "question/answerer.hpp"
 #include "question/engines.hpp"
 #include "report/claim_words.hpp"
+#include "report/files/messages.hpp"
 #include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {

@@ -5,9 +5,9 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/fuzz.hpp"
-#include "files/messages.hpp"
 #include "question/engines.hpp"
 #include "report/claim_words.hpp"
+#include "report/files/messages.hpp"
 #include "report/reason.hpp"
 #include "report/share.hpp"
 #include "report/table.hpp"

@@ -1,6 +1,6 @@
 #include "cli/given_queries.hpp"
 
-#include "files/messages.hpp"
+#include "report/files/messages.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
 

@@ -5,9 +5,9 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/output.hpp"
-#include "golden/find_sets.hpp"
-#include "golden/reader.hpp"
-#include "golden/sets.hpp"
+#include "judge/golden/find_sets.hpp"
+#include "judge/golden/reader.hpp"
+#include "judge/golden/sets.hpp"
 #include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
 

@@ -7,8 +7,8 @@
 #include "cli/lineup.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
-#include "golden/find_sets.hpp"
-#include "golden/questions.hpp"
+#include "judge/golden/find_sets.hpp"
+#include "judge/golden/questions.hpp"
 #include "report/claim_words.hpp"
 #include "report/table.hpp"
 
@@ -166,7 +166,7 @@ Command golden_check_command() {
 
       "The precision is each set's own, unless --precision or the engine says another one. Exit status 1: an "
       "answer is wrong, an error or missing; 3: a cmd: or lib: engine broke.\n"
-      "Examples:\n  lorentz golden check --engine 'cmd:python3 examples/naive_engine.py' --first 64 "
+      "Examples:\n  lorentz golden check --engine 'cmd:python3 docs/examples/naive_engine.py' --first 64 "
       "generic-3d\n  lorentz golden check -e published --baseline known.txt published-faults\n"
       "The first time this writes known.txt; from then on the same line fails only for what is new.",
       [options] { return act(*options); }};

@@ -6,8 +6,8 @@
 #include <lorentz/oracle.hpp>
 #include "cli/app.hpp"
 #include "cli/output.hpp"
-#include "golden/find_sets.hpp"
-#include "golden/reader.hpp"
+#include "judge/golden/find_sets.hpp"
+#include "judge/golden/reader.hpp"
 #include "src/exchange/csv_table.hpp"
 #include "src/exchange/nearest_name.hpp"
 

@@ -10,14 +10,14 @@
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
 #include "cli/set_output.hpp"
-#include "files/whole_file.hpp"
-#include "golden/index.hpp"
-#include "golden/production.hpp"
-#include "golden/selection.hpp"
+#include "judge/golden/index.hpp"
+#include "judge/golden/production.hpp"
+#include "judge/golden/selection.hpp"
+#include "question/starts/free_starts.hpp"
+#include "report/files/whole_file.hpp"
 #include "report/manifest.hpp"
 #include "src/exchange/nearest_name.hpp"
 #include "src/problem/write_error.hpp"
-#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 

@@ -4,9 +4,9 @@
 
 #include <lorentz/claim.hpp>
 #include <lorentz/exchange.hpp>
-#include "files/messages.hpp"
-#include "files/scene_file.hpp"
-#include "golden/seen.hpp"
+#include "judge/golden/seen.hpp"
+#include "report/files/messages.hpp"
+#include "report/files/scene_file.hpp"
 #include "src/exchange/exchange_json.hpp"
 
 namespace lorentz::cli {

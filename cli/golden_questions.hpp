@@ -7,7 +7,7 @@
 
 #include "cli/command.hpp"
 #include "cli/given_queries.hpp"
-#include "golden/production.hpp"
+#include "judge/golden/production.hpp"
 
 namespace lorentz::cli {
 

@@ -4,8 +4,8 @@
 #include "cli/app.hpp"
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
-#include "golden/find_sets.hpp"
-#include "golden/selection.hpp"
+#include "judge/golden/find_sets.hpp"
+#include "judge/golden/selection.hpp"
 
 namespace lorentz::cli {
 namespace {

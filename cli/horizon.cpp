@@ -3,7 +3,7 @@
 #include "cli/app.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
-#include "files/scene_file.hpp"
+#include "report/files/scene_file.hpp"
 #include "report/horizon_report.hpp"
 
 namespace lorentz::cli {

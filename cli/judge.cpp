@@ -15,10 +15,10 @@
 #include "cli/progress.hpp"
 #include "cli/set_output.hpp"
 #include "cli/terminal.hpp"
-#include "files/whole_file.hpp"
-#include "golden/production.hpp"
+#include "judge/golden/production.hpp"
 #include "judge/judging.hpp"
 #include "report/claim_words.hpp"
+#include "report/files/whole_file.hpp"
 #include "report/page.hpp"
 
 namespace lorentz::cli {
@@ -89,8 +89,7 @@ std::string command_of(const ExaminationOptions& o) {
 }
 
 JudgeOrder order_of(ExaminationOptions options) {
-  if (options.engines.size() != 1)
-    throw InputError("--engine: name one (" + names_for_help() + ")");
+  if (options.engines.size() != 1) throw InputError("--engine: name one (" + names_for_help() + ")");
   JudgeOrder order;
   order.quick = options.quick;
   order.time = options.seconds;
@@ -172,7 +171,7 @@ Command judge_command() {
       "Exit "
       "status 1: an answer is wrong or missing, or a valid question was called an error;\n3: a cmd: or lib: "
       "engine broke, or was given up or too slow in a scene.\n"
-      "Example:\n  lorentz judge --quick --engine 'cmd:python3 examples/naive_engine.py'",
+      "Example:\n  lorentz judge --quick --engine 'cmd:python3 docs/examples/naive_engine.py'",
       [options] { return act(*options); }};
 }
 

@@ -10,8 +10,8 @@
 
 #include <lorentz/verdict.hpp>
 #include "cli/command.hpp"
-#include "files/whole_file.hpp"
 #include "question/counts.hpp"
+#include "report/files/whole_file.hpp"
 
 namespace lorentz::cli {
 

@@ -1,6 +1,6 @@
 #include "cli/logged_answers.hpp"
 
-#include "files/messages.hpp"
+#include "report/files/messages.hpp"
 
 namespace lorentz::cli {
 

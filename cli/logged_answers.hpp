@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "files/unknown_keys.hpp"
 #include "question/answerer.hpp"
+#include "report/files/unknown_keys.hpp"
 #include "src/exchange/columns.hpp"
 
 namespace lorentz::cli {

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <vector>
 
-#include "files/whole_file.hpp"
+#include "report/files/whole_file.hpp"
 
 namespace lorentz::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "files/messages.hpp"
+#include "report/files/messages.hpp"
 
 namespace lorentz::cli {
 

@@ -4,8 +4,8 @@
 
 #include <lorentz/itinerary.hpp>
 #include <lorentz/scene_check.hpp>
-#include "files/messages.hpp"
-#include "files/scene_file.hpp"
+#include "report/files/messages.hpp"
+#include "report/files/scene_file.hpp"
 
 namespace lorentz::cli {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include <lorentz/exchange.hpp>
-#include "files/unknown_keys.hpp"
+#include "report/files/unknown_keys.hpp"
 
 namespace lorentz::cli {
 

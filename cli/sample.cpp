@@ -6,12 +6,12 @@
 #include "cli/claim_options.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
-#include "files/messages.hpp"
-#include "files/scene_file.hpp"
+#include "question/starts/free_starts.hpp"
+#include "report/files/messages.hpp"
+#include "report/files/scene_file.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
 #include "src/exchange/nearest_name.hpp"
-#include "starts/free_starts.hpp"
 
 namespace lorentz::cli {
 

@@ -4,8 +4,8 @@
 
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
-#include "files/scene_file.hpp"
-#include "files/whole_file.hpp"
+#include "report/files/scene_file.hpp"
+#include "report/files/whole_file.hpp"
 #include "src/exchange/csv_table.hpp"
 
 namespace lorentz::cli {

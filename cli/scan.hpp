@@ -11,7 +11,7 @@
 #include <lorentz/errors.hpp>
 #include <lorentz/scene.hpp>
 #include "cli/command.hpp"
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 
 namespace lorentz::cli {
 

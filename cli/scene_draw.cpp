@@ -11,10 +11,10 @@
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/terminal.hpp"
-#include "files/scene_file.hpp"
-#include "files/whole_file.hpp"
-#include "pictures/scene_drawing.hpp"
 #include "question/engines.hpp"
+#include "report/files/scene_file.hpp"
+#include "report/files/whole_file.hpp"
+#include "report/pictures/scene_drawing.hpp"
 
 namespace lorentz::cli {
 

@@ -6,10 +6,10 @@
 #include <lorentz/errors.hpp>
 #include "cli/file_options.hpp"
 #include "cli/output.hpp"
-#include "files/data_folder.hpp"
-#include "files/whole_file.hpp"
-#include "golden/find_sets.hpp"
-#include "golden/index.hpp"
+#include "judge/golden/find_sets.hpp"
+#include "judge/golden/index.hpp"
+#include "report/files/data_folder.hpp"
+#include "report/files/whole_file.hpp"
 #include "src/exchange/exchange_json.hpp"
 
 namespace lorentz::cli {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "files/whole_file.hpp"
+#include "report/files/whole_file.hpp"
 
 namespace lorentz::cli {
 

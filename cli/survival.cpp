@@ -7,8 +7,8 @@
 #include "cli/numbers.hpp"
 #include "cli/progress.hpp"
 #include "cli/scan.hpp"
-#include "files/messages.hpp"
-#include "files/whole_file.hpp"
+#include "report/files/messages.hpp"
+#include "report/files/whole_file.hpp"
 #include "report/page.hpp"
 
 namespace lorentz::cli {

@@ -5,8 +5,8 @@
 
 #include <lorentz/horizon.hpp>
 #include "cli/progress.hpp"
-#include "files/messages.hpp"
 #include "question/listener.hpp"
+#include "report/files/messages.hpp"
 
 namespace lorentz::cli {
 

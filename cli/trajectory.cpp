@@ -7,11 +7,11 @@
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/terminal.hpp"
-#include "files/messages.hpp"
-#include "files/scene_file.hpp"
-#include "files/whole_file.hpp"
-#include "pictures/path_drawing.hpp"
 #include "question/engines.hpp"
+#include "report/files/messages.hpp"
+#include "report/files/scene_file.hpp"
+#include "report/files/whole_file.hpp"
+#include "report/pictures/path_drawing.hpp"
 #include "src/exchange/csv_table.hpp"
 #include "src/exchange/exchange_number.hpp"
 #include "src/exchange/exchange_write.hpp"
@@ -287,8 +287,7 @@ Command trajectory_command() {
           {"--max-bits", Whole{&options->most_bits, 32, kMostBits}, "B",
            "precision at which to give up, undecided (default: 262144, or as --digits needs)"},
           {"-e,--engine", &options->engine, "ENGINE",
-           "holds the trajectory with this engine's flights against it: one of " +
-               names_for_help()},
+           "holds the trajectory with this engine's flights against it: one of " + names_for_help()},
           {"--precision", &options->precision, "binary64|double-double",
            "of the engine's trajectory: binary64, double-double"},
           {"--csv", &options->csv, "FILE", "collisions as a table, to a file", kOutput},

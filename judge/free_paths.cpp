@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "files/scene_file.hpp"
+#include "report/files/scene_file.hpp"
 #include "statistics/theory/laws.hpp"
 
 namespace lorentz::judge {

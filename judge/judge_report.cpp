@@ -8,11 +8,11 @@
 #include <span>
 
 #include <lorentz/exchange.hpp>
-#include "files/messages.hpp"
 #include "judge/simplest.hpp"
-#include "pictures/finding_drawing.hpp"
 #include "report/claim_words.hpp"
+#include "report/files/messages.hpp"
 #include "report/manifest.hpp"
+#include "report/pictures/finding_drawing.hpp"
 #include "report/primitive.hpp"
 #include "report/query_text.hpp"
 #include "report/reason.hpp"

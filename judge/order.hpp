@@ -10,7 +10,7 @@
 #include <lorentz/verdict.hpp>
 #include "question/engines.hpp"
 #include "question/examine.hpp"
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 
 namespace lorentz::judge {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "files/scene_file.hpp"
-#include "golden/find_sets.hpp"
-#include "golden/reader.hpp"
+#include "judge/golden/find_sets.hpp"
+#include "judge/golden/reader.hpp"
+#include "report/files/scene_file.hpp"
 
 namespace lorentz::judge {
 

@@ -7,10 +7,10 @@
 #include <deque>
 #include <tuple>
 
-#include "cases/families/target.hpp"
 #include "fuzz/examine/variants.hpp"
-#include "golden/questions.hpp"
-#include "starts/free_starts.hpp"
+#include "fuzz/families/target.hpp"
+#include "judge/golden/questions.hpp"
+#include "question/starts/free_starts.hpp"
 
 namespace lorentz::judge {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "fuzz/campaign/campaign.hpp"
 #include "judge/examination.hpp"
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 
 namespace lorentz::judge {
 

@@ -1,7 +1,7 @@
 // Counts of large numbers of free flights, and the laws of theory for them.
 #include "python/engine.hpp"
 #include "python/signals.hpp"
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 #include "statistics/flights/report.hpp"
 #include "statistics/flights/run.hpp"
 

@@ -1,6 +1,6 @@
 // Golden sets, record by record.
-#include "golden/find_sets.hpp"
-#include "golden/reader.hpp"
+#include "judge/golden/find_sets.hpp"
+#include "judge/golden/reader.hpp"
 #include "python/certificates.hpp"
 #include "python/lines.hpp"
 #include "python/scene.hpp"

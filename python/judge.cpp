@@ -5,11 +5,11 @@
 #include <mutex>
 #include <set>
 
-#include "files/whole_file.hpp"
 #include "judge/judging.hpp"
 #include "python/lines.hpp"
 #include "python/scene.hpp"
 #include "python/signals.hpp"
+#include "report/files/whole_file.hpp"
 #include "report/page.hpp"
 
 namespace lorentz::python {

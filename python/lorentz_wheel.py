@@ -36,10 +36,10 @@ Provides-Extra: plot
 Requires-Dist: matplotlib; extra == 'plot'
 """
 # The files in an archive of the sources: those from which the extension module is compiled.
-WANTED = re.compile(r"(CMakeLists|CMakePresets|LICENSE|README|pyproject|packages|cmake/|include/|src/|oracle/|cases/|starts/|"
-                    r"question/|runs/|files/|golden/|fuzz/|judge/|statistics/|fitness/|pictures/|report/|python/|"
+WANTED = re.compile(r"(CMakeLists|CMakePresets|LICENSE|README|pyproject|packages|packaging/cmake/|include/|src/|oracle/|question/|"
+                    r"report/|statistics/|fuzz/|judge/|python/|"
                     r"data/scenes/|data/golden/)")
-UNWANTED = re.compile(r"^python/tests/|^fuzz/(harness|planted)/|^report/web/")
+UNWANTED = re.compile(r"^python/tests/|^oracle/proof/|^fuzz/planted/|^report/web/")
 
 
 def get_requires_for_build_wheel(config_settings=None):

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include <lorentz/errors.hpp>
-#include "files/data_folder.hpp"
+#include "report/files/data_folder.hpp"
 #include "src/problem/safe_text.hpp"
 
 namespace lorentz::python {

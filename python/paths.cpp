@@ -9,7 +9,7 @@
 #include "python/lines.hpp"
 #include "python/signals.hpp"
 #include "question/engines.hpp"
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 #include "statistics/survival/rival.hpp"
 
 namespace lorentz::python {

@@ -3,8 +3,8 @@
 #include <lorentz/errors.hpp>
 #include <lorentz/itinerary.hpp>
 #include <lorentz/scene_check.hpp>
-#include "files/scene_file.hpp"
 #include "python/lines.hpp"
+#include "report/files/scene_file.hpp"
 
 namespace lorentz::python {
 namespace {

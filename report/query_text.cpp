@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <lorentz/exchange.hpp>
-#include "files/messages.hpp"
+#include "report/files/messages.hpp"
 #include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::report {

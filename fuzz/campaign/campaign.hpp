@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "cases/families/target.hpp"
 #include "fuzz/campaign/finding.hpp"
+#include "fuzz/families/target.hpp"
 
 namespace lorentz::fuzz {
 

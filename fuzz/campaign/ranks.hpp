@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fuzz/campaign/campaign.hpp"
-#include "runs/world.hpp"
+#include "report/runs/world.hpp"
 
 namespace lorentz::fuzz {
 

@@ -8,7 +8,7 @@
 
 #include "fuzz/campaign/ledger.hpp"
 #include "fuzz/campaign/ranks.hpp"
-#include "runs/world_mpi.hpp"
+#include "report/runs/world_mpi.hpp"
 #include "src/exchange/json_piece.hpp"
 
 namespace lorentz::fuzz {

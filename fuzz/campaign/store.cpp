@@ -6,7 +6,7 @@
 #include <type_traits>
 
 #include "fuzz/campaign/stint.hpp"
-#include "runs/database.hpp"
+#include "report/runs/database.hpp"
 #include "src/exchange/json_piece.hpp"
 
 namespace lorentz::fuzz {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "fuzz/campaign/campaign.hpp"
-#include "runs/database.hpp"
+#include "report/runs/database.hpp"
 
 namespace lorentz::fuzz {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include <lorentz/scene_check.hpp>
-#include "cases/drawn_flights.hpp"
 #include "fuzz/examine/answerers.hpp"
 #include "fuzz/examine/tie.hpp"
+#include "question/cases/drawn_flights.hpp"
 #include "question/examine.hpp"
 #include "src/problem/same_answer.hpp"
 

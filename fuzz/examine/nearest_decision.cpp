@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "cases/ulps.hpp"
+#include "question/cases/ulps.hpp"
 #include "src/engines/base/double_double.hpp"
 
 namespace lorentz::fuzz {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include <lorentz/margin.hpp>
-#include "cases/random.hpp"
+#include "question/cases/random.hpp"
 #include "question/question.hpp"
 
 namespace lorentz::fuzz {

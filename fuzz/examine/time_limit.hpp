@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include <lorentz/answer.hpp>
-#include "cases/random.hpp"
+#include "question/cases/random.hpp"
 
 namespace lorentz::fuzz {
 

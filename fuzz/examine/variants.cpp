@@ -5,8 +5,8 @@
 #include <limits>
 
 #include <lorentz/geometry.hpp>
-#include "cases/ulps.hpp"
 #include "fuzz/examine/nearest_decision.hpp"
+#include "question/cases/ulps.hpp"
 
 namespace lorentz::fuzz {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <lorentz/margin.hpp>
-#include "cases/random.hpp"
+#include "question/cases/random.hpp"
 #include "question/question.hpp"
 
 namespace lorentz::fuzz {

@@ -8,7 +8,7 @@
 #include <lorentz/exchange.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
-#include "cases/random.hpp"
+#include "question/cases/random.hpp"
 
 namespace lorentz::fuzz {
 

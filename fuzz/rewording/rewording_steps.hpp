@@ -7,7 +7,7 @@
 
 #include <lorentz/obstacle.hpp>
 #include <lorentz/scene.hpp>
-#include "cases/random.hpp"
+#include "question/cases/random.hpp"
 
 namespace lorentz::fuzz {
 

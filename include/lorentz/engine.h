@@ -1,6 +1,6 @@
 /* A first-hit engine as a shared library, for `lorentz judge --engine lib:FILE.so` and everywhere else that
  * an engine is named. C99 or C++; needs no other header of this project. To begin, copy
- * examples/library_engine.c of the sources:
+ * docs/examples/library_engine.c of the sources:
  *     cc -O2 -shared -fPIC -I include -o mine.so mine.c
  * docs/formats.md defines scenes, queries and answers.
  *

@@ -200,7 +200,7 @@ def test_bad_arguments(arguments, text):
 
 
 def test_the_example_is_short_and_runs():
-    example = Path(__file__).parents[2] / "examples" / "judge_your_engine.py"
+    example = Path(__file__).parents[2] / "docs" / "examples" / "judge_your_engine.py"
     lines = [line for line in example.read_text().splitlines() if line.strip()]
     assert len(lines) <= 20
     space = {"__name__": "example"}

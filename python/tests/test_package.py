@@ -63,7 +63,7 @@ def test_types(tmp_path):
     assert (FOLDER / "py.typed").exists()
     config = Path(__file__).parents[2] / "pyproject.toml"
     mypy = [sys.executable, "-m", "mypy", "--config-file", config, "--cache-dir", tmp_path]
-    examples = [config.parent / "examples" / name for name in ("judge_your_engine.py", "paper_figures.py")]
+    examples = [config.parent / "docs" / "examples" / name for name in ("judge_your_engine.py", "paper_figures.py")]
     for checked in (["-p", "lorentz"], examples):
         result = subprocess.run([*mypy, *checked], cwd=FOLDER.parent, env=os.environ | {"MYPYPATH": str(FOLDER.parent)},
                                 capture_output=True, text=True)

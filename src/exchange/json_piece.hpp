@@ -1,7 +1,7 @@
 // The pieces of stores: values as JSON, written and read by one list of members. A struct's list is
 //   auto members_of(auto& self) { return std::tie(self.hits, self.never); }
 // in its namespace. A piece is for this program alone: it has no names, and numbers keep every bit. Whether it
-// is damaged is decided by its checksum (runs/piece_store.hpp). Private to the libraries and the program.
+// is damaged is decided by its checksum (report/runs/piece_store.hpp). Private to the libraries and the program.
 #pragma once
 
 #include <bit>

@@ -6,7 +6,7 @@
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
 #include <lorentz/trajectory_batch.hpp>
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 
 namespace lorentz::chaos {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/trajectory_batch.hpp>
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 #include "statistics/chaos/tangents.hpp"
 
 namespace lorentz::chaos {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <lorentz/scene.hpp>
-#include "starts/candidates.hpp"
+#include "question/starts/candidates.hpp"
 #include "statistics/flights/tally.hpp"
 
 namespace lorentz::flights {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runs/world.hpp"
+#include "report/runs/world.hpp"
 #include "statistics/flights/account.hpp"
 
 namespace lorentz::flights {

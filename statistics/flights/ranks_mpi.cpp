@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "runs/world_mpi.hpp"
+#include "report/runs/world_mpi.hpp"
 #include "statistics/flights/ranks.hpp"
 
 namespace lorentz::flights {

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include <lorentz/exchange.hpp>
-#include "files/messages.hpp"
 #include "report/curves.hpp"
+#include "report/files/messages.hpp"
 #include "report/manifest.hpp"
 #include "report/scene_name.hpp"
 #include "report/table.hpp"

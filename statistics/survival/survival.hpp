@@ -10,7 +10,7 @@
 
 #include <lorentz/scene.hpp>
 #include "question/engines.hpp"
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 
 namespace lorentz::survival {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <lorentz/scene.hpp>
-#include "statistics/theory/ensemble.hpp"
+#include "question/starts/ensemble.hpp"
 
 namespace lorentz::flights {
 

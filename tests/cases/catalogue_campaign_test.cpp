@@ -9,8 +9,8 @@
 #include <lorentz/reduction.hpp>
 #include <lorentz/scene_check.hpp>
 #include <lorentz/walk.hpp>
+#include "question/starts/free_starts.hpp"
 #include "src/problem/scene_geometry.hpp"
-#include "starts/free_starts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

@@ -1,6 +1,6 @@
 // The families of cases as such: repeatable, in order, without flaws, and marked with the tags that they
 // explain.
-#include "cases/families/family.hpp"
+#include "fuzz/families/family.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -14,11 +14,11 @@
 #include <thread>
 
 #include <lorentz/scene_check.hpp>
-#include "cases/bad_queries.hpp"
-#include "cases/drawn_flights.hpp"
-#include "cases/families/target.hpp"
-#include "cases/integer_vectors.hpp"
-#include "cases/ulps.hpp"
+#include "fuzz/families/target.hpp"
+#include "question/cases/bad_queries.hpp"
+#include "question/cases/drawn_flights.hpp"
+#include "question/cases/integer_vectors.hpp"
+#include "question/cases/ulps.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

@@ -12,7 +12,7 @@
 
 #include <lorentz/environment.hpp>
 #include <lorentz/oracle.hpp>
-#include "fitness/known_answers.hpp"
+#include "judge/fitness/known_answers.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz;

@@ -377,7 +377,7 @@ def wait_for_handler(process, number):
 def prepare(made):
     """The files that the lines above and the examples of the help name."""
     global HAS_PAGE
-    for name in ("data", "examples"):
+    for name in ("data", "docs"):
         os.symlink(Path(SOURCE) / name, made / name)
     shutil.copy(Path(SOURCE) / "data" / "golden" / "near-rational.ndjson", made / "set.ndjson")
     (made / "start").write_text('{"x":["1/2","1/10"],"v":[1,0]}\n')

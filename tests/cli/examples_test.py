@@ -22,7 +22,7 @@ QUERY = '{"id":1,"x":[0,0.445],"v":[1,0.0175]}\n'
 ANSWER = '{"id":1,"outcome":"never"}\n'
 FILES = {"F": SCENE + QUERY, "FILE": ANSWER, "queries.ndjson": SCENE + QUERY, "published.ndjson": ANSWER,
          "classical.ndjson": ANSWER, "start": '{"x":["1/2","1/10"],"v":[1,0]}\n',
-         "mine": f"#!/bin/sh\nexec python3 {SOURCE}/examples/naive_engine.py\n"}
+         "mine": f"#!/bin/sh\nexec python3 {SOURCE}/docs/examples/naive_engine.py\n"}
 
 MADE = {"queries.npy": "sample --scene cubic --radius 0.2 --count 9 --format npy",
         "answers.npy": "first-hit --scene cubic --radius 0.2 --format npy queries.npy",
@@ -56,7 +56,7 @@ class Examples(unittest.TestCase):
         begun = cls.path / "begun"
         begun.mkdir()
         (begun / "build").symlink_to(LORENTZ.parent)
-        for name in ("examples", "data"):
+        for name in ("docs", "data"):
             (begun / name).symlink_to(SOURCE / name)
         (begun / "mine.so").symlink_to(LORENTZ.parent / "library_engine.so")
         for name, text in FILES.items():

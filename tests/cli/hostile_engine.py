@@ -1,4 +1,4 @@
-"""Answers as examples/naive_engine.py does, but for one thing, which comes at the Nth question (default: the first).
+"""Answers as docs/examples/naive_engine.py does, but for one thing, which comes at the Nth question (default: the first).
 
 usage: hostile_engine.py SOURCE WHAT [N]
 """
@@ -12,7 +12,7 @@ from pathlib import Path
 
 WHAT, AT = sys.argv[2], int(sys.argv[3]) if len(sys.argv) > 3 else 1
 NAIVE = {}
-exec((Path(sys.argv[1]) / "examples/naive_engine.py").read_text().partition("\nlattices = None\n")[0], NAIVE)
+exec((Path(sys.argv[1]) / "docs/examples/naive_engine.py").read_text().partition("\nlattices = None\n")[0], NAIVE)
 
 
 def write(text):

@@ -35,7 +35,7 @@ ENGINES = {
     "dies at the fifth": f"{ENGINE} dies 5",
     "leaves a child with its pipes": f"{ENGINE} forks 5",
     "slow: 0.3 s each": f"{ENGINE} slow",
-    "naive_engine.py": shlex.join([sys.executable, f"{SOURCE}/examples/naive_engine.py"]),
+    "naive_engine.py": shlex.join([sys.executable, f"{SOURCE}/docs/examples/naive_engine.py"]),
 }
 FEW = ["starts never", "hangs at the hundredth", "floods its output", "slow: 0.3 s each"]
 

@@ -1,10 +1,10 @@
-"""examples/ray_ball.py: its formulas go wrong where docs/ray_and_ball.md says so, and the one that does not, does not."""
+"""docs/examples/ray_ball.py: its formulas go wrong where docs/ray_and_ball.md says so, and the one that does not, does not."""
 
 import pathlib
 import sys
 
 lorentz, source = sys.argv[1], pathlib.Path(sys.argv[2])
-sys.path.insert(0, str(source / "examples"))
+sys.path.insert(0, str(source / "docs" / "examples"))
 import ray_ball  # noqa: E402
 
 
@@ -31,4 +31,4 @@ check(1, lambda of: all(wrong == 0 for wrong, _ in of.values()))
 page = ray_ball.PAGE.read_text(encoding="utf-8")
 table = page.split(ray_ball.BEGIN)[1].split(ray_ball.END)[0]
 if [line.split(" | ")[0] for line in table.splitlines()[2:]] != [f"| {kind}" for kind in ray_ball.KINDS]:
-    sys.exit("the table of docs/ray_and_ball.md has other rows; examples/ray_ball.py table --write")
+    sys.exit("the table of docs/ray_and_ball.md has other rows; docs/examples/ray_ball.py table --write")

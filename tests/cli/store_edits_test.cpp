@@ -4,9 +4,9 @@
 #include <iterator>
 
 #include <lorentz/errors.hpp>
-#include "cases/random.hpp"
-#include "runs/lock_file.hpp"
-#include "runs/piece_store.hpp"
+#include "question/cases/random.hpp"
+#include "report/runs/lock_file.hpp"
+#include "report/runs/piece_store.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz;

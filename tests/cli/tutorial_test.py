@@ -2,7 +2,7 @@
 
 usage: tutorial_test.py PROGRAM SOURCE DOCUMENT [--write]     --write: puts what they print into the document
 
-They run in one shell, in a folder that has the project's build/, data/ and examples/. What is printed must be
+They run in one shell, in a folder that has the project's build/, data/ and docs/examples/. What is printed must be
 what the document shows, but for `..`, which stands for any number of lines; each picture that the document shows of
 docs/gallery/ and that they draw must be the one that is there.
 """
@@ -46,7 +46,7 @@ def run(commands):
     """What each prints, on both outputs, and its exit status; and the pictures that they drew."""
     folder = Path(tempfile.mkdtemp(prefix="lorentz-tutorial-"))
     try:
-        for name in ("data", "examples"):
+        for name in ("data", "docs"):
             os.symlink(SOURCE / name, folder / name)
         os.symlink(PROGRAM.parent, folder / "build")
         os.symlink(PROGRAM, folder / "lorentz")

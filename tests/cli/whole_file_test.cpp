@@ -1,5 +1,5 @@
 // Files that are put in their place when they are whole.
-#include "files/whole_file.hpp"
+#include "report/files/whole_file.hpp"
 
 #include <signal.h>
 #include <sys/stat.h>

@@ -831,7 +831,7 @@ TEST_CASE("A hundred thousand queries through the pipes are answered as without 
 
 TEST_CASE("The examples agree with the oracle", "[compare][command_engine]") {
   const Folder folder;
-  for (const std::string engine : {"'cmd:" LORENTZ_PYTHON " " LORENTZ_SOURCE_DIR "/examples/naive_engine.py'",
+  for (const std::string engine : {"'cmd:" LORENTZ_PYTHON " " LORENTZ_SOURCE_DIR "/docs/examples/naive_engine.py'",
                                    "cmd:" LORENTZ_NAIVE_ENGINE})
     for (const std::string scene : {"square", "cubic"}) {
       const Run run =
@@ -844,7 +844,7 @@ TEST_CASE("The examples agree with the oracle", "[compare][command_engine]") {
 
 TEST_CASE("The examples read their streams properly", "[compare][command_engine]") {
   const Folder folder;
-  const std::string python = LORENTZ_PYTHON " " LORENTZ_SOURCE_DIR "/examples/naive_engine.py <";
+  const std::string python = LORENTZ_PYTHON " " LORENTZ_SOURCE_DIR "/docs/examples/naive_engine.py <";
   const std::string leaving =
       R"({"id":"l","x":[0.25,0],"v":[1,0],"from":{"lattice":0,"atom":0,"cell":[0,0]}})";
   const std::string inside = R"({"id":"i","x":[0.1,0],"v":[1,0]})",
@@ -861,11 +861,11 @@ TEST_CASE("The examples read their streams properly", "[compare][command_engine]
                  R"({"id": "l", "outcome": "hit", "time": 0.5, "lattice": 0, "atom": 0, "cell": [1, 0]})"));
   CHECK(contains(out, R"({"id": "i", "outcome": "inside", "lattice": 0, "atom": 0, "cell": [0, 0]})"));
   CHECK(out.ends_with("{\"id\": \"c\", \"outcome\": \"undecided\"}\n"));
-  for (const std::string engine : {"'cmd:" LORENTZ_PYTHON " " LORENTZ_SOURCE_DIR "/examples/naive_engine.py'",
+  for (const std::string engine : {"'cmd:" LORENTZ_PYTHON " " LORENTZ_SOURCE_DIR "/docs/examples/naive_engine.py'",
                                    "cmd:" LORENTZ_NAIVE_ENGINE})
     CHECK(contains(folder.lorentz("compare --json --scene ellipse --count 10 --engine " + engine).out,
                    R"("unsupported":10)"));
   const Run crystal = folder.lorentz("compare --json --scene hcp --count 20 --engine 'cmd:" LORENTZ_PYTHON
-                                     " " LORENTZ_SOURCE_DIR "/examples/naive_engine.py'");
+                                     " " LORENTZ_SOURCE_DIR "/docs/examples/naive_engine.py'");
   CHECK(contains(crystal.out, R"("agree":20,)"));
 }

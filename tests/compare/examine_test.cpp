@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "question/race.hpp"
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

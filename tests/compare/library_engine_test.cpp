@@ -7,7 +7,7 @@
 
 #include "question/engines.hpp"
 #include "question/race.hpp"
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz::test;

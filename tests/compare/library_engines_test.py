@@ -1,4 +1,4 @@
-"""Adapters of other libraries (examples/engines): GLM, which is built here if its headers are installed, and cannon-es,
+"""Adapters of other libraries (docs/examples/engines): GLM, which is built here if its headers are installed, and cannon-es,
 if npm has installed it. library_engines_test.py LORENTZ SOURCE [GLM_ENGINE]"""
 
 import json
@@ -11,7 +11,7 @@ from pathlib import Path
 
 LORENTZ, SOURCE = sys.argv.pop(1), Path(sys.argv.pop(1)).resolve()
 GLM = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
-ENGINES = SOURCE / "examples" / "engines"
+ENGINES = SOURCE / "docs" / "examples" / "engines"
 CANNON = ENGINES / "node_modules" / "cannon-es" / "package.json"
 UNIT = {"dimension": 2, "lattices": [{"vectors": [[1, 0], [0, 1]], "atoms": [{"position": [0, 0], "radius": 0.125}]}]}
 BALL = {"dimension": 3, "lattices": [{"vectors": [], "atoms": [{"position": [4, 0, 0], "radius": 0.5}]}]}
@@ -137,7 +137,7 @@ class Glm(Adapter, unittest.TestCase):
         self.assertEqual((cells["wrong"], cells["other_quantity"]), (0, 0))
 
 
-@unittest.skipUnless(shutil.which("node") and CANNON.exists(), "cannon-es is not installed: npm ci in examples/engines")
+@unittest.skipUnless(shutil.which("node") and CANNON.exists(), "cannon-es is not installed: npm ci in docs/examples/engines")
 class Cannon(Adapter, unittest.TestCase):
     command = ["node", str(ENGINES / "cannon" / "engine.mjs")]
 

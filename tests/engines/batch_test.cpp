@@ -12,8 +12,8 @@
 #include <lorentz/certified_batch.hpp>
 #include <lorentz/collision.hpp>
 #include <lorentz/errors.hpp>
-#include "cases/families/target.hpp"
-#include "cases/random.hpp"
+#include "fuzz/families/target.hpp"
+#include "question/cases/random.hpp"
 #include "tests/engines/reduction_support.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include <lorentz/oracle.hpp>
-#include "starts/candidates.hpp"
+#include "question/starts/candidates.hpp"
 
 using namespace lorentz;
 

@@ -8,8 +8,8 @@
 #include "question/precisions/big_number.hpp"
 #include "question/precisions/published_in.hpp"
 #include "question/precisions/wide_number.hpp"
+#include "question/starts/free_starts.hpp"
 #include "question/tally.hpp"
-#include "starts/free_starts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

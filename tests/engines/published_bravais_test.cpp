@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include <lorentz/oracle.hpp>
+#include "question/starts/free_starts.hpp"
 #include "src/engines/published/published.hpp"
-#include "starts/free_starts.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"
 

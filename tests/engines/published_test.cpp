@@ -6,7 +6,7 @@
 
 #include <lorentz/oracle.hpp>
 #include <lorentz/walk.hpp>
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

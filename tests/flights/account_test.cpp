@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include <lorentz/errors.hpp>
-#include "cases/random.hpp"
+#include "question/cases/random.hpp"
 #include "statistics/flights/account.hpp"
 #include "statistics/flights/run.hpp"
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "cases/random.hpp"
+#include "question/cases/random.hpp"
 #include "statistics/flights/run.hpp"
 #include "statistics/theory/fit.hpp"
 #include "statistics/theory/laws.hpp"

@@ -1,5 +1,5 @@
 // Drawn starts as their users take them: where they lie, where they go, how hard they are. Seeds are fixed.
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -9,7 +9,7 @@
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/oracle.hpp>
-#include "cases/random.hpp"
+#include "question/cases/random.hpp"
 
 using namespace lorentz;
 using namespace lorentz::starts;

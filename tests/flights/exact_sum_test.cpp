@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "cases/random.hpp"
+#include "question/cases/random.hpp"
 #include "src/exchange/json_piece.hpp"
 #include "statistics/flights/exact_sum.hpp"
 

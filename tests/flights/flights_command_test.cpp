@@ -9,7 +9,7 @@
 #include <sstream>
 #include <vector>
 
-#include "runs/sqlite.hpp"
+#include "report/runs/sqlite.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz::test;

@@ -7,8 +7,8 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
-#include "starts/candidates.hpp"
-#include "starts/free_starts.hpp"
+#include "question/starts/candidates.hpp"
+#include "question/starts/free_starts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

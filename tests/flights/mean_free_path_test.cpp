@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include <lorentz/batch.hpp>
+#include "question/starts/candidates.hpp"
 #include "src/problem/scene_geometry.hpp"
-#include "starts/candidates.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"
 

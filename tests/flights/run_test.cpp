@@ -9,7 +9,7 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/oracle.hpp>
-#include "runs/world.hpp"
+#include "report/runs/world.hpp"
 #include "statistics/flights/run.hpp"
 #include "tests/support/command_line.hpp"
 #include "tests/support/scenes.hpp"

@@ -7,8 +7,8 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
+#include "question/starts/candidates.hpp"
 #include "src/problem/scene_geometry.hpp"
-#include "starts/candidates.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"
 

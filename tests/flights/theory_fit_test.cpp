@@ -1,5 +1,5 @@
 // Tests of fit on samples of which the law is known.
-#include "cases/random.hpp"
+#include "question/cases/random.hpp"
 #include "statistics/theory/fit.hpp"
 #include "statistics/theory/limit_law.hpp"
 

@@ -10,7 +10,7 @@
 
 #include <lorentz/certified.hpp>
 #include <lorentz/geometry.hpp>
-#include "cases/random.hpp"
+#include "question/cases/random.hpp"
 #include "src/problem/scene_geometry.hpp"
 
 using namespace lorentz;

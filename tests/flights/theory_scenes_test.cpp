@@ -11,7 +11,7 @@
 
 #include <lorentz/geometry.hpp>
 #include <lorentz/horizon.hpp>
-#include "cases/random.hpp"
+#include "question/cases/random.hpp"
 #include "src/problem/scene_geometry.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include <lorentz/certified_batch.hpp>
-#include "golden/reader.hpp"
+#include "judge/golden/reader.hpp"
 #include "tests/engines/reduction_support.hpp"
 
 using namespace lorentz;

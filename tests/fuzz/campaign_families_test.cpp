@@ -10,9 +10,9 @@
 #include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/reduction.hpp>
-#include "cases/drawn_flights.hpp"
-#include "cases/families/family_list.hpp"
-#include "cases/families/target.hpp"
+#include "fuzz/families/family_list.hpp"
+#include "fuzz/families/target.hpp"
+#include "question/cases/drawn_flights.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

@@ -9,9 +9,9 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
-#include "cases/families/family_list.hpp"
-#include "cases/integer_vectors.hpp"
 #include "fuzz/examine/variants.hpp"
+#include "fuzz/families/family_list.hpp"
+#include "question/cases/integer_vectors.hpp"
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/command_line.hpp"
 #include "tests/support/support.hpp"

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include <lorentz/exchange.hpp>
-#include "cases/families/target.hpp"
 #include "fuzz/examine/answerers.hpp"
+#include "fuzz/families/target.hpp"
 #include "fuzz/rewording/notation.hpp"
 #include "question/both_ways.hpp"
 #include "tests/fuzz/campaign_support.hpp"

@@ -9,12 +9,12 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
-#include "cases/drawn_flights.hpp"
-#include "cases/families/target.hpp"
 #include "fuzz/examine/time_limit.hpp"
+#include "fuzz/families/target.hpp"
 #include "fuzz/rewording/notation.hpp"
 #include "fuzz/rewording/rewording_steps.hpp"
-#include "golden/reader.hpp"
+#include "judge/golden/reader.hpp"
+#include "question/cases/drawn_flights.hpp"
 
 using namespace lorentz;
 using namespace lorentz::test;

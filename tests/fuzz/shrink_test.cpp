@@ -6,10 +6,10 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "cases/integer_vectors.hpp"
 #include "fuzz/campaign/campaign.hpp"
 #include "fuzz/examine/answerers.hpp"
 #include "fuzz/examine/examiner.hpp"
+#include "question/cases/integer_vectors.hpp"
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/support.hpp"
 

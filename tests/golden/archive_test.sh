@@ -21,4 +21,4 @@ cd "$folder"/lorentz-golden-*
 (cd data/golden && sha256sum --quiet -c SHA256SUMS)
 python3 data/check.py data/golden/ties.ndjson data/golden/smoke/smoke.ndjson
 python3 "$links" . 7
-test -f README.md && test -f examples/golden/runner.py && test -f docs/golden.md && test -f LICENSE
+test -f README.md && test -f docs/examples/golden/runner.py && test -f docs/golden.md && test -f LICENSE

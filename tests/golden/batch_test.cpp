@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include <lorentz/certified_batch.hpp>
-#include "golden/reader.hpp"
+#include "judge/golden/reader.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "runs/lock_file.hpp"
+#include "report/runs/lock_file.hpp"
 #include "tests/golden/golden_support.hpp"
 
 using namespace lorentz;

@@ -1,5 +1,5 @@
 """Which keys of a golden record are required, and which are optional: one table, docs/formats.md's, for data/check.py,
-`lorentz golden verify`, the schema, the runners of examples/golden, and proof/check where it was built.
+`lorentz golden verify`, the schema, the runners of docs/examples/golden, and oracle/proof/check where it was built.
 
 golden_keys_test.py PROGRAM WORK"""
 import contextlib
@@ -59,8 +59,8 @@ def opinions(path):
     with contextlib.redirect_stdout(io.StringIO()):
         found = {"check.py": forms.check.check(str(path)) == 0}
     found["golden verify"] = subprocess.run([PROGRAM, "golden", "verify", path], capture_output=True).returncode == 0
-    if (proved := ROOT / "proof/check").exists():
-        found["proof/check"] = subprocess.run([proved, path], capture_output=True).returncode == 0
+    if (proved := ROOT / "oracle/proof/check").exists():
+        found["oracle/proof/check"] = subprocess.run([proved, path], capture_output=True).returncode == 0
     if jsonschema:
         validator = jsonschema.Draft202012Validator(json.loads((ROOT / "data/golden/schema.json").read_text()))
         found["schema"] = all(validator.is_valid(json.loads(line)) for line in path.read_text().splitlines())

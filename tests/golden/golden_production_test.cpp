@@ -6,7 +6,7 @@
 #include <csignal>
 #include <set>
 
-#include "runs/piece_store.hpp"
+#include "report/runs/piece_store.hpp"
 #include "src/exchange/json_piece.hpp"
 #include "tests/golden/golden_support.hpp"
 

@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "golden/maker.hpp"
-#include "golden/production.hpp"
-#include "golden/reader.hpp"
+#include "judge/golden/maker.hpp"
+#include "judge/golden/production.hpp"
+#include "judge/golden/reader.hpp"
 #include "tests/support/command_line.hpp"
 #include "tests/support/support.hpp"
 

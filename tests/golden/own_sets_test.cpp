@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
-#include "golden/find_sets.hpp"
-#include "golden/selection.hpp"
+#include "judge/golden/find_sets.hpp"
+#include "judge/golden/selection.hpp"
 #include "tests/golden/golden_support.hpp"
 
 using namespace lorentz;

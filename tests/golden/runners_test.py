@@ -1,4 +1,4 @@
-"""The runners of examples/golden judge as `lorentz compare` does: every record without `needs-judge`, of ten engines that
+"""The runners of docs/examples/golden judge as `lorentz compare` does: every record without `needs-judge`, of ten engines that
 are wrong in different ways.
 
 runners_test.py LORENTZ WORK [--all]: the runners that can be made here are made in the folder WORK; --all: all sets.
@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-EXAMPLES, SETS = ROOT / "examples/golden", ROOT / "data/golden"
+EXAMPLES, SETS = ROOT / "docs/examples/golden", ROOT / "data/golden"
 FEW = ["smoke/smoke", "ball-2d-binary32", "boundary-starts-binary32", "rows-and-layers"]
 ENGINES = ["classical", "published", "published-float", "reduction"]
 UNANSWERED = ("undecided", "unsupported", "error", "missing")

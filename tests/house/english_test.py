@@ -20,7 +20,7 @@ HABITS = {
 MEANT = 10
 NOT_READ = re.compile(r"docs/(?:league|report|gallery)/|data/.*(?<!\.md)$")
 # There a string is data. In the last three it is also copied into golden sets, which are committed.
-DATA = ("tests/", "python/tests/", "cases/families/", "cases/bad_queries.cpp", "golden/sets.cpp")
+DATA = ("tests/", "python/tests/", "fuzz/families/", "question/cases/bad_queries.cpp", "judge/golden/sets.cpp")
 
 
 def language(comment, string="(?!)", title="(?!)"):

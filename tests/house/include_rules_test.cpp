@@ -77,16 +77,17 @@ const std::vector<Room> kHouse{
      {}},
     // From here on the oracle is seen by its public headers, and its libraries not at all; but for
     // fuzz/rewording, which adds with its integers.
-    {"cases", {"src/problem", "oracle", "oracle/certified"}, {}, {"Random123/ random.cpp"}},
-    {"cases/families", {"src/problem", "oracle", "oracle/contacts"}, {"cases"}, {}},
+    {"question/cases", {"src/problem", "oracle", "oracle/certified"}, {}, {"Random123/ random.cpp"}},
+    {"fuzz/families", {"src/problem", "oracle", "oracle/contacts"}, {"question/cases"}, {}},
+    {"question/starts",
+     {"src/problem", "src/engines/batch", "oracle", "oracle/certified"},
+     {"src/problem", "src/exchange", "question/cases"},
+     {}},
+    // Theory knows problems and what the oracle says of scenes, and nothing of who flies.
     {"statistics/theory",
      {"src/problem", "oracle/contacts", "oracle/horizon"},
-     {"src/problem"},
+     {"src/problem", "question/starts"},
      {"boost/math/ fit.cpp"}},
-    {"starts",
-     {"src/problem", "src/engines/batch", "oracle", "oracle/certified"},
-     {"src/problem", "src/exchange", "cases", "statistics/theory"},
-     {}},
     {"question/precisions",
      {"src/problem", "src/engines/base"},
      {"src/engines/base", "src/engines/published"},
@@ -100,24 +101,25 @@ const std::vector<Room> kHouse{
     {"question",
      {"src/problem", "src/exchange", "src/engines/base", "src/engines/reduction", "src/engines/batch",
       "oracle", "oracle/margin", "oracle/walk", "oracle/certified", "oracle/certified_batch"},
-     {"src/problem", "src/exchange", "cases", "question/library_host", "question/precisions"},
+     {"src/problem", "src/exchange", "src/engines/published", "question/cases", "question/library_host",
+      "question/precisions"},
      {"fmt/", "fcntl.h library_program.cpp", "fcntl.h process.cpp",
       "linux/perf_event.h instruction_counter.cpp", "poll.h command_engine.cpp", "poll.h introduction.cpp",
       "signal.h process.cpp", "spawn.h process.cpp", "sys/ioctl.h instruction_counter.cpp",
       "sys/resource.h process.cpp", "sys/mman.h library_program.cpp", "sys/syscall.h instruction_counter.cpp",
       "sys/types.h process.hpp", "sys/wait.h process.cpp", "unistd.h instruction_counter.cpp",
       "unistd.h library_program.cpp", "unistd.h process.cpp"}},
-    {"files",
+    {"report/files",
      {"src/problem", "src/exchange", "oracle/contacts", "oracle/itinerary"},
      {"src/problem", "src/exchange"},
      {"fmt/", "fcntl.h beside.cpp", "signal.h signals.cpp", "sys/file.h beside.cpp", "sys/stat.h beside.cpp",
       "sys/stat.h whole_file.cpp", "unistd.h beside.cpp", "unistd.h signals.cpp", "unistd.h whole_file.cpp"}},
-    {"pictures", {"src/problem", "oracle/margin", "oracle/surroundings"}, {"src/problem"}, {"fmt/"}},
+    {"report/pictures", {"src/problem", "oracle/margin", "oracle/surroundings"}, {"src/problem"}, {"fmt/"}},
     {"report",
      {"src/problem", "src/exchange", "src/engines/batch", "oracle/horizon", "oracle/margin"},
-     {"src/problem", "src/exchange", "files", "question"},
+     {"src/problem", "src/exchange", "report/files", "question"},
      {"fmt/", "boost/math/ share.cpp", "sys/utsname.h manifest.cpp"}},
-    {"runs",
+    {"report/runs",
      {"src/problem", "src/exchange"},
      {"src/problem", "src/exchange"},
      {"fmt/", "boost/mpi.hpp world_mpi.hpp", "fcntl.h lock_file.cpp", "sqlite3.h sqlite.hpp",
@@ -125,75 +127,77 @@ const std::vector<Room> kHouse{
       "unistd.h lock_file.cpp"}},
     {"statistics/flights",
      {"src/problem", "src/exchange", "src/engines/batch", "oracle/certified_batch"},
-     {"src/problem", "src/exchange", "question", "runs", "starts", "statistics/theory", "files", "report"},
+     {"src/problem", "src/exchange", "question", "report/runs", "question/starts", "statistics/theory",
+      "report/files", "report"},
      {"fmt/", "boost/serialization/ ranks_mpi.cpp"}},
     {"statistics/chaos",
      {"src/problem", "src/engines/base", "src/engines/reduction", "src/engines/batch", "src/trajectory",
       "src/trajectory/batch"},
-     {"src/problem", "src/exchange", "starts", "statistics/theory", "report"},
+     {"src/problem", "src/exchange", "question/starts", "statistics/theory", "report"},
      {"fmt/"}},
     {"statistics/survival",
      {"src/problem", "src/engines/base", "src/trajectory", "oracle", "oracle/itinerary"},
-     {"src/problem", "src/exchange", "question", "starts", "report"},
+     {"src/problem", "src/exchange", "question", "question/starts", "report"},
      {"fmt/"}},
-    {"golden",
+    {"judge/golden",
      {"src/problem", "oracle", "oracle/contacts", "oracle/margin", "oracle/walk", "oracle/certificate",
       "oracle/certificate/check"},
-     {"src/problem", "src/exchange", "cases", "cases/families", "question", "runs", "files"},
+     {"src/problem", "src/exchange", "question/cases", "fuzz/families", "question", "report/runs",
+      "report/files"},
      {"fmt/", "sha2.h record.cpp"}},
-    {"fuzz/rewording", {"src/problem", "src/exchange"}, {"oracle/integers", "cases"}, {}},
+    {"fuzz/rewording", {"src/problem", "src/exchange"}, {"oracle/integers", "question/cases"}, {}},
     {"fuzz/examine",
-     {"src/problem", "src/engines/base", "src/engines/reduction", "src/engines/batch", "oracle",
-      "oracle/contacts", "oracle/margin", "oracle/walk", "oracle/certified", "oracle/certified_batch"},
-     {"src/problem", "src/engines/base", "src/engines/published", "cases", "cases/families", "question",
-      "fuzz/rewording"},
+     {"src/problem", "src/exchange", "src/engines/base", "oracle", "oracle/contacts", "oracle/margin"},
+     {"src/problem", "src/engines/base", "question/cases", "fuzz/families", "question", "fuzz/rewording"},
      {}},
     {"fuzz/campaign",
      {"src/problem", "src/exchange", "oracle/margin"},
-     {"src/problem", "src/exchange", "cases", "cases/families", "question", "runs", "fuzz/rewording",
-      "fuzz/examine"},
+     {"src/problem", "src/exchange", "question/cases", "fuzz/families", "question", "report/runs",
+      "fuzz/rewording", "fuzz/examine"},
      {"boost/serialization/ ranks_mpi.cpp"}},
     {"judge",
      {"src/problem", "src/exchange", "oracle", "oracle/margin"},
-     {"src/problem", "src/exchange", "cases", "cases/families", "starts", "question", "golden",
-      "fuzz/examine", "fuzz/campaign", "statistics/theory", "files", "pictures", "report"},
+     {"src/problem", "src/exchange", "question/cases", "fuzz/families", "question/starts", "question",
+      "judge/golden", "fuzz/examine", "fuzz/campaign", "statistics/theory", "report/files", "report/pictures",
+      "report"},
      {"fmt/"}},
-    // Theory knows problems and what the oracle says of scenes, and nothing of who flies.
     // No families: what a harness tries comes from its bytes alone.
-    {"fuzz/harness",
+    {"tests/harness",
      {"src/problem", "src/exchange", "src/engines/reduction", "oracle", "oracle/contacts", "oracle/margin",
       "oracle/certificate", "oracle/certificate/check", "oracle/certified"},
-     {"src/problem", "golden"},
+     {"src/problem", "judge/golden"},
      {"sys/mman.h input_file.hpp", "sys/mman.h input_file.cpp", "unistd.h input_file.cpp"}},
-    {"fitness/digests",
+    {"judge/fitness/digests",
      {"src/problem", "src/engines/base", "src/engines/reduction", "src/engines/batch", "src/trajectory",
       "src/trajectory/batch"},
-     {"cases", "starts"},
+     {"question/cases", "question/starts"},
      {}},
-    {"fitness",
+    {"judge/fitness",
      {"src/problem", "src/engines/base", "oracle", "oracle/walk", "oracle/certified", "oracle/certificate",
       "oracle/certificate/check", "oracle/itinerary"},
-     {"src/problem", "fitness/digests"},
+     {"src/problem", "judge/fitness/digests"},
      {}},
     {"cli",
      {"src/problem", "src/exchange", "src/engines/batch", "src/trajectory", "oracle", "oracle/exact",
       "oracle/contacts", "oracle/horizon", "oracle/itinerary", "oracle/margin", "oracle/walk"},
-     {"src/problem", "src/exchange", "cases", "cases/families", "question", "golden", "statistics/flights",
-      "starts", "statistics/theory", "statistics/chaos", "statistics/survival", "fuzz/examine",
-      "fuzz/campaign", "judge", "pictures", "report", "runs", "files", "fitness"},
+     {"src/problem", "src/exchange", "question/cases", "fuzz/families", "question", "judge/golden",
+      "statistics/flights", "question/starts", "statistics/theory", "statistics/chaos", "statistics/survival",
+      "fuzz/examine", "fuzz/campaign", "judge", "report/pictures", "report", "report/runs", "report/files",
+      "judge/fitness"},
      {"CLI/", "fmt/", "signal.h interrupt.hpp", "unistd.h fuzz.cpp", "unistd.h output.cpp",
       "unistd.h progress.hpp", "unistd.h query_stream.cpp"}},
     {"python",
      {"src/problem", "src/exchange", "src/trajectory", "src/trajectory/batch", "oracle", "oracle/exact",
       "oracle/contacts", "oracle/horizon", "oracle/itinerary", "oracle/margin", "oracle/certificate",
       "oracle/certificate/check"},
-     {"src/problem", "question", "golden", "statistics/chaos", "statistics/flights", "statistics/survival",
-      "starts", "judge", "report", "files"},
+     {"src/problem", "question", "judge/golden", "statistics/chaos", "statistics/flights",
+      "statistics/survival", "question/starts", "judge", "report", "report/files"},
      {"pybind11/"}},
-    {"bench",
+    {"tests/bench",
      {"src/problem", "src/exchange", "src/engines/base", "src/engines/reduction", "src/engines/batch",
       "src/trajectory/batch", "oracle", "oracle/certified", "oracle/certified_batch"},
-     {"src/engines/published", "cases/families", "starts", "question", "fuzz/examine", "fuzz/campaign"},
+     {"src/engines/published", "fuzz/families", "question/starts", "question", "fuzz/examine",
+      "fuzz/campaign"},
      {"fmt/", "benchmark/ first_hit_benchmark.cpp"}},
 };
 
@@ -333,14 +337,64 @@ TEST_CASE("The table names rooms above only, each once, and all that have source
     INFO(room.folder);
     CHECK(above.insert(room.folder).second);
   }
-  for (const char* floor :
-       {"src", "oracle", "cases", "statistics/flights", "statistics/chaos", "question", "golden", "fuzz",
-        "judge", "pictures", "report", "fitness", "cli", "python", "bench"})
+  for (const char* floor : {"src", "oracle", "question/cases", "statistics/flights", "statistics/chaos",
+                            "question", "judge/golden", "fuzz", "judge", "report/pictures", "report",
+                            "judge/fitness", "cli", "python", "tests/bench"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / floor))
       if (is_source(entry.path())) {
         INFO(entry.path());
         CHECK(above.contains(fs::relative(entry.path().parent_path(), kRoot)));
       }
+}
+
+std::string door_of(const std::string& folder) {
+  return folder.substr(0, folder.find('/'));
+}
+
+// A line for each folder at the top that the table has: what it uses. Folders stand above all that they use.
+std::string picture() {
+  std::vector<std::string> doors, drawn;
+  std::map<std::string, std::set<std::string>> used;
+  for (const Room& room : kHouse) {
+    const std::string door = door_of(room.folder);
+    if (std::ranges::count(doors, door) == 0) doors.push_back(door);
+    for (const Names& names : {room.open_doors, room.inside})
+      for (const std::string& name : names)
+        if (door_of(name) != door) used[door].insert(door_of(name));
+  }
+  std::string text;
+  while (!doors.empty()) {
+    const auto next = std::ranges::find_if(doors, [&](const std::string& door) {
+      return std::ranges::all_of(used[door],
+                                 [&](const std::string& one) { return std::ranges::count(drawn, one) > 0; });
+    });
+    if (next == doors.end()) return "a circle among " + doors.front() + " and others";
+    std::string line = *next + std::string(12 - next->size(), ' ');
+    for (auto one = drawn.rbegin(); one != drawn.rend(); ++one)
+      if (used[*next].contains(*one)) line += (line.ends_with(' ') ? "uses " : ", ") + *one;
+    line.erase(line.find_last_not_of(' ') + 1);
+    text = line + '
+' + text; drawn.push_back(*next); doors.erase(next);
+  }
+  return text;
+}
+
+TEST_CASE("The picture in CONTRIBUTING is drawn from the table, and no arrow points up", "[house]") {
+  std::ifstream in(kRoot / "CONTRIBUTING.md");
+  std::stringstream text;
+  text << in.rdbuf();
+  const std::string drawn = picture();
+  INFO(drawn);
+  CHECK(text.str().find("```\n" + drawn + "```\n") != std::string::npos);
+}
+
+TEST_CASE("At most fourteen doors", "[house]") {
+  std::size_t doors = 0;
+  for (const auto& entry : fs::directory_iterator(kRoot)) {
+    const std::string name = entry.path().filename();
+    doors += entry.is_directory() && !name.starts_with('.') && !name.starts_with("build");
+  }
+  CHECK(doors <= 14);
 }
 
 TEST_CASE("Public headers show their room's open doors and the standard library", "[house]") {

@@ -21,7 +21,7 @@ file(REMOVE_RECURSE ${SCRATCH})
 set(prefix ${SCRATCH}/installed)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 
-run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE}/examples/consumer -B ${SCRATCH}/consumer -DCMAKE_PREFIX_PATH=${prefix}
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE}/docs/examples/consumer -B ${SCRATCH}/consumer -DCMAKE_PREFIX_PATH=${prefix}
   "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror")
 run(${CMAKE_COMMAND} --build ${SCRATCH}/consumer)
 run(${SCRATCH}/consumer/library)
@@ -33,7 +33,7 @@ run(${prefix}/bin/lorentz scene list)
 prints("cubic")
 # A library of an author's, by the installed header alone.
 run(${COMPILER} -x c -std=c99 -Wall -Wextra -Wpedantic -Werror -O1 -shared -fPIC -I ${prefix}/include
-  ${SOURCE}/examples/library_engine.c -o ${SCRATCH}/mine.so -lm)
+  ${SOURCE}/docs/examples/library_engine.c -o ${SCRATCH}/mine.so -lm)
 run(${prefix}/bin/lorentz compare --scene cubic --count 20 --engine lib:${SCRATCH}/mine.so)
 prints("no wrong answer in 20")
 foreach(page man/man1/lorentz.1 man/man1/lorentz-scene-draw.1 bash-completion/completions/lorentz
@@ -66,7 +66,7 @@ prints("no component orcale; lorentz has")
 set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
 run(pkg-config --define-prefix --cflags --libs lorentz-engine)
 separate_arguments(flags UNIX_COMMAND "${output}")
-run(${COMPILER} -std=c++20 ${SOURCE}/examples/engine_only.cpp -o ${SCRATCH}/by_pkg_config ${flags})
+run(${COMPILER} -std=c++20 ${SOURCE}/docs/examples/engine_only.cpp -o ${SCRATCH}/by_pkg_config ${flags})
 run(${SCRATCH}/by_pkg_config)
 prints("cell \\(27, 1\\)")
 

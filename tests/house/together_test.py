@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""together_test.py BUILD: sources that are compiled together (cmake/LorentzLibrary.cmake) mean what each means by itself.
+"""together_test.py BUILD: sources that are compiled together (packaging/cmake/LorentzLibrary.cmake) mean what each means by itself.
 
 A name of one source's unnamed namespace is seen by those that are compiled behind it. Where it is a name of theirs, too,
 the compiler may take the one for the other, and of two functions it does so without a word. So no such name may stand in

@@ -13,8 +13,8 @@ MOST_SHARED_NAMES = 19
 TYPE = re.compile(r"^\s*(?:struct|class|enum class|enum|union)\s+(?:\[\[\w+\]\]\s+)?(\w+)(?:\s+final)?\s*(?::[^:;{]*)?\{", re.MULTILINE)
 # A key of JSON with a value put behind it: `"{\"id\":" + id`, `",\"x\":{}"`.
 GLUED = re.compile(r'\\"\w+\\":(?:"|\{\}|\[\{\}|\\"\{)')
-TEXTS_OF_THEIR_OWN = {"cases/bad_queries.cpp",  # bad on purpose
-                      "golden/production.cpp"}  # reads what begins so
+TEXTS_OF_THEIR_OWN = {"question/cases/bad_queries.cpp",  # bad on purpose
+                      "judge/golden/production.cpp"}  # reads what begins so
 
 
 def sources():

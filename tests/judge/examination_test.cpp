@@ -10,7 +10,7 @@
 
 #include "judge/simplest.hpp"
 #include "question/engines.hpp"
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz;

@@ -10,14 +10,14 @@
 #include <thread>
 
 #include <lorentz/geometry.hpp>
-#include "cases/families/target.hpp"
-#include "files/scene_file.hpp"
 #include "fuzz/examine/shrink.hpp"
-#include "golden/find_sets.hpp"
+#include "fuzz/families/target.hpp"
+#include "judge/golden/find_sets.hpp"
 #include "judge/questions.hpp"
 #include "judge/simplest.hpp"
 #include "question/engines.hpp"
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
+#include "report/files/scene_file.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "fuzz/examine/shrink.hpp"
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 
 using namespace lorentz;
 using namespace lorentz::judge;

@@ -35,7 +35,7 @@ def of_proof(tree):
     """Without what needs the proofs themselves, compiled."""
     for name in re.findall(r"(?m)^class (\w+)\(", (tree / "proof" / "checker_test.py").read_text()):
         if name != "WrongSpecifications":
-            yield Test(f"proof/checker_test.py {name}", ("python3", "proof/checker_test.py", name), str(tree))
+            yield Test(f"oracle/proof/checker_test.py {name}", ("python3", "oracle/proof/checker_test.py", name), str(tree))
 
 
 def of_python(tree, installed):

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include <lorentz/oracle.hpp>
-#include "cases/families/family.hpp"
+#include "fuzz/families/family.hpp"
 #include "tests/support/journeys.hpp"
 
 using namespace lorentz;

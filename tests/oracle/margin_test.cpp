@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <lorentz/oracle.hpp>
-#include "starts/free_starts.hpp"
+#include "question/starts/free_starts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

@@ -5,7 +5,7 @@
 
 #include <lorentz/certificate_check.hpp>
 #include <lorentz/oracle.hpp>
-#include "cases/families/family.hpp"
+#include "fuzz/families/family.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

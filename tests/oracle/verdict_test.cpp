@@ -10,7 +10,7 @@
 
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
-#include "cases/families/family.hpp"
+#include "fuzz/families/family.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

@@ -1,6 +1,6 @@
 // Drawings of findings: what the inset measures against numbers known by hand, places that binary64 cannot
 // hold, and that whatever is asked the drawing is one.
-#include "pictures/finding_drawing.hpp"
+#include "report/pictures/finding_drawing.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -10,8 +10,8 @@
 #include <set>
 
 #include <lorentz/surroundings.hpp>
-#include "golden/reader.hpp"
-#include "pictures/finding_parts.hpp"
+#include "judge/golden/reader.hpp"
+#include "report/pictures/finding_parts.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

@@ -4,7 +4,7 @@
 #include <regex>
 
 #include <lorentz/oracle.hpp>
-#include "pictures/finding_drawing.hpp"
+#include "report/pictures/finding_drawing.hpp"
 #include "tests/pictures/measures.hpp"
 
 using namespace lorentz;

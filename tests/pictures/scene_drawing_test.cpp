@@ -1,12 +1,12 @@
 // Pictures: what is in front, what is hidden, what is left out.
-#include "pictures/scene_drawing.hpp"
+#include "report/pictures/scene_drawing.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <lorentz/geometry.hpp>
-#include "pictures/conventional_cell.hpp"
-#include "pictures/drawing_parts.hpp"
-#include "pictures/free_ways_3d.hpp"
+#include "report/pictures/conventional_cell.hpp"
+#include "report/pictures/drawing_parts.hpp"
+#include "report/pictures/free_ways_3d.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

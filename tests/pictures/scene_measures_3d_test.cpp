@@ -5,7 +5,7 @@
 #include <set>
 
 #include <lorentz/oracle.hpp>
-#include "pictures/scene_drawing.hpp"
+#include "report/pictures/scene_drawing.hpp"
 #include "tests/pictures/crowd.hpp"
 
 using namespace lorentz;

@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-#include "cases/random.hpp"
+#include "question/cases/random.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include <lorentz/exchange.hpp>
-#include "cases/random.hpp"
+#include "question/cases/random.hpp"
 #include "report/bench_report.hpp"
 #include "report/curves.hpp"
 #include "report/query_text.hpp"

@@ -7,7 +7,7 @@
 
 #include <lorentz/trajectory.hpp>
 #include <lorentz/trajectory_batch.hpp>
-#include "starts/candidates.hpp"
+#include "question/starts/candidates.hpp"
 #include "statistics/chaos/groups.hpp"
 #include "statistics/chaos/theory.hpp"
 #include "statistics/theory/laws.hpp"

@@ -2,7 +2,7 @@
 // flights COUNT SEED draws flights; flights reads such lines and prints what the engine says and what it computed on
 // the way, as the model does (flights.ml).
 //
-// `make -C proof same_bits FLIGHTS=1000000` compares the two on a million flights; ./run proof on fewer.
+// `make -C oracle/proof same_bits FLIGHTS=1000000` compares the two on a million flights; ./run proof on fewer.
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>

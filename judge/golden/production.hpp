@@ -1,0 +1,62 @@
+// Makes sets: many records on several threads, in an order that does not depend on the threads. Work that was
+// stopped can be continued.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "judge/golden/sets.hpp"
+#include "report/runs/piece_store.hpp"
+
+namespace lorentz::golden {
+
+/// Given questions, each only once.
+struct GivenQuestions {
+  explicit GivenQuestions(Header its_header) : header(std::move(its_header)) {}
+
+  Header header;  ///< of the set that is made from them
+  std::vector<SetQuestion> questions;
+  bool look = false;  ///< look for tags_seen, which are added
+
+  /// Adds the question and returns true; if it exists already, adds only its new tags and returns false.
+  bool add(SetQuestion question);
+
+ private:
+  std::map<std::string, std::size_t> by_id_;
+};
+
+struct Order {
+  const Set* set = nullptr;
+  std::uint64_t count = 0, seed = 0;
+  std::uint64_t jobs = 1;
+  const GivenQuestions* given = nullptr;  ///< used instead of a set
+};
+
+/// Counts of the records made for an order.
+struct RecordCounts {
+  std::uint64_t records = 0, walked = 0, hits = 0, insides = 0, nevers = 0, errors = 0;
+  std::uint64_t needing_judge = 0;
+  std::uint64_t left_out = 0;  ///< given questions whose proof needs more steps than a checker allows
+};
+
+/// Called from time to time with the number of records made.
+using OnProgress = std::function<void(std::uint64_t)>;
+
+/// The header of the set of an order.
+Header header_of(const Order& order);
+
+/// The plan with which a store of its batches begins.
+runs::Plan plan_of(const Order& order);
+
+/// Makes the set and passes its text to `write`, line by line, from the header on. A set takes constant
+/// memory besides 8 bytes per record (no id comes twice); given questions and their records are all in
+/// memory. `kept` is a store of plan_of(order): batches that it has are not made again, and the others are
+/// added. Throws std::logic_error if the opinions about an answer differ.
+RecordCounts produce(const Order& order, const std::function<void(std::string_view)>& write,
+                     const OnProgress& progress, runs::PieceStore* kept = nullptr);
+
+}  // namespace lorentz::golden

@@ -1,0 +1,46 @@
+// Reads golden sets, line by line.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "judge/golden/record.hpp"
+
+namespace lorentz::golden {
+
+/// A record with its place and its query.
+struct ReadRecord {
+  Record record;
+  std::size_t line = 0;
+  std::optional<Query> query;  ///< nothing: the question is invalid; `flaw` says why
+  std::string flaw;
+  std::string text;  ///< the line
+};
+
+class Reader {
+ public:
+  /// Opens a set and reads its header. Throws FileError, or InputError with the line.
+  explicit Reader(const std::string& path);
+  /// The same for a set in memory, which messages call `name`.
+  Reader(std::string_view text, std::string name);
+  ~Reader();
+
+  const std::string& path() const;
+  const Header& header() const;
+
+  /// Reads the next record; false at the end. Throws InputError with the line for an invalid record.
+  bool next(ReadRecord& record);
+
+  /// The scene of the record, and its line without the line end. Each new scene has another number.
+  const Scene& scene() const;
+  const std::string& scene_line() const;
+  std::size_t scene_number() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lorentz::golden

@@ -1,0 +1,200 @@
+// The common parts of 2D and 3D pictures.
+#include "report/pictures/scene_drawing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <lorentz/errors.hpp>
+#include <lorentz/geometry.hpp>
+#include "report/pictures/drawing_parts.hpp"
+
+namespace lorentz::pictures {
+
+// Reduces pairs of vectors until none gets shorter, so that few cells are examined.
+std::array<Vec, 3> short_vectors(const Lattice& lattice, int dimension) {
+  std::array<Vec, 3> u = lattice.vectors;
+  constexpr int kMostSteps = 10'000;
+  bool shorter = true;
+  for (int step = 0; step < kMostSteps && shorter; ++step) {
+    shorter = false;
+    for (int i = 0; i < dimension; ++i)
+      for (int k = 0; k < dimension; ++k) {
+        const double share = i == k ? 0 : std::round(dot(u[i], u[k]) / dot(u[k], u[k]));
+        if (share == 0) continue;
+        const Vec next = plus(u[i], -share, u[k]);
+        if (!(dot(next, next) < dot(u[i], u[i]) * (1 - 1e-9))) continue;
+        u[i] = next;
+        shorter = true;
+      }
+  }
+  return u;
+}
+
+namespace {
+
+double reach_of(const Atom& atom, int dimension) {
+  return principal_semiaxes(atom, dimension)[0];
+}
+
+// The largest number of cells that are examined, whatever the scene is.
+constexpr double kMostCells = 300'000;
+
+// Adds one atom's obstacles in the box.
+void add_obstacles(const Scene& scene, Placed obstacle, const std::array<Vec, 3>& u, const Extent& box,
+                   std::vector<Placed>& found, bool& cut) {
+  const int d = scene.dimension;
+  const Atom& atom = scene.lattices[obstacle.lattice].atoms[obstacle.atom];
+  const double reach = reach_of(atom, d);
+  const std::array<Vec, 3> rows = dual_of(u, d);
+  const Vec middle = box.centre();
+  std::array<std::int64_t, 3> first{}, last{};
+  double cells = 1;
+  for (int i = 0; i < d; ++i) {
+    double at = 0, half = 0;
+    for (int k = 0; k < d; ++k) {
+      at += rows[i][k] * (middle[k] - atom.position[k]);
+      half += std::fabs(rows[i][k]) * ((box.high[k] - box.low[k]) / 2 + reach);
+    }
+    if (!(std::fabs(at) + half < 1e15))
+      throw InputError("this is too far from the origin, or too fine, to be drawn");
+    if (i >= scene.lattices[obstacle.lattice].rank(d)) continue;  // the lattice does not repeat there
+    first[i] = static_cast<std::int64_t>(std::ceil(at - half));
+    last[i] = static_cast<std::int64_t>(std::floor(at + half));
+    cells *= 2 * half + 1;
+  }
+  if (cells > kMostCells) {
+    cut = true;
+    return;
+  }
+  for (std::int64_t i = first[0]; i <= last[0]; ++i)
+    for (std::int64_t k = first[1]; k <= last[1]; ++k)
+      for (std::int64_t m = first[2]; m <= last[2]; ++m) {
+        for (int c = 0; c < 3; ++c)
+          obstacle.centre[c] = atom.position[c] + static_cast<double>(i) * u[0][c] +
+                               static_cast<double>(k) * u[1][c] +
+                               (d == 3 ? static_cast<double>(m) * u[2][c] : 0);
+        if (box.contains(obstacle.centre, reach)) found.push_back(obstacle);
+      }
+}
+
+}  // namespace
+
+void Extent::include(const Vec& point, double margin) {
+  for (int k = 0; k < 3; ++k) {
+    low[k] = std::min(low[k], point[k] - margin);
+    high[k] = std::max(high[k], point[k] + margin);
+  }
+}
+
+bool Extent::contains(const Vec& point, double margin) const {
+  for (int k = 0; k < 3; ++k)
+    if (point[k] < low[k] - margin || point[k] > high[k] + margin) return false;
+  return true;
+}
+
+Vec Extent::centre() const {
+  return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
+}
+
+std::vector<Placed> obstacles_in(const Scene& scene, const Extent& box, bool& cut) {
+  std::vector<Placed> found;
+  cut = false;
+  for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l) {
+    const std::array<Vec, 3> u = short_vectors(scene.lattices[l], scene.dimension);
+    for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a)
+      add_obstacles(scene, {l, a, {}}, u, box, found, cut);
+  }
+  return found;
+}
+
+void thin_out(std::vector<Placed>& obstacles, const Vec& centre, std::vector<std::string>& remarks) {
+  if (obstacles.size() <= kMostDrawn) return;
+  const auto distance2 = [&](const Placed& a) {
+    const Vec arm = plus(a.centre, -1, centre);
+    return dot(arm, arm);
+  };
+  remarks.push_back(fmt::format("the picture would hold {} obstacles; the {} nearest to its middle are drawn",
+                                obstacles.size(), kMostDrawn));
+  std::sort(obstacles.begin(), obstacles.end(),
+            [&](const Placed& a, const Placed& b) { return distance2(a) < distance2(b); });
+  obstacles.resize(kMostDrawn);
+}
+
+double cell_size(const Scene& scene) {
+  const Scene whole = with_cells(scene);
+  return std::pow(cell_volume(whole.lattices[0], whole.dimension), 1.0 / whole.dimension);
+}
+
+Vec cell_at(const Scene& scene, const Vec& point) {
+  return cell_at(scene, scene.lattices[0].vectors, point, 1);
+}
+
+Vec cell_at(const Scene& scene, const std::array<Vec, 3>& u, const Vec& point, double cells) {
+  const Lattice& lattice = scene.lattices[0];
+  const auto rows = dual_of(u, scene.dimension);
+  Vec corner{};
+  for (int i = 0; i < scene.dimension; ++i) {
+    const bool repeats = i < lattice.rank(scene.dimension);
+    const double n =
+        repeats ? std::floor(dot(rows[i], point)) : dot(rows[i], lattice.atoms[0].position) - cells / 2;
+    corner = sum(corner, scaled(u[i], n));
+  }
+  return corner;
+}
+
+std::size_t colour_index(const Scene& scene, const Placed& obstacle) {
+  std::size_t index = static_cast<std::size_t>(obstacle.atom);
+  for (int l = 0; l < obstacle.lattice; ++l) index += scene.lattices[l].atoms.size();
+  return index;
+}
+
+// Colours that colour-blind people can tell apart, after Paul Tol's "muted" and "bright" schemes.
+const Colour& colour(std::size_t index) {
+  static constexpr Colour kColours[] = {{"#4477aa", "#284b70", "#b9d0e8"}, {"#ddaa33", "#8a6514", "#f7e3b0"},
+                                        {"#44aa88", "#1f6650", "#b8e6d6"}, {"#aa4499", "#6b2460", "#e8bfe1"},
+                                        {"#88a030", "#55661a", "#dbe6ae"}, {"#cc6677", "#8a3342", "#f3cdd3"},
+                                        {"#66ccee", "#2a7f9c", "#d3f1fb"}, {"#777777", "#444444", "#dddddd"},
+                                        {"#bb7744", "#754520", "#eed3bf"}, {"#6655bb", "#3a2d7d", "#cfc8f0"}};
+  return kColours[index % std::size(kColours)];
+}
+
+// M M^T = [[p, q], [q, s]] has the squared semiaxes as eigenvalues.
+EllipseShape ellipse_of(const Vec& m1, const Vec& m2) {
+  const double p = dot(m1, m1), q = dot(m1, m2), s = dot(m2, m2);
+  const double mean = (p + s) / 2, spread = std::hypot((p - s) / 2, q);
+  const Vec normal = cross(m1, m2);
+  const double major2 = mean + spread, minor2 = dot(normal, normal) / major2;
+  const double angle = spread > 1e-12 * mean ? std::atan2(2 * q, p - s) / 2 : 0;
+  return {std::sqrt(major2), spread > 1e-12 * mean ? std::sqrt(minor2) : std::sqrt(major2), angle};
+}
+
+EllipseShape shadow_of(const Atom& atom, int dimension, const Vec& right, const Vec& up) {
+  const auto columns = semiaxes_of(atom, dimension);
+  return ellipse_of(coordinates(columns, right), coordinates(columns, up));
+}
+
+EllipseShape to_scale(const EllipseShape& shape, double scale, double smallest) {
+  if (shape.rx * scale < smallest) return {smallest, smallest, 0};
+  return {shape.rx * scale, shape.ry * scale, -shape.angle};
+}
+
+Scene with_cells(Scene scene) {
+  const int d = scene.dimension;
+  for (Lattice& lattice : scene.lattices) {
+    double size = 0;
+    for (const Atom& atom : lattice.atoms)
+      size = std::max(size, length(plus(atom.position, -1, lattice.atoms[0].position)) + reach_of(atom, d));
+    const int rank = lattice.rank(d);
+    complete_perpendicularly(lattice.vectors, rank, d);
+    for (int i = rank; i < d; ++i) lattice.vectors[i] = scaled(lattice.vectors[i], 3 * size);
+  }
+  return scene;
+}
+
+Drawing draw_scene(const Scene& given, const DrawOptions& options, const std::vector<DrawnFlight>& flights) {
+  const Scene scene = with_cells(given);
+  return scene.dimension == 2 ? draw_scene_2d(scene, options, flights)
+                              : draw_scene_3d(scene, options, flights);
+}
+
+}  // namespace lorentz::pictures

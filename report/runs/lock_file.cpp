@@ -1,0 +1,74 @@
+#include "report/runs/lock_file.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+
+#include <lorentz/errors.hpp>
+#include "src/problem/write_error.hpp"
+
+namespace lorentz::runs {
+
+namespace {
+
+// Also follows a link to a file that does not exist yet.
+std::string without_links(const std::string& file) {
+  namespace fs = std::filesystem;
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  fs::path place = file;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(place, error); ++i)
+    place = place.parent_path() / fs::read_symlink(place, error);
+  place = fs::weakly_canonical(place, error);
+  return error ? file : place.string();
+}
+
+}  // namespace
+
+LockFile::LockFile(const std::string& file, bool writes, const std::string& busy)
+    : path_(without_links(file) + ".lock"), writes_(writes) {
+  do {
+    close();
+    const int flags = (writes_ ? O_RDWR | O_CREAT : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW;
+    lock_ = ::open(path_.c_str(), flags, 0666);
+    if (lock_ == -1 && !writes_) return;
+    if (lock_ == -1) throw write_error(path_, errno);
+    if (writes_ && !is_empty_file())
+      fail(path_ + ": is there and is not a lock of this program; move it away, or name another store");
+    if (::flock(lock_, (writes_ ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) fail(file + ": " + busy);
+  } while (!is_the_one_there());
+}
+
+LockFile::~LockFile() {
+  if (writes_) ::unlink(path_.c_str());
+  close();
+}
+
+// A lock is empty. A file with content belongs to the user, and would be removed.
+bool LockFile::is_empty_file() const {
+  struct stat ours {};
+  return ::fstat(lock_, &ours) == 0 && S_ISREG(ours.st_mode) && ours.st_size == 0;
+}
+
+// False if another process removed the file between our opening and locking it.
+bool LockFile::is_the_one_there() const {
+  struct stat ours {
+  }, there{};
+  return ::fstat(lock_, &ours) == 0 && ::stat(path_.c_str(), &there) == 0 && ours.st_ino == there.st_ino;
+}
+
+void LockFile::close() {
+  ::close(lock_);  // -1 is refused without further effect
+}
+
+// If a constructor throws, its destructor does not run.
+void LockFile::fail(const std::string& what) {
+  close();
+  throw FileError(what);
+}
+
+}  // namespace lorentz::runs
