@@ -1,8 +1,8 @@
 // The program as its users call it, whatever the subcommand: usage, names, files, output that fails.
+#include "tests/support/command_line.hpp"
 #include "cli/fuzz.hpp"
 #include "report/files/messages.hpp"
 #include "report/query_text.hpp"
-#include "tests/support/command_line.hpp"
 
 #include <catch2/catch.hpp>
 

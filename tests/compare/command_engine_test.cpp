@@ -831,8 +831,9 @@ TEST_CASE("A hundred thousand queries through the pipes are answered as without 
 
 TEST_CASE("The examples agree with the oracle", "[compare][command_engine]") {
   const Folder folder;
-  for (const std::string engine : {"'cmd:" LORENTZ_PYTHON " " LORENTZ_SOURCE_DIR "/docs/examples/naive_engine.py'",
-                                   "cmd:" LORENTZ_NAIVE_ENGINE})
+  for (const std::string engine :
+       {"'cmd:" LORENTZ_PYTHON " " LORENTZ_SOURCE_DIR "/docs/examples/naive_engine.py'",
+        "cmd:" LORENTZ_NAIVE_ENGINE})
     for (const std::string scene : {"square", "cubic"}) {
       const Run run =
           folder.lorentz("compare --json --scene " + scene + " --radius 0.1 --count 30 --engine " + engine);
@@ -861,8 +862,9 @@ TEST_CASE("The examples read their streams properly", "[compare][command_engine]
                  R"({"id": "l", "outcome": "hit", "time": 0.5, "lattice": 0, "atom": 0, "cell": [1, 0]})"));
   CHECK(contains(out, R"({"id": "i", "outcome": "inside", "lattice": 0, "atom": 0, "cell": [0, 0]})"));
   CHECK(out.ends_with("{\"id\": \"c\", \"outcome\": \"undecided\"}\n"));
-  for (const std::string engine : {"'cmd:" LORENTZ_PYTHON " " LORENTZ_SOURCE_DIR "/docs/examples/naive_engine.py'",
-                                   "cmd:" LORENTZ_NAIVE_ENGINE})
+  for (const std::string engine :
+       {"'cmd:" LORENTZ_PYTHON " " LORENTZ_SOURCE_DIR "/docs/examples/naive_engine.py'",
+        "cmd:" LORENTZ_NAIVE_ENGINE})
     CHECK(contains(folder.lorentz("compare --json --scene ellipse --count 10 --engine " + engine).out,
                    R"("unsupported":10)"));
   const Run crystal = folder.lorentz("compare --json --scene hcp --count 20 --engine 'cmd:" LORENTZ_PYTHON

@@ -33,7 +33,7 @@ def of_ctest(build):
 
 def of_proof(tree):
     """Without what needs the proofs themselves, compiled."""
-    for name in re.findall(r"(?m)^class (\w+)\(", (tree / "proof" / "checker_test.py").read_text()):
+    for name in re.findall(r"(?m)^class (\w+)\(", (tree / "oracle" / "proof" / "checker_test.py").read_text()):
         if name != "WrongSpecifications":
             yield Test(f"oracle/proof/checker_test.py {name}", ("python3", "oracle/proof/checker_test.py", name), str(tree))
 
