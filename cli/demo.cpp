@@ -60,7 +60,6 @@ class DemoReport {
       : options_(options_for(disagreements)), lineup_(options_, options_.named_engines()) {}
 
   void add(const std::string& what, std::vector<Question> questions) {
-    lineup_.disagreements().begin(questions[0].place);
     answer_exactly(questions, Truth::oracle, terminal());
     lineup_.begin(what);
     const AskedPart part{std::move(questions)};

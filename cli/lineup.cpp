@@ -121,6 +121,7 @@ void Lineup::begin(const std::string& row) {
 }
 
 void Lineup::ask(const AskedPart& part) {
+  if (!part.questions.empty()) disagreements_.begin(part.questions[0].place);
   for (LineupEntry& one : all_)
     if (one.row) one.examination.ask(part.questions, [&](const Judged& judged) { take(judged, part, one); });
 }

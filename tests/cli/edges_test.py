@@ -51,7 +51,7 @@ def old_file(command, option):
 
 EDGES = {
     "first-hit": Edge("q.ndjson", "many.ndjson -e published-256", missing="/no/such/file"),
-    "compare": Edge("--count 100", "--count 9 --disagreements OUT -e cmd:sleep${IFS}99", ["--disagreements", "--baseline", "--junit"],
+    "compare": Edge("--count 100 -e reduction", "--count 9 --disagreements OUT -e cmd:sleep${IFS}99", ["--disagreements", "--baseline", "--junit"],
                     "--queries /no/such/file"),
     "judge": Edge("-e reduction --questions 1", "-e published",
                   ["--html", "--golden", "--baseline", "--junit"],

@@ -12,10 +12,10 @@ from pathlib import Path
 
 SOURCE = Path(sys.argv.pop(1))
 PROGRAM = sys.argv.pop(1)
-NO_PRODUCTION = ("tests", "examples", "bench", "proof", "build", "fuzz/planted")
+NO_PRODUCTION = ("tests", "docs", "oracle/proof", "build", "fuzz/planted")
 TYPE = re.compile(r"^ *(?:template <.*> *)?(?:struct|class|enum(?: class)?) +\w+(?: final)?(?: *:[^;{]*)? *\{", re.MULTILINE)
 
-LIMITS = {"lines of production C++": 70_500, "type definitions": 920, "libraries": 49, "subcommands": 32, "options": 228}
+LIMITS = {"lines of production C++": 68_900, "type definitions": 905, "libraries": 48, "subcommands": 31, "options": 227}
 
 
 def sources():
