@@ -337,14 +337,15 @@ TEST_CASE("The table names rooms above only, each once, and all that have source
     INFO(room.folder);
     CHECK(above.insert(room.folder).second);
   }
-  for (const char* floor : {"src", "oracle", "question/cases", "statistics/flights", "statistics/chaos",
-                            "question", "judge/golden", "fuzz", "judge", "report/pictures", "report",
-                            "judge/fitness", "cli", "python", "tests/bench"})
-    for (const auto& entry : fs::recursive_directory_iterator(kRoot / floor))
-      if (is_source(entry.path())) {
-        INFO(entry.path());
-        CHECK(above.contains(fs::relative(entry.path().parent_path(), kRoot)));
-      }
+  for (const char* floor :
+       {"src", "oracle", "question", "report", "statistics", "fuzz", "judge", "cli", "python", "tests/bench"})
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / floor)) {
+      const std::string folder = fs::relative(entry.path().parent_path(), kRoot);
+      if (!is_source(entry.path()) || folder.starts_with("oracle/proof"))
+        continue;  // which writes claims for Coq
+      INFO(entry.path());
+      CHECK(above.contains(folder));
+    }
 }
 
 std::string door_of(const std::string& folder) {
@@ -373,8 +374,9 @@ std::string picture() {
     for (auto one = drawn.rbegin(); one != drawn.rend(); ++one)
       if (used[*next].contains(*one)) line += (line.ends_with(' ') ? "uses " : ", ") + *one;
     line.erase(line.find_last_not_of(' ') + 1);
-    text = line + '
-' + text; drawn.push_back(*next); doors.erase(next);
+    text = line + '\n' + text;
+    drawn.push_back(*next);
+    doors.erase(next);
   }
   return text;
 }
@@ -388,13 +390,14 @@ TEST_CASE("The picture in CONTRIBUTING is drawn from the table, and no arrow poi
   CHECK(text.str().find("```\n" + drawn + "```\n") != std::string::npos);
 }
 
-TEST_CASE("At most fourteen doors", "[house]") {
-  std::size_t doors = 0;
+TEST_CASE("At most fourteen folders at the top", "[house]") {
+  std::string doors;
   for (const auto& entry : fs::directory_iterator(kRoot)) {
     const std::string name = entry.path().filename();
-    doors += entry.is_directory() && !name.starts_with('.') && !name.starts_with("build");
+    if (entry.is_directory() && !name.starts_with('.') && !name.starts_with("build")) doors += name + ' ';
   }
-  CHECK(doors <= 14);
+  INFO(doors << "\n(what git does not know: git clean -ndX)");
+  CHECK(std::ranges::count(doors, ' ') <= 14);
 }
 
 TEST_CASE("Public headers show their room's open doors and the standard library", "[house]") {
