@@ -15,7 +15,7 @@ PROGRAM = sys.argv.pop(1)
 NO_PRODUCTION = ("tests", "docs", "oracle/proof", "build", "fuzz/planted")
 TYPE = re.compile(r"^ *(?:template <.*> *)?(?:struct|class|enum(?: class)?) +\w+(?: final)?(?: *:[^;{]*)? *\{", re.MULTILINE)
 
-LIMITS = {"lines of production C++": 68_900, "type definitions": 905, "libraries": 48, "subcommands": 31, "options": 227}
+LIMITS = {"lines of production C++": 68_820, "type definitions": 887, "libraries": 48, "subcommands": 31, "options": 227}
 
 
 def sources():
