@@ -21,7 +21,7 @@ std::size_t next_number(std::size_t asked, double took) {
       std::clamp(fitting, double{kFewestAtOnce}, std::max(most, double{kFewestAtOnce})));
 }
 
-question::AnswererOptions until(question::AnswererOptions options, std::function<bool()> enough) {
+question::AnswererOptions ended_by(question::AnswererOptions options, std::function<bool()> enough) {
   options.enough = std::move(enough);
   return options;
 }
@@ -32,7 +32,7 @@ TimedExamination::TimedExamination(const JudgeOrder& order, question::AnswererOp
                                    const std::atomic<bool>& stop)
     : order_(order),
       stop_(stop),
-      examination_(order.engine, until(std::move(options), [this] { return is_over(); }), order.ulps) {}
+      examination_(order.engine, ended_by(std::move(options), [this] { return is_over(); }), order.ulps) {}
 
 std::vector<double> TimedExamination::warm_up() {
   constexpr std::size_t kTries = 3;

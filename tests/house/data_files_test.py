@@ -40,7 +40,7 @@ class Files(unittest.TestCase):
                               "square,b,1,7,4,0.25,0.1963", "square,b,0.1,7,4,2.5,1.963"])
 
     def test_the_directions(self):
-        self.same(made("docs/examples/paper-89-directions.py"), "docs/examples/paper-89-directions.queries.ndjson")
+        self.same(made("examples/paper-89-directions.py"), "examples/paper-89-directions.queries.ndjson")
 
     def test_logs(self):
         """Starts of 2D and of 3D, one of them twice, and what four programs said of them."""
@@ -55,7 +55,7 @@ x = [0.5, 0.5]; v = [1.0, 0.5]; r = 2e-1: MyE = [5, 2]; myC = [1, 90071992547409
             for name in ("tests-misc", "tests2d-example", "tests2d-example2", "tests2d-example_EvsC_ata", "tests2d-example_cap",
                          "tests3d-example", "tests3d_EvsC_ata"):
                 (pathlib.Path(folder) / (name + ".dat")).write_text(logs.get(name, ""))
-            self.assertEqual(made("docs/examples/author-logs.py", folder, folder=folder), "")
+            self.assertEqual(made("examples/author-logs.py", folder, folder=folder), "")
 
             def lines(name):
                 return [json.loads(line) for line in (pathlib.Path(folder) / (name + ".ndjson")).read_text().splitlines()]
@@ -80,7 +80,7 @@ x = [0.5, 0.5]; v = [1.0, 0.5]; r = 2e-1: MyE = [5, 2]; myC = [1, 90071992547409
             first = subprocess.run([LORENTZ, "first-hit", "queries.ndjson"], capture_output=True, text=True, cwd=folder)
             self.assertEqual(first.returncode, 0, first.stderr)
             (pathlib.Path(folder) / "tests2d-example.dat").unlink()
-            self.assertIn("tests2d-example.dat: No such file", made("docs/examples/author-logs.py", folder, folder=folder, status=1))
+            self.assertIn("tests2d-example.dat: No such file", made("examples/author-logs.py", folder, folder=folder, status=1))
 
 
 if __name__ == "__main__":
