@@ -40,7 +40,7 @@ std::vector<Option> rows_of_sources(O& o) {
   };
 }
 
-// Who is asked, and by what the answers are judged.
+// The engines, and the rules by which answers are judged.
 std::vector<Option> rows_of_engines(O& o) {
   return {
       {"-e,--engine", &o.engines, "ENGINE",

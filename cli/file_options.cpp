@@ -137,7 +137,7 @@ std::vector<NamedFile> files_of(const Command& command) {
         if (value.empty())
           throw InputError(name + ": the name is empty; give the file one, or leave the option out");
         if (value == "-" && !(option.traits & kTakesStdout))
-          throw InputError(name + ": needs a file; - is none");
+          throw InputError(name + ": needs a file, and not -");
         if (value != "-") files.push_back({name, value, true, kind_of(command, name)});
         if (name == "--store") add_companions(value, files);
       } else if (!makes_set && !value.empty()) {

@@ -147,7 +147,7 @@ double exponent_of(LimitSide bound, double extreme) {
 }
 
 // Nothing if a failing question lacks the quantity, or if the limit says nothing: that a line enters by less
-// than a radius, or that what is not far is far.
+// than a radius, or that something near is far.
 std::optional<Predicate> predicate_for(const Limit& its, const std::vector<Features>& failing) {
   constexpr double kFar = 10;
   const auto quantity = its.quantity;

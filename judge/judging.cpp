@@ -48,7 +48,7 @@ struct Terms {
     one->limit(all.left());
     return one;
   }
-  /// An examination that reports to nobody.
+  /// An examination without a listener.
   std::unique_ptr<TimedExamination> silent_examination(const question::Listener& listener = {}) const {
     Terms silent = *this;
     silent.answerer.listener = listener;

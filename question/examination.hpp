@@ -40,7 +40,7 @@ class Examination {
  public:
   /// `jobs`: threads, of an engine of this program; any other is asked in one.
   Examination(const EngineInfo& engine, const AnswererOptions& options, double ulps, std::size_t jobs = 1);
-  /// Examines what is not an engine, such as a file of answers.
+  /// Examines another source of answers, such as a file of them.
   Examination(std::string name, std::unique_ptr<Answerer> answerer, double ulps);
 
   const std::string& name() const { return name_; }

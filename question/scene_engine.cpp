@@ -33,10 +33,10 @@ void SceneEngine::fly(const QueryColumns& queries, FlightTable& flights) const {
 namespace {
 
 // Some rows, and the answers to them.
-class Rows {
+class RowsAnswered {
  public:
-  Rows(const SceneEngine& engine, const QueryRows& queries, AnswerRows& answers, std::size_t first,
-       double max_time)
+  RowsAnswered(const SceneEngine& engine, const QueryRows& queries, AnswerRows& answers, std::size_t first,
+               double max_time)
       : engine_(engine), queries_(queries), answers_(answers), first_(first), limits_(queries.max_time) {
     if (std::isinf(max_time)) return;
     limits_.resize(queries.count, kForEver);
@@ -134,7 +134,7 @@ class Rows {
 
 void SceneEngine::answer(const QueryRows& queries, AnswerRows& answers, std::size_t first, double max_time,
                          int jobs) const {
-  Rows(*this, queries, answers, first, max_time).answer(jobs);
+  RowsAnswered(*this, queries, answers, first, max_time).answer(jobs);
 }
 
 }  // namespace lorentz::question

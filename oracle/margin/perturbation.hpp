@@ -39,7 +39,7 @@ struct Centre {
         h2(velocity.v2 * c2 - s * s) {}
 };
 
-/// The most rows of one stretch that are looked at: hardly one in so many may hold a centre.
+/// The most rows of one stretch that are looked at: there may be millions without a centre.
 inline constexpr int kMostRows = 1'000'000;
 
 /// Passes to `look` the centres with |h|^2 < reach2 and low <= s <= high; in long rows, those that

@@ -204,7 +204,7 @@ TEST_CASE("`-` is standard output where that makes sense, and no file", "[cli][w
     const Run run = folder.lorentz(words);
     INFO(words << run.err);
     CHECK(run.status == 2);
-    CHECK(contains(run.err, "needs a file; - is none"));
+    CHECK(contains(run.err, "needs a file, and not -"));
   }
   CHECK_FALSE(std::filesystem::exists("-"));
 }

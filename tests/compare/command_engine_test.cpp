@@ -584,8 +584,7 @@ TEST_CASE("The last words of a program that dies are its own, not the shell's", 
   }
 }
 
-TEST_CASE("A program that writes without end what is not an answer is ended at 1 MiB of it",
-          "[compare][command_engine]") {
+TEST_CASE("A flood of bad lines ends a program at 1 MiB", "[compare][command_engine]") {
   const Folder folder;
   const std::string queries = folder.write("q", stream(3));
   for (const std::string flood :

@@ -43,7 +43,7 @@ def broken_links(document):
 
 def missing_paths(document):
     """What stands in backticks and has a folder of this project in front."""
-    for path in re.findall(r"`((?:tests|data|proof|fuzz|cmake|src|oracle|examples)/[\w./-]+)`", document.read_text()):
+    for path in re.findall(r"`((?:tests|data|fuzz|src|oracle|docs|judge|report|question|statistics|packaging|cli)/[\w./-]+)`", document.read_text()):
         if path != "oracle/proof/check" and not (ROOT / path).exists():  # which is made by ./run proof
             yield f"{document.relative_to(ROOT)}: no {path}"
 

@@ -7,7 +7,7 @@ from collections import defaultdict
 from pathlib import Path
 
 SOURCE = Path(sys.argv.pop(1))
-NOT_OURS = ("tests", "bench", "examples", "build")
+NOT_OURS = ("tests", "docs", "build")
 # Names that two files may define: each is another thing in another room.
 MOST_SHARED_NAMES = 19
 TYPE = re.compile(r"^\s*(?:struct|class|enum class|enum|union)\s+(?:\[\[\w+\]\]\s+)?(\w+)(?:\s+final)?\s*(?::[^:;{]*)?\{", re.MULTILINE)
