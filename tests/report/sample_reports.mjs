@@ -362,11 +362,13 @@ function bench() {
 export const HOSTILE =
   '<script>window.broken=1</script></script><img src=x onerror="window.broken=1">\'"`${1}\u2028\u2029\u202e\u202a\u2066\u2069\u200f\u061c<!--';
 
-// The same as the page shows it: no character turns the text round or ends a line.
-export const SHOWN = HOSTILE.replace(
-  /[\u2028-\u202e\u2066-\u2069\u200e\u200f\u061c]/g,
-  (c) => `\\u${c.charCodeAt(0).toString(16).padStart(4, "0")}`,
-);
+// A text as the page shows it: no character turns it round or ends a line.
+export const shown = (text) =>
+  text.replace(
+    /[\u2028-\u202e\u2066-\u2069\u200e\u200f\u061c]/g,
+    (c) => `\\u${c.charCodeAt(0).toString(16).padStart(4, "0")}`,
+  );
+export const SHOWN = shown(HOSTILE);
 
 function hostile() {
   const report = judge();
@@ -438,7 +440,7 @@ function timed() {
     findings: [report.findings[9], { ...report.findings[9], where: "campaign" }],
     calls: Array.from({ length: 12 }, (_, i) => ({
       decade: i - 11,
-      right: 40 * (i + 1),
+      agree: 40 * (i + 1),
       ill_posed: 0,
       wrong: i < 2 ? 10 : 0,
       undecided: 0,
@@ -448,7 +450,7 @@ function timed() {
         by: "radii from the start to the obstacle in question",
         decades: [0, 5, 9].map((decade) => ({
           decade,
-          right: 100,
+          agree: 100,
           ill_posed: 0,
           wrong: decade === 9 ? 25 : 0,
           undecided: 0,
