@@ -117,8 +117,7 @@ class Diffusion(Reported):
 
 @dataclass(frozen=True, repr=False)
 class Survival(Reported):
-    """How many collisions of trajectories are right. ``report`` is the report of `lorentz survival --json`
-   ."""
+    """How many collisions of trajectories are right. ``report`` is the report of `lorentz survival --json`."""
 
     @property
     def right(self) -> dict[int, list[int]]:
