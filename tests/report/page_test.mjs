@@ -15,6 +15,8 @@ const reports = Object.fromEntries(Object.entries(SAMPLES).map(([name, make]) =>
 const folder = mkdtempSync(join(tmpdir(), "lorentz-page-"));
 // Milliseconds of the page's thread: what else runs on the machine does not count.
 const BIG_OPENS_WITHIN = 2000;
+// Milliseconds that a busy machine may take for a download.
+const BUSY = 300_000;
 let browser;
 
 before(async () => {
@@ -434,7 +436,7 @@ test("Choices of what is shown change the chart", async () => {
 });
 
 async function downloaded(page, button) {
-  const [download] = await Promise.all([page.waitForEvent("download"), button.click()]);
+  const [download] = await Promise.all([page.waitForEvent("download", { timeout: BUSY }), button.click()]);
   return { name: download.suggestedFilename(), text: readFileSync(await download.path(), "utf8") };
 }
 
