@@ -66,7 +66,7 @@ std::vector<Question> ComparedQuestions::next(std::size_t most) {
 }
 
 // Answers are matched by id, so the ids of queries must be unique.
-void ComparedQuestions::add(Questions& questions, const Query& query, const Id& id) {
+void ComparedQuestions::add(Questions& questions, const Query& query, const Id& id, double max_time) {
   if (!options_.answers.empty() && id != "null" && !ids_.insert(id).second) {
     bad_ids_ = true;
     say("the query id {} comes twice: answers cannot be matched to its queries", id);
@@ -78,7 +78,7 @@ void ComparedQuestions::add(Questions& questions, const Query& query, const Id& 
   }
   scenes_ += std::exchange(is_new_, false);
   ++count_;
-  questions.push_back({.place = place_, .query = query, .id = id});
+  questions.push_back({.place = place_, .query = query, .id = id, .max_time = max_time});
 }
 
 std::vector<Question> ComparedQuestions::draw(std::size_t most) {
@@ -98,7 +98,7 @@ std::vector<Question> ComparedQuestions::read(std::size_t most) {
   Questions questions;
   for (GivenQuery given; questions.size() < most && given_->next(given);) {
     if (given.new_scene && !(place_ && place_->scene() == *given_->scene())) enter(*given_->scene());
-    if (given.query) add(questions, *given.query, given.id);
+    if (given.query) add(questions, *given.query, given.id, given.max_time);
   }
   return questions;
 }

@@ -43,7 +43,7 @@ class ComparedQuestions {
   void enter(const Scene& scene);
   Questions draw(std::size_t most);
   Questions read(std::size_t most);
-  void add(Questions& questions, const Query& query, const Id& id);
+  void add(Questions& questions, const Query& query, const Id& id, double max_time = question::kForEver);
 
   const ExaminationOptions& options_;
   const Claim claim_;

@@ -42,7 +42,7 @@ void DisagreementFile::add(const Judged& judged, const std::string& engine) {
   };
   file_->write(json::line_of([&](json::Members& line) {
     line.add("id", json::Raw{question.id});
-    add_query(line, question.query, components);
+    add_query(line, question.query, components, question.max_time);
     line.add("engine", engine, "verdict", verdict, "departs", judgement.departs, "expected",
              answer(question.exact), "given", answer(reply.answer));
   }));

@@ -158,7 +158,7 @@ int act_on_lines(const FirstHitOptions& options) {
         break;
       case StreamItem::Kind::query:
         order.expect(item.id, *stream.scene());
-        answerer->ask(item.id, item.query);
+        answerer->ask_until(item.id, item.query, item.max_time);
         break;
       default:
         order.bad_line(item.id, item.message);
@@ -206,7 +206,7 @@ Command first_hit_command() {
           {"--digits", Whole{&options->digits, 1, kMostDigits}, "N",
            "also print the time with N significant decimal digits (oracle)"},
           {"--max-time", Positive{&options->max_time}, "T",
-           "answer `later` if nothing is entered before time T"},
+           "answer `later` if nothing is entered before time T (of a query alone: its key max_time)"},
           {"--detail", &options->detail, "",
            "add the collision point, the outward normal and the impact parameter"},
           {"--prove", &options->prove, "",

@@ -51,7 +51,7 @@ int answer_with_proofs(QueryStream& stream, question::Answerer& answerer) {
     const Scene& scene = *stream.scene();
     if (!maker) maker.emplace(scene);
     if (!answerer.is_in(scene)) answerer.set_scene(scene);
-    answerer.ask(item.id, item.query);
+    answerer.ask_until(item.id, item.query, item.max_time);
     answerer.drain();
     const std::optional<golden::Proved> proved = proved_by(*maker, item.query);
     if (proved && same_answer(answer, proved->exact)) {

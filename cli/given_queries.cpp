@@ -41,7 +41,8 @@ bool GivenQueries::next_line(GivenQuery& given) {
       continue;
     }
     given.id = std::move(item.id);
-    if (item.kind == StreamItem::Kind::query) given.query = std::move(item.query);
+    if (item.kind == StreamItem::Kind::query)
+      given.query = std::move(item.query), given.max_time = item.max_time;
     given.line = stream_->line();
     return true;
   }
@@ -53,9 +54,6 @@ bool GivenQueries::next_row(GivenQuery& given) {
     rows_.clear();
     row_ = flaw_ = 0;
     if (!columns_->next(rows_, kRowsTogether)) return false;
-    if (!rows_.max_time.empty())
-      throw InputError(columns_->name() +
-                       ": has limits (max_time), and queries are taken without; leave the column out");
   }
   if (row_ < rows_.count) take_row(given);
   return true;
@@ -64,7 +62,8 @@ bool GivenQueries::next_row(GivenQuery& given) {
 void GivenQueries::take_row(GivenQuery& given) {
   given.id = rows_.id.empty() ? std::to_string(number_) : json_quoted(rows_.id[row_]);
   Query query = rows_.query(row_, scene_->dimension);
-  std::optional<std::string> why = flaw_of(query, *scene_);
+  if (!rows_.max_time.empty()) given.max_time = rows_.max_time[row_];
+  std::optional<std::string> why = flaw_of(query, *scene_, given.max_time);
   if (flaw_ < rows_.flaws.size() && rows_.flaws[flaw_].row == row_) why = rows_.flaws[flaw_++].message;
   ++row_, ++number_;
   if (!why)

@@ -1,6 +1,7 @@
 // Given queries: a stream of lines, or columns of one scene.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ inline bool is_columns(const std::string& path) {
 struct GivenQuery {
   Id id = "null";  ///< for columns without ids, the row number from 0
   std::optional<Query> query;
+  double max_time = std::numeric_limits<double>::infinity();
   std::string_view line;   ///< of a stream; valid until the next is read
   bool new_scene = false;  ///< the first in a scene
 };

@@ -1,6 +1,7 @@
 #include "cli/golden_questions.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <lorentz/claim.hpp>
 #include <lorentz/exchange.hpp>
@@ -122,6 +123,9 @@ golden::GivenQuestions questions_in(GivenQueries& queries, golden::Header header
   std::size_t repeated = 0;
   for (GivenQuery given; queries.next(given);) {
     if (!queries.scene()) continue;
+    if (std::isfinite(given.max_time))
+      throw InputError(fmt::format("{}: query {}: has a limit (max_time), which no record has; leave it out",
+                                   queries.name(), given.id));
     const Scene& scene = *queries.scene();
     golden::SetQuestion question{scene, golden::question_in(given.line), given.query, tags};
     if (given.id != "null") question.source_id = given.id;

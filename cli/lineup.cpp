@@ -63,8 +63,9 @@ std::string description(const Judged& judged, const std::string& engine, const A
   const Place& place = *question.place;
   const Scene& scene = place.scene();
   std::string asked = '{' + question.text + "}\n", truth, says;
-  if (question.is_query()) asked.clear(), append_query_line(asked, question.id, question.query, scene);
-  Answer exact = question.exact;
+  if (question.is_query())
+    asked.clear(), append_query_line(asked, question.id, question.query, scene, question.max_time);
+  Answer exact = question.has_limit() && is_later(question) ? Answer::later() : question.exact;
   exact.time_decimal.clear();
   append_answer_line(truth, question.id, exact, scene);
   append_answer_line(says, question.id, reply.answer, scene);

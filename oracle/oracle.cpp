@@ -31,44 +31,59 @@ void set_unit_vector(const ZVec<D>& p, const ZVec<D>& q, const Z& d, Vec& unit) 
   }
 }
 
-// The collision in the scene's own coordinates. Relative to the centre c of the obstacle, the point x + t v
-// is w = t v - c. With v2 t = s - sqrt(d) this is v2 w = (s v - v2 c) - sqrt(d) v. The normal is along w for
-// a ball, and along adj(A)^T adj(A) w for an ellipsoid.
+// One end of the chord in the scene's own coordinates, for q = v the one where the line enters the obstacle, and for
+// q = -v the one where it leaves it. Relative to the centre c of the obstacle, the point x + t v is w = t v - c. With
+// v2 t = s -+ sqrt(d) this is v2 w = (s v - v2 c) - sqrt(d) q. The normal is along w for a ball, and along
+// adj(A)^T adj(A) w for an ellipsoid.
 template <std::size_t D>
-Detail detail_of(const ExactScene<D>& scene, const ExactQuery<D>& query, const ExactEntry<D>& entry) {
+void set_end(const ExactScene<D>& scene, const ExactQuery<D>& query, const ExactEntry<D>& entry,
+             const ZVec<D>& c, ZVec<D> q, Vec& point, Vec& normal) {
   const ZVec<D>& v = query.velocity.v;
-  const ZVec<D> c = centre_of(scene, entry.lattice, entry.atom, entry.n, query.x, query.length_exponent);
-  const ExactAtom<D>& atom = scene.lattices[entry.lattice].atoms[entry.atom];
-  Detail detail;
-  ZVec<D> p, q = v;
+  ZVec<D> p;
   for (std::size_t i = 0; i < D; ++i) {
     p[i] = entry.s * v[i] - entry.v2 * c[i];
-    detail.point[i] = round_to_binary64(
-        surd(entry.s * v[i] + entry.v2 * query.x[i], v[i], entry.d, entry.v2, query.length_exponent));
+    point[i] = round_to_binary64(
+        surd(entry.s * v[i] + entry.v2 * query.x[i], q[i], entry.d, entry.v2, query.length_exponent));
   }
-  if (atom.frame) {
-    const ZMatrix<D>& to_ball = atom.frame->to_ball;
-    p = transposed(to_ball) * (to_ball * p);
-    q = transposed(to_ball) * (to_ball * q);
+  if (const auto& frame = scene.lattices[entry.lattice].atoms[entry.atom].frame) {
+    p = transposed(frame->to_ball) * (frame->to_ball * p);
+    q = transposed(frame->to_ball) * (frame->to_ball * q);
   }
-  set_unit_vector(p, q, entry.d, detail.normal);
+  set_unit_vector(p, q, entry.d, normal);
+}
+
+// `entry`: where the line meets the obstacle that the answer names.
+template <std::size_t D>
+void add_detail(const ExactScene<D>& scene, const ExactQuery<D>& query, const ExactEntry<D>& entry,
+                Answer& answer) {
+  const ZVec<D>& v = query.velocity.v;
+  const ZVec<D> c = centre_of(scene, entry.lattice, entry.atom, entry.n, query.x, query.length_exponent);
+  ZVec<D> back;
+  for (std::size_t i = 0; i < D; ++i) back[i] = -v[i];
+  answer.exit_time = round_to_binary64(query.exit_time_of(entry));
+  Detail& detail = answer.detail.emplace();
+  if (answer.outcome == Outcome::hit) set_end(scene, query, entry, c, v, detail.point, detail.normal);
+  set_end(scene, query, entry, c, back, detail.exit_point, detail.exit_normal);
   const Z& v2 = query.velocity.v2;
   const Z along = dot(v, c), across2 = v2 * dot(c, c) - along * along;  // (impact parameter)^2 v^2
   detail.impact_parameter = round_to_binary64(Quadratic{0, +1, across2 * v2, v2, query.length_exponent});
-  return detail;
 }
 
 template <std::size_t D>
 Answer first_hit(const ExactScene<D>& scene, const ExactQuery<D>& query, const Request& request) {
   const Sighting<D> seen = first_entry(scene, query);
-  if (seen.around) return Answer::inside(*seen.around);
+  if (seen.around) {
+    Answer inside = Answer::inside(*seen.around);
+    if (request.detail) add_detail(scene, query, query.meeting(scene, *seen.around), inside);
+    return inside;
+  }
   if (!seen.earliest.found()) return request.max_time ? Answer::later() : Answer::never();
   const ExactEntry<D>& entry = seen.earliest.entry();
   const Quadratic time = query.time_of(entry);
   if (request.max_time && compare(time, *request.max_time) >= 0) return Answer::later();
   Answer answer = Answer::hit({entry.lattice, entry.atom, to_cell(entry.n)}, round_to_binary64(time));
   if (request.digits > 0) answer.time_decimal = round_to_decimal(time, request.digits);
-  if (request.detail) answer.detail = detail_of(scene, query, entry);
+  if (request.detail) add_detail(scene, query, entry, answer);
   return answer;
 }
 

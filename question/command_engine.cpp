@@ -75,11 +75,15 @@ class CommandEngine final : public ExternalAnswerer {
     if (is_library_) own_time_.emplace();
   }
 
-  void ask(const Id& id, const Query& query) override { add({id, query, scene_}); }
+  void ask(const Id& id, const Query& query) override { ask_until(id, query, kForEver); }
+
+  void ask_until(const Id& id, const Query& query, double max_time) override {
+    add({id, query, scene_, std::min(max_time, limit_of(options_.request))});
+  }
 
   void ask_text(const Id& id, const std::string& question) override {
     if (is_library_) return Answerer::ask_text(id, question);
-    add({id, {}, scene_, question});
+    add({id, {}, scene_, kForEver, question});
   }
 
   void drain() override {
@@ -118,6 +122,7 @@ class CommandEngine final : public ExternalAnswerer {
     Id id;
     Query query;
     std::shared_ptr<const Scene> scene;
+    double max_time = kForEver;
     std::string text = {};     // in place of an invalid query
     bool passed_over = false;  // it got no answer
   };
@@ -168,7 +173,7 @@ class CommandEngine final : public ExternalAnswerer {
 
   static void append_line(std::string& out, const Id& id, const OpenQuery& asked) {
     if (asked.text.empty())
-      append_query_line(out, id, asked.query, *asked.scene);
+      append_query_line(out, id, asked.query, *asked.scene, asked.max_time);
     else
       out +=
           json::line_of([&](json::Members& line) { line.add("id", json::Raw{id}).add_members(asked.text); });
@@ -437,8 +442,8 @@ class CommandEngine final : public ExternalAnswerer {
     const int needed = Components(scene).of_cells(answer.obstacle.lattice);
     if (exists && components != static_cast<std::size_t>(needed))
       return fmt::format("gave a cell of {} components of a lattice of {} vectors", components, needed);
-    if (answer.outcome == Outcome::hit && !answer.time && options_.request.max_time)
-      return "gave a hit without its time, which --max-time needs";
+    if (answer.outcome == Outcome::hit && !answer.time && open_.front().max_time < kForEver)
+      return "gave a hit without its time, which a limit needs";
     return {};
   }
 
@@ -456,7 +461,8 @@ class CommandEngine final : public ExternalAnswerer {
     note_answer();
     if (run.outstanding == 0 && !run.ending) manner_ = Manner::line_by_line;
     if (manner_ == Manner::line_by_line) run.greeting = false;
-    complete(answer, open_.front().query, *open_.front().scene);
+    const OpenQuery& asked = open_.front();
+    complete(answer, asked.query, *asked.scene, asked.max_time);
     deliver_first({std::move(answer), origin});
   }
 

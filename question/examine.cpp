@@ -21,6 +21,14 @@ Judgement judgement_of_invalid(const Answer& given) {
   return {Verdict::wrong, {}, std::numeric_limits<double>::infinity()};
 }
 
+// The limit is the hit's time, within the tolerance of times.
+bool is_at_limit(const Question& question, double ulps) {
+  const Answer& exact = question.exact;
+  if (exact.outcome != Outcome::hit || ulps == 0) return false;
+  const Answer there = Answer::hit(exact.obstacle, question.max_time);
+  return !question.place->judge().judge(question.query, exact, there, ulps).wrong_time;
+}
+
 }  // namespace
 
 bool is_later(const Question& question) {
@@ -33,13 +41,16 @@ bool is_later(const Question& question) {
   return question.place->exact(question.query, request).outcome == Outcome::later;
 }
 
-Judgement judgement_of(const Question& question, const Answer& given, double ulps) {
+Judgement judgement_of(const Question& question, const Answer& given, double ulps, AtLimit at_limit) {
   if (!question.is_query()) return judgement_of_invalid(given);
   if (question.has_limit()) {
     const bool says_later = given.outcome == Outcome::later || given.outcome == Outcome::never;
-    const bool says_something = given.outcome == Outcome::hit || given.outcome == Outcome::inside;
-    if (says_later || (says_something && is_later(question)))
-      return {says_later && is_later(question) ? Verdict::agree : Verdict::wrong};
+    const bool names_obstacle = given.outcome == Outcome::hit || given.outcome == Outcome::inside;
+    if (says_later && is_later(question)) return {Verdict::agree};
+    if (says_later && at_limit == AtLimit::excused && is_at_limit(question, ulps))
+      return {Verdict::ill_posed};
+    if (says_later || (names_obstacle && at_limit == AtLimit::exact && is_later(question)))
+      return {Verdict::wrong, {}, std::numeric_limits<double>::infinity()};
   }
   // Equal answers need no judge, and many scenes never get one.
   const Answer& exact = question.exact;

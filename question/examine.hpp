@@ -13,9 +13,16 @@ namespace lorentz::question {
 void ask_all(const Source& source, Answerer& answerer,
              const std::function<void(const Question&, Reply&)>& take);
 
-/// Judges an answer with the tolerance `ulps`. An invalid question must be answered with `error`. No answer
-/// is ill-posed at the question's limit, because an engine that is asked with a limit knows its times.
-oracle::Judgement judgement_of(const Question& question, const Answer& given, double ulps);
+/// How a hit at the question's limit is judged.
+enum class AtLimit {
+  excused,  ///< a hit beyond the limit is as right as it is without a limit, and `later` is ill-posed if the limit is
+            ///< within the tolerance of the hit's time
+  exact  ///< `later` is right if and only if nothing is entered before the limit, and nothing else is right then
+};
+
+/// Judges an answer with the tolerance `ulps`. An invalid question must be answered with `error`.
+oracle::Judgement judgement_of(const Question& question, const Answer& given, double ulps,
+                               AtLimit at_limit = AtLimit::excused);
 
 /// The same of a reply: `missing` without an answer, because the question was not asked or an external engine
 /// failed on it.

@@ -84,8 +84,9 @@ Reply ExternalAnswerer::not_asked() const {
           Origin::not_asked};
 }
 
-void ExternalAnswerer::complete(Answer& answer, const Query& query, const Scene& scene) const {
-  if (options_.request.max_time) answer = limited(std::move(answer), *options_.request.max_time);
+void ExternalAnswerer::complete(Answer& answer, const Query& query, const Scene& scene,
+                                double max_time) const {
+  answer = limited(std::move(answer), max_time);
   if (options_.request.detail) add_detail(query, scene, answer);
 }
 

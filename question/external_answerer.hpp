@@ -49,7 +49,7 @@ class ExternalAnswerer : public Answerer {
   /// For a query that was not waited for, because it was enough.
   Reply not_awaited() const { return {error("was not waited for: the time was over"), Origin::not_asked}; }
   /// Adds to an answer what is requested and the engine does not give.
-  void complete(Answer& answer, const Query& query, const Scene& scene) const;
+  void complete(Answer& answer, const Query& query, const Scene& scene, double max_time) const;
 
   const AnswererOptions options_;
   bool failed_ = false, ever_answered_ = false;

@@ -5,6 +5,7 @@
 #include <lorentz/certified_batch.hpp>
 #include <lorentz/collision.hpp>
 #include <lorentz/engine.hpp>
+#include <lorentz/geometry.hpp>
 #include <lorentz/walk.hpp>
 #include "question/both_ways.hpp"
 #include "question/engines.hpp"
@@ -14,12 +15,15 @@
 namespace lorentz::question {
 
 void add_detail(const Query& query, const Scene& scene, Answer& answer) {
-  if (answer.outcome != Outcome::hit || !answer.time) return;
-  if (flaw_of(Query{query.x, query.v, answer.obstacle}, scene)) return;
+  const bool has_obstacle =
+      answer.outcome == Outcome::inside || (answer.outcome == Outcome::hit && answer.time);
+  if (!has_obstacle || flaw_of(Query{query.x, query.v, answer.obstacle}, scene)) return;
   const Detail detail = collision_detail(scene, query, answer);
   // No detail is added outside the range of binary64. The oracle has it.
-  if (std::isfinite(detail.point[0] + detail.point[1] + detail.point[2] + detail.impact_parameter))
-    answer.detail = detail;
+  const Vec all = sum(sum(detail.point, detail.exit_point), sum(detail.normal, detail.exit_normal));
+  if (!std::isfinite(all[0] + all[1] + all[2] + detail.impact_parameter)) return;
+  answer.detail = detail;
+  if (!answer.exit_time) answer.exit_time = exit_time(scene, query, answer);
 }
 
 namespace {

@@ -54,7 +54,8 @@ Examined Examiner::judge_exact(const Question& question, Reply& reply) {
   constexpr Kind kKindOf[] = {Kind::agree,       Kind::agree, Kind::wrong, Kind::undecided,
                               Kind::unsupported, Kind::error, Kind::error};
   static_assert(std::size(kKindOf) == static_cast<std::size_t>(oracle::Verdict::missing) + 1);
-  const oracle::Judgement judgement = question::judgement_of(question, reply.answer, ulps_);
+  const oracle::Judgement judgement =
+      question::judgement_of(question, reply.answer, ulps_, question::AtLimit::exact);
   const bool says = reply.answer.outcome != Outcome::undecided && reply.answer.outcome != Outcome::error;
   Examined one;
   one.departs = judgement.departs;

@@ -22,12 +22,15 @@ enum class Outcome {
 /// The most decimal digits that can be asked for.
 inline constexpr int kMostDigits = 100'000;
 
-/// Details of a collision, computed on request. `normal` is the outward unit normal; `impact_parameter` is
-/// the distance of the line of flight from the obstacle's centre.
+/// Details of an obstacle that is hit or contains x, computed on request: where the line of flight enters it (for
+/// `hit`; zero for `inside`) and where it leaves it, with the outward unit normals there. `impact_parameter` is the
+/// distance of the line from the obstacle's centre.
 struct Detail {
   Vec point{};
   Vec normal{};
   double impact_parameter = 0;
+  Vec exit_point{};
+  Vec exit_normal{};
 };
 
 struct Answer;
@@ -47,12 +50,13 @@ struct AnswerMaker {
 
 struct Answer {
   Outcome outcome = Outcome::undecided;
-  ObstacleId obstacle;           ///< set for `hit` and `inside`
-  std::optional<double> time;    ///< set for `hit`; may be infinite, and absent in answers logged by others
-  std::string time_decimal;      ///< set for `hit` if digits were requested
-  std::optional<Detail> detail;  ///< set for `hit` if requested
-  std::string message;           ///< set for `error`
-  bool unsupported = false;      ///< set for `error`: the query is valid, but this engine does not support it
+  ObstacleId obstacle;         ///< set for `hit` and `inside`
+  std::optional<double> time;  ///< set for `hit`; may be infinite, and absent in answers logged by others
+  std::string time_decimal;    ///< set for `hit` if digits were requested
+  std::optional<double> exit_time;  ///< for `hit` and `inside`, if requested: when the line leaves `obstacle`
+  std::optional<Detail> detail;     ///< set for `hit` and `inside` if requested
+  std::string message;              ///< set for `error`
+  bool unsupported = false;  ///< set for `error`: the query is valid, but this engine does not support it
 
   /// Resets the answer to a newly made one but keeps allocated memory.
   void clear();

@@ -1,4 +1,5 @@
-// The collision at the end of a flight, in binary64: its point, its normal and the velocity after it.
+// The collision at the end of a flight, in binary64: its point, its normal and the velocity after it; and where the line
+// of flight would leave the obstacle again.
 #pragma once
 
 #include <lorentz/answer.hpp>
@@ -7,13 +8,17 @@
 
 namespace lorentz {
 
-/// The collision point, the outward unit normal, and the distance of the line of flight from the obstacle's
-/// centre, in the scene's own geometry. Numbers beyond binary64 come out as non-finite. The error is that of
-/// x + t v: a few ulps of the distance flown. Throws InputError if the answer has no time, or names no
+/// The collision point and the point at which the line leaves the obstacle, the outward unit normals there, and the
+/// distance of the line from the obstacle's centre, in the scene's own geometry. Numbers beyond binary64 come out as
+/// non-finite. The error is that of x + t v: a few ulps of the distance flown. For `inside` there is no collision: its
+/// point and normal are zero. Throws InputError if the answer is neither a hit with a time nor `inside`, or names no
 /// obstacle of the scene.
 ///
 /// held by "Collision detail of balls is the oracle's, which is correctly rounded"
 Detail collision_detail(const Scene& scene, const Query& query, const Answer& answer);
+
+/// When the line leaves the obstacle that the answer names, with the error of collision_detail, and its exceptions.
+double exit_time(const Scene& scene, const Query& query, const Answer& answer);
 
 /// The velocity after a specular reflection: v - 2 (v.n) n. Requires a normal n of unit length.
 ///

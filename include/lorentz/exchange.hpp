@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -30,9 +31,11 @@ struct StreamItem {
   Id id = "null";
   Scene scene;
   Query query;
-  std::string message;     ///< set for `bad`
-  bool no_scene = false;   ///< `bad` because the stream has no current scene
-  bool bad_scene = false;  ///< the bad line was a scene, so the lines after it have none
+  double max_time =
+      std::numeric_limits<double>::infinity();  ///< the query's limit; its answer may be `later`
+  std::string message;                          ///< set for `bad`
+  bool no_scene = false;                        ///< `bad` because the stream has no current scene
+  bool bad_scene = false;                       ///< the bad line was a scene, so the lines after it have none
 };
 
 /// The content of one line of a stream of starts, whose numbers may be rational.
@@ -94,7 +97,8 @@ RationalScene read_rational_scene_file(const std::string& path, const OnUnknownK
 /// Append a line, with its line end. `components` is the scene, or its dimension if all lattices are
 /// crystals.
 void append_scene_line(std::string& out, const Scene& scene);
-void append_query_line(std::string& out, const Id& id, const Query& query, const Components& components);
+void append_query_line(std::string& out, const Id& id, const Query& query, const Components& components,
+                       double max_time = std::numeric_limits<double>::infinity());
 void append_answer_line(std::string& out, const Id& id, const Answer& answer, const Components& components);
 
 /// The outcome's name in all formats: "hit", "never", ..

@@ -15,7 +15,7 @@ namespace lorentz::oracle {
 /// What to compute besides the obstacle and the time.
 struct Request {
   int digits = 0;                  ///< significant decimal digits of the time, rounded half to even; 0: none
-  bool detail = false;             ///< collision point, normal and impact parameter, each correctly rounded
+  bool detail = false;             ///< Answer::detail and exit_time, each correctly rounded
   std::optional<double> max_time;  ///< answer `later` if nothing is entered before this time
 };
 

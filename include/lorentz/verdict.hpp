@@ -46,7 +46,7 @@ struct Judgement {
   /// is infinite if nothing can make the answer right. For a wrong time: the tolerance that it would have
   /// needed, in units of its condition; infinite if the time is NaN.
   double departs = 0;
-  bool wrong_time = false;      ///< for `agree`: the obstacle is right, but the time is beyond its tolerance
+  bool wrong_time = false;      ///< for `agree`: the obstacle is right, but a time is beyond its tolerance
   bool other_quantity = false;  ///< a wrong time that no rounding explains (other_quantity_from)
   /// For ill_posed and wrong: the obstacle that `departs` is about (the one that is named and missed, or that
   /// is passed over, or that contains x). Empty if the scene does not have the named obstacle, and if nothing
@@ -69,8 +69,10 @@ struct ExcusedAnswer {
 ///             "An answer that a few ulps would make right is ill-posed, with the tolerance that it needs"
 ///  2. The time of the right obstacle is a wrong time if its error, in its ulps, is more than `ulps` and more
 ///     than `ulps` times its condition. The answer agrees nevertheless, however large the error of the time.
+///     An exit_time, also of `inside`, is judged in the same way, by its own condition.
 ///     held by "Errors of the time are counted in ulps, and judged by the condition",
-///             "A time that is off by a good part of itself is another quantity"
+///             "A time that is off by a good part of itself is another quantity",
+///             "An exit is judged like a time, by its own condition"
 ///  3. With `ulps` = 0, an answer is the exact one or `wrong`, and a time is correctly rounded or a wrong
 ///     time. Not even a tie that was decided the other way is forgiven.
 ///     held by "Where no ulp is forgiven an answer is the exact one or wrong"

@@ -84,6 +84,10 @@ struct ExactQuery {
   Quadratic time_of(const ExactEntry<D>& entry) const {
     return {entry.s, -1, entry.d, entry.v2, time_exponent()};
   }
+  /// t = (s + sqrt(d)) / v^2: when the line leaves the obstacle.
+  Quadratic exit_time_of(const ExactEntry<D>& entry) const {
+    return {entry.s, +1, entry.d, entry.v2, time_exponent()};
+  }
 };
 
 /// Calls visit(lattice, atom) for every atom of the scene, in order.

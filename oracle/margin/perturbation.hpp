@@ -13,6 +13,7 @@
 //   distance of the line      d = n.B (dx + T dv),           n the unit vector from c to the nearest point
 //   time of entry             d = (a.(dx + t dv) - r dr / sqrt(D)),
 //                             a = B^T (t v - c) / sqrt(D),   D = rho^2 - |h|^2
+//   time of exit              the same with -sqrt(D) in place of sqrt(D)
 //
 // The largest change is the sum of the absolute values, each times the ulp of its input.
 #pragma once
@@ -70,7 +71,10 @@ struct InputUlps {
   InputUlps(const Scene& scene, const Query& query, const ExactQuery<D>& exact, NumberFormat of_numbers);
 };
 
-/// A time of entry with its derivatives: dt = sum of by_x (dx + t dv) - by_radius dr.
+/// The end of a chord: where the line enters the obstacle, or where it leaves it.
+enum class End { entry = -1, exit = +1 };
+
+/// The time of an end with its derivatives: dt = sum of by_x (dx + t dv) - by_radius dr.
 template <std::size_t D>
 struct PerturbedArrival {
   Real t;
@@ -98,10 +102,10 @@ class Uncertain {
   Real margin_of_ahead(const Centre<D>& centre) const;
   /// For an obstacle that is met. time_of accepts missed obstacles: they count as entered where the line is
   /// nearest to them. (Their derivatives would be infinite, so `arrival` throws for them.)
-  PerturbedArrival<D> arrival(const Centre<D>& centre) const;
-  Real time_of(const Centre<D>& centre) const;
-  /// The largest change of the time of entry.
-  Real change_of_time(const Centre<D>& centre) const;
+  PerturbedArrival<D> arrival(const Centre<D>& centre, End end = End::entry) const;
+  Real time_of(const Centre<D>& centre, End end = End::entry) const;
+  /// The largest change of this time.
+  Real change_of_time(const Centre<D>& centre, End end = End::entry) const;
   /// The difference of the times of entry of this atom's obstacle and another one, in ulps; zero for a tie.
   Real margin_of_order(const Centre<D>& centre, const Uncertain& other, const Centre<D>& its) const;
 

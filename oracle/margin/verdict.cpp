@@ -20,31 +20,51 @@ struct Judge::Impl {
   PerturbedScene scene;
   std::optional<double> time_tolerance;
 
-  // Judges the time for the right obstacle. The time is wrong if it is off by more than k times the change
-  // that an ulp in each input can make, and by more than k of its own ulps. If there is a tolerance of times,
-  // it is wrong if it is off by more than that.
-  Judgement judge_time(const Query& query, const Answer& exact, const Answer& given, double ulps) const {
+  // Judges the times that are given for the right obstacle. A right answer may give neither.
+  Judgement judge_times(const Query& query, const Answer& exact, const Answer& given, double ulps) const {
     Judgement judgement{Verdict::agree};
-    if (!exact.time || !given.time || *given.time == *exact.time ||
-        *given.time == rounded(*exact.time, scene.precision())) {
-      if (exact.time && given.time && std::isfinite(*given.time)) judgement.ulps = off(exact, given);
-      return judgement;
-    }
-    if (time_tolerance && std::isinf(*time_tolerance)) return judgement;
-    if (const double its = off(exact, given); std::isfinite(its)) judgement.ulps = its;
-    const bool is_tolerated = time_tolerance ? is_within(*time_tolerance, *exact.time, *given.time)
-                                             : judgement.ulps && *judgement.ulps <= ulps;
-    if (is_tolerated) return judgement;
-    judgement.departs = in_conditions(query, exact, *given.time);
-    judgement.wrong_time = time_tolerance || ulps == 0 || judgement.departs > ulps;
-    judgement.other_quantity =
-        judgement.wrong_time && judgement.departs > other_quantity_from(scene.precision());
+    if (exact.time && given.time)
+      judge_time(query, {exact.obstacle, End::entry, *exact.time}, *given.time, ulps, judgement);
+    if (!given.exit_time) return judgement;
+    Judgement of_exit;
+    const double exit = exact.exit_time ? *exact.exit_time : exit_time(query, exact.obstacle);
+    judge_time(query, {exact.obstacle, End::exit, exit}, *given.exit_time, ulps, of_exit);
+    judgement.wrong_time |= of_exit.wrong_time;
+    judgement.other_quantity |= of_exit.other_quantity;
+    judgement.departs = std::max(judgement.departs, of_exit.departs);
     return judgement;
   }
 
+  // When the line enters or leaves an obstacle, correctly rounded.
+  struct ExactTime {
+    const ObstacleId& obstacle;
+    End end;
+    double time;
+  };
+
+  // A time is wrong if it is off by more than k times the change that an ulp in each input can make, and by more than k
+  // of its own ulps. If there is a tolerance of times, it is wrong if it is off by more than that.
+  void judge_time(const Query& query, const ExactTime& exact, double given, double ulps,
+                  Judgement& judgement) const {
+    const double its = off(exact.time, given);
+    if (std::isfinite(its)) judgement.ulps = its;
+    if (given == exact.time || given == rounded(exact.time, scene.precision())) return;
+    if (time_tolerance && std::isinf(*time_tolerance)) {
+      judgement.ulps.reset();
+      return;
+    }
+    const bool is_tolerated = time_tolerance ? is_within(*time_tolerance, exact.time, given)
+                                             : judgement.ulps && *judgement.ulps <= ulps;
+    if (is_tolerated) return;
+    judgement.departs = in_conditions(query, exact, given);
+    judgement.wrong_time = time_tolerance || ulps == 0 || judgement.departs > ulps;
+    judgement.other_quantity =
+        judgement.wrong_time && judgement.departs > other_quantity_from(scene.precision());
+  }
+
   // The error of the time, in ulps.
-  double off(const Answer& exact, const Answer& given) const {
-    return std::fabs(*given.time - *exact.time) / ulp(*exact.time, scene.precision());
+  double off(double exact, double given) const {
+    return std::fabs(given - exact) / ulp(exact, scene.precision());
   }
 
   static bool is_within(double tolerance, double exact, double given) {
@@ -52,18 +72,25 @@ struct Judge::Impl {
     return abs(Real(given) - Real(exact)) <= Real(tolerance) * abs(Real(exact));
   }
 
+  double exit_time(const Query& query, const ObstacleId& obstacle) const {
+    return scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
+      const ExactQuery<D>& exact = perturbed.query();
+      return round_to_binary64(exact.exit_time_of(exact.meeting(perturbed.scene(), obstacle)));
+    });
+  }
+
   // The error of the time, divided by the change that an ulp in each input makes (at least an ulp of the
   // time). The exact time may be beyond the precision's range; an infinite time counts as the first power of
   // two there.
-  double in_conditions(const Query& query, const Answer& exact, double given) const {
+  double in_conditions(const Query& query, const ExactTime& exact, double given) const {
     if (std::isnan(given)) return kInfinity;
     const Real told =
         std::isinf(given) ? times_power_of_two(Real(std::copysign(1, given)), first_beyond()) : Real(given);
     return scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
-      const Real time =
-          std::isfinite(*exact.time) ? Real(*exact.time) : time_in_own_units(perturbed, exact.obstacle);
-      const Real change =
-          std::max(change_of_time(perturbed, exact.obstacle), Real(ulp(*exact.time, scene.precision())));
+      const Real time = std::isfinite(exact.time) ? Real(exact.time)
+                                                  : time_in_own_units(perturbed, exact.obstacle, exact.end);
+      const Real change = std::max(change_of_time(perturbed, exact.obstacle, exact.end),
+                                   Real(ulp(exact.time, scene.precision())));
       return to_double(abs(time - told) / change, kHuge);
     });
   }
@@ -98,8 +125,7 @@ Judgement Judge::judge(const Query& query, const Answer& exact, const Answer& gi
     checked(exact.obstacle, impl_->scene.scene());
   const bool names_obstacle = given.outcome != Outcome::never;
   if (given.outcome == exact.outcome && (!names_obstacle || given.obstacle == exact.obstacle))
-    return given.outcome == Outcome::hit ? impl_->judge_time(query, exact, given, ulps)
-                                         : Judgement{Verdict::agree};
+    return impl_->judge_times(query, exact, given, ulps);
   Departure needed{kInfinity};
   bool used_tolerance = false;
   if (!names_obstacle || !flaw_of(Query{query.x, query.v, given.obstacle}, impl_->scene.scene()))

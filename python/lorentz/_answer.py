@@ -99,7 +99,8 @@ class Answer:
     ``lattice``, ``atom`` and ``cell`` (ints of any size). "hit" has ``time``, the t at which the particle is
     at x + t v; it may be infinite. The oracle's answers also have ``exact_time``; with `digits` they have
     ``time_decimal``; with `detail` they have the ``point`` of the collision, the unit outward ``normal`` and
-    the ``impact_parameter``. "error" has ``message``, and ``unsupported`` is true if the query is valid but
+    the ``impact_parameter``; and, "inside" too, the ``exit_time`` at which the line leaves the obstacle, with
+    ``exit_point`` and ``exit_normal``. "error" has ``message``, and ``unsupported`` is true if the query is valid but
     this engine does not support it.
     """
 
@@ -113,6 +114,9 @@ class Answer:
     point: tuple[float, ...] | None = None
     normal: tuple[float, ...] | None = None
     impact_parameter: float | None = None
+    exit_time: float | None = None
+    exit_point: tuple[float, ...] | None = None
+    exit_normal: tuple[float, ...] | None = None
     message: str | None = None
     unsupported: bool = False
 
@@ -133,6 +137,8 @@ class Answer:
             line["time"] = "inf" if self.time == math.inf else self.time
         if self.time_decimal is not None:
             line["time_decimal"] = self.time_decimal
+        if self.exit_time is not None:
+            line["exit_time"] = "inf" if self.exit_time == math.inf else self.exit_time
         if self.outcome == "error":
             line["message"] = self.message or ""
             line |= {"reason": "unsupported"} if self.unsupported else {}
@@ -151,13 +157,15 @@ class Answer:
 
     @staticmethod
     def _from_fields(fields: dict[str, Any]) -> Answer:
-        time = fields.get("time")
+        time, exit_time = fields.get("time"), fields.get("exit_time")
         return Answer(
             outcome=fields["outcome"], lattice=fields.get("lattice"), atom=fields.get("atom"),
             cell=tuple(int(n) for n in fields["cell"]) if "cell" in fields else None,
             time=None if time is None else float(time), time_decimal=fields.get("time_decimal"),
             point=_tuple(fields.get("point")), normal=_tuple(fields.get("normal")),
-            impact_parameter=fields.get("impact_parameter"), message=fields.get("message"),
+            impact_parameter=fields.get("impact_parameter"),
+            exit_time=None if exit_time is None else float(exit_time), exit_point=_tuple(fields.get("exit_point")),
+            exit_normal=_tuple(fields.get("exit_normal")), message=fields.get("message"),
             unsupported=fields.get("reason") == "unsupported")
 
 

@@ -36,7 +36,8 @@ def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
         start_from: the obstacle that the particle leaves, (lattice, atom, cell).
         digits: the number of significant decimal digits of the time that are also returned as
             ``time_decimal``.
-        detail: also return ``point``, ``normal`` and ``impact_parameter``, each correctly rounded.
+        detail: also return ``point``, ``normal``, ``impact_parameter``, ``exit_time``, ``exit_point`` and
+            ``exit_normal``, each correctly rounded.
         max_time: the outcome is "later" if no obstacle is entered before it.
 
     Returns:

@@ -59,6 +59,10 @@ def test_rational_inputs_are_taken_as_they_are():
 def test_detail():
     answer = oracle.first_hit(lorentz.unit_scene(2, 0.25), [-1.5, 0], [1, 0], detail=True)
     assert answer.point == (-1.25, 0.0) and answer.normal == (-1.0, 0.0) and answer.impact_parameter == 0
+    assert answer.exit_time == 1.75 and answer.exit_point == (0.25, 0.0) and answer.exit_normal == (1.0, 0.0)
+    within = oracle.first_hit(lorentz.unit_scene(2, 0.25), [0, 0], [0, -2], detail=True)
+    assert within.outcome == "inside" and within.exit_time == 0.125 and within.exit_normal == (0.0, -1.0)
+    assert within.point is None and lorentz.Answer.from_line(within.to_line()).exit_time == 0.125
     with pytest.raises(lorentz.Error, match="detail"):
         oracle.first_hit(lorentz.unit_scene(2, "1/3"), [0.5, 0.5], [1, 0], detail=True)
 

@@ -13,12 +13,15 @@ namespace {
 struct QueryFields : LineFields {
   static constexpr const char* kName = "query";
   std::optional<NumbersRead> x, v;
+  double max_time = std::numeric_limits<double>::infinity();
 
   void read(std::string_view key, json::Value value, Id& id, const OnUnknownKey& on_unknown_key) {
     if (key == "x")
       x = read_numbers(value, "x");
     else if (key == "v")
       v = read_numbers(value, "v");
+    else if (key == "max_time")
+      max_time = read_number_or_infinity(value, "max_time");
     else
       LineFields::read(key, value, id, on_unknown_key);
   }
@@ -38,7 +41,9 @@ struct QueryFields : LineFields {
       query.from = std::move(from->obstacle);
     }
     if (auto flaw = flaw_of(query, scene)) throw InputError(*flaw);
+    if (!(max_time > 0)) throw InputError("max_time: must be above zero");
     item.query = std::move(query);
+    item.max_time = max_time;
   }
 };
 
@@ -71,7 +76,7 @@ struct AnswerFields {
 // The keys that --digits and --detail add to an answer, and that of a header.
 bool is_beside_answer(std::string_view key) {
   return key == "golden" || key == "time_decimal" || key == "point" || key == "normal" ||
-         key == "impact_parameter";
+         key == "impact_parameter" || key == "exit_point" || key == "exit_normal";
 }
 
 void read_answer_field(std::string_view key, json::Value value, Id& id, Answer& answer, AnswerFields& has,
@@ -83,6 +88,8 @@ void read_answer_field(std::string_view key, json::Value value, Id& id, Answer& 
     has.outcome = true;
   } else if (key == "time") {
     answer.time = read_number_or_infinity(value, "time");
+  } else if (key == "exit_time") {
+    answer.exit_time = read_number_or_infinity(value, "exit_time");
   } else if (key == "message") {
     answer.message = value.text();
   } else if (key == "reason") {

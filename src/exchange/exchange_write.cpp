@@ -81,14 +81,20 @@ void add_lattice(json::Members& object, const Lattice& lattice, int dimension) {
                            [&](json::Members& one, const Atom& atom) { add_atom(one, atom, dimension); }));
 }
 
-// What a hit has besides the obstacle.
-void add_hit(json::Members& object, const Answer& answer, int dimension) {
-  if (answer.time) object.add("time", *answer.time);
+// What a hit or an `inside` has besides the obstacle.
+void add_times(json::Members& object, const Answer& answer, int dimension) {
+  const bool is_hit = answer.outcome == Outcome::hit;
+  const std::optional<Detail>& detail = answer.detail;
+  if (is_hit && answer.time) object.add("time", *answer.time);
   if (!answer.time_decimal.empty()) object.add("time_decimal", json::PlainText{answer.time_decimal});
-  if (answer.detail)
-    object.add("point", components(answer.detail->point, dimension), "normal",
-               components(answer.detail->normal, dimension), "impact_parameter",
-               answer.detail->impact_parameter);
+  if (is_hit && detail)
+    object.add("point", components(detail->point, dimension), "normal",
+               components(detail->normal, dimension));
+  if (detail) object.add("impact_parameter", detail->impact_parameter);
+  if (answer.exit_time) object.add("exit_time", *answer.exit_time);
+  if (detail)
+    object.add("exit_point", components(detail->exit_point, dimension), "exit_normal",
+               components(detail->exit_normal, dimension));
 }
 
 }  // namespace
@@ -105,16 +111,18 @@ void add_scene(json::Members& object, const Scene& scene) {
              }));
 }
 
-void add_query(json::Members& object, const Query& query, const Components& count) {
+void add_query(json::Members& object, const Query& query, const Components& count, double max_time) {
   object.add("x", components(query.x, count.of_vectors()), "v", components(query.v, count.of_vectors()));
   if (query.from) object.add("from", [&](json::Members& from) { add_obstacle(from, *query.from, count); });
+  if (std::isfinite(max_time)) object.add("max_time", max_time);
 }
 
 void add_answer(json::Members& object, const Answer& answer, const Components& count) {
   object.add("outcome", json::PlainText{name_of(answer.outcome)});
-  if (answer.outcome == Outcome::hit || answer.outcome == Outcome::inside)
+  if (answer.outcome == Outcome::hit || answer.outcome == Outcome::inside) {
     add_obstacle(object, answer.obstacle, count);
-  if (answer.outcome == Outcome::hit) add_hit(object, answer, count.of_vectors());
+    add_times(object, answer, count.of_vectors());
+  }
   if (answer.outcome != Outcome::error) return;
   object.add("message", answer.message);
   if (answer.unsupported) object.add("reason", "unsupported");
@@ -128,10 +136,11 @@ void append_scene_line(std::string& out, const Scene& scene) {
   out += '\n';
 }
 
-void append_query_line(std::string& out, const Id& id, const Query& query, const Components& count) {
+void append_query_line(std::string& out, const Id& id, const Query& query, const Components& count,
+                       double max_time) {
   json::append(out, [&](json::Members& line) {
     line.add("id", json::Raw{id});
-    add_query(line, query, count);
+    add_query(line, query, count, max_time);
   });
   out += '\n';
 }

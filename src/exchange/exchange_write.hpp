@@ -9,7 +9,8 @@
 namespace lorentz {
 
 void add_scene(json::Members& object, const Scene& scene);
-void add_query(json::Members& object, const Query& query, const Components& count);
+void add_query(json::Members& object, const Query& query, const Components& count,
+               double max_time = std::numeric_limits<double>::infinity());
 void add_answer(json::Members& object, const Answer& answer, const Components& count);
 
 /// The same as values.

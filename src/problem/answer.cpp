@@ -20,6 +20,7 @@ void Answer::clear() {
   for (Integer& n : obstacle.cell) n = 0;
   time.reset();
   time_decimal.clear();
+  exit_time.reset();
   detail.reset();
   message.clear();
   unsupported = false;

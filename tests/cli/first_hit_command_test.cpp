@@ -31,11 +31,43 @@ TEST_CASE("Digits, detail and a time limit", "[cli][first_hit_command]") {
   CHECK(contains(folder.lorentz("first-hit --digits 5 " + queries).out, R"("time_decimal":"0.25000")"));
   CHECK(contains(folder.lorentz("first-hit --detail " + queries).out,
                  R"("point":[0.75,0],"normal":[-1,0],"impact_parameter":0)"));
+  CHECK(contains(folder.lorentz("first-hit --detail " + queries).out,
+                 R"("exit_time":0.75,"exit_point":[1.25,0],"exit_normal":[1,0]})"));
   CHECK(folder.lorentz("first-hit --max-time 0.25 " + queries).out ==
         "{\"id\":\"good\",\"outcome\":\"later\"}\n");
   CHECK(folder.lorentz("first-hit --max-time 0.2500001 " + queries).out == kGoodAnswer);
   CHECK(folder.lorentz("first-hit --max-time 0x1p-2 --engine classical " + queries).out ==
         "{\"id\":\"good\",\"outcome\":\"later\"}\n");
+}
+
+TEST_CASE("A query's own limit is the smaller of two", "[cli][first_hit_command]") {
+  const Folder folder;
+  const auto with = [&](const std::string& limit) {
+    return folder.write("q", kScene + R"({"id":"good","x":[0.5,0],"v":[1,0],"max_time":)" + limit + "}\n");
+  };
+  const std::string later = "{\"id\":\"good\",\"outcome\":\"later\"}\n";
+  for (const char* engine : {"oracle", "certified", "certified-batch", "walk", "classical",
+                             "\"cmd:" LORENTZ_PROGRAM " first-hit\""}) {
+    INFO(engine);
+    const std::string command = "first-hit --engine " + std::string(engine) + ' ';
+    CHECK(folder.lorentz(command + with("0.25")).out == later);
+    CHECK(folder.lorentz(command + with("\"0x1.0000000000001p-2\"")).out == kGoodAnswer);
+    CHECK(folder.lorentz(command + with("\"inf\"")).out == kGoodAnswer);
+    CHECK(folder.lorentz(command + "--max-time 0.25 " + with("7")).out == later);
+    CHECK(folder.lorentz(command + "--max-time 7 " + with("0.25")).out == later);
+  }
+  for (const char* bad : {"0", "-1", "\"nan\"", "null", "[1]"}) {
+    INFO(bad);
+    const Run run = folder.lorentz("first-hit " + with(bad));
+    CHECK(run.status == 2);
+    CHECK(contains(run.out, "max_time"));
+  }
+  const Run proved = folder.lorentz("first-hit --prove " + with("0.25"));
+  CHECK(proved.status == 1);
+  CHECK(proved.out == later);
+  const Run record = folder.lorentz("golden make --queries " + with("0.25"));
+  CHECK(record.status == 2);
+  CHECK(contains(record.err, "has a limit (max_time), which no record has"));
 }
 
 TEST_CASE("The detail of a hit on an ellipse", "[cli][first_hit_command]") {

@@ -89,6 +89,32 @@ TEST_CASE("Exact answers are the same from the oracle and from certified, scenes
   CHECK(met[Outcome::never] + met[Outcome::inside] > 0);
 }
 
+TEST_CASE("A limit is judged like a time, and in campaigns exactly", "[compare][examine]") {
+  using oracle::Verdict, question::AtLimit;
+  const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
+  Question question{.place = place, .query = {{0.5, 0.125}, {1, 0}, {}}};
+  question.exact = place->exact(question.query);
+  const double time = *question.exact.time, unit = 0x1p-54;
+  const auto verdict = [&](double limit, const Answer& given, AtLimit at = AtLimit::excused,
+                           double ulps = 4) {
+    question.max_time = limit;
+    return question::judgement_of(question, given, ulps, at).verdict;
+  };
+  const Answer later = Answer::later(), hit = question.exact;
+  // The condition of the time is 8.6 (verdict_test.cpp), so 4 ulps of the inputs are 34 of the time.
+  for (const AtLimit at : {AtLimit::excused, AtLimit::exact}) {
+    CHECK(verdict(time - unit, later, at) == Verdict::agree);
+    CHECK(verdict(time + 40 * unit, later, at) == Verdict::wrong);
+    CHECK(verdict(time + 40 * unit, hit, at) == Verdict::agree);
+    CHECK(verdict(0.1, Answer::hit({0, 0, {2, 0, 0}}, 1.28), at) == Verdict::wrong);
+  }
+  CHECK(verdict(time + 30 * unit, later) == Verdict::ill_posed);
+  CHECK(verdict(time + 30 * unit, later, AtLimit::excused, 0) == Verdict::wrong);
+  CHECK(verdict(time + 30 * unit, later, AtLimit::exact) == Verdict::wrong);
+  CHECK(verdict(0.1, hit) == Verdict::agree);  // it says more than it was asked
+  CHECK(verdict(0.1, hit, AtLimit::exact) == Verdict::wrong);
+}
+
 namespace {
 
 // 20 questions of the square lattice and 20 of the cubic one, along diagonals.

@@ -94,6 +94,12 @@ TEST_CASE("Collision detail of balls is the oracle's, which is correctly rounded
     CHECK(distance(given.point, exact.detail->point) < error);
     CHECK(distance(given.normal, exact.detail->normal) < error / r);
     CHECK(std::fabs(given.impact_parameter - exact.detail->impact_parameter) < error);
+    // An exit beside a grazed edge is as uncertain as the chord is short.
+    const double chord = distance(exact.detail->point, exact.detail->exit_point);
+    const double exit_error = error * (1 + 4 * r / chord);
+    CHECK(distance(given.exit_point, exact.detail->exit_point) < exit_error);
+    CHECK(distance(given.exit_normal, exact.detail->exit_normal) < exit_error / r);
+    CHECK(std::fabs(exit_time(scene, query, exact) - *exact.exit_time) < exit_error / length(query.v));
   }
   CHECK(hits > 300);  // 508 seen
 }

@@ -409,10 +409,12 @@ TEST_CASE("Unknown keys: their place is told, and an objection makes the line ba
   CHECK(told == Keys{"tiem"});
   CHECK(reader.read_answer_line(
       Padded(R"({"id":1,"outcome":"hit","lattice":0,"atom":0,"cell":[0,0],"time":1,)"
-             R"("time_decimal":"1","point":[0,0],"normal":[0,1],"impact_parameter":0})")
+             R"("time_decimal":"1","point":[0,0],"normal":[0,1],"impact_parameter":0,"exit_time":"0x1.8p1",)"
+             R"("exit_point":[0,0],"exit_normal":[0,1]})")
           .line(),
       id, answer, components));
   CHECK(told == Keys{"tiem"});
+  CHECK(answer.exit_time == 3.0);
   CHECK_THROWS_AS(reader.read_answer_line(Padded(R"({"id":1,"outcome":"never","worst":3})").line(), id,
                                           answer, components),
                   InputError);

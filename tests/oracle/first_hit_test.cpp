@@ -188,7 +188,9 @@ TEST_CASE("Details are correctly rounded", "[oracle][first_hit]") {
 }
 
 TEST_CASE(
-    "Times, points, normals and impact parameters are correctly rounded: MPFR at 400 digits says the same",
+    "Times, points, normals and impact parameters of entry and exit are correctly rounded: MPFR at 400 "
+    "digits says the "
+    "same",
     "[oracle][first_hit]") {
   using Big = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<400>>;
   using BigVec = std::array<Big, 3>;
@@ -203,7 +205,7 @@ TEST_CASE(
   request.detail = true;
   Draw draw(51);
   INFO("seed 51");
-  int hits = 0;
+  int hits = 0, insides = 0;
   for (int i = 0; i < 600; ++i) {
     const int d = draw.one_in(2) ? 2 : 3;
     const Style style = draw.one_in(2) ? Style::generic : Style::near_grid;
@@ -211,8 +213,9 @@ TEST_CASE(
     if (draw.one_in(2)) scene = with_ellipsoids(draw, style, scene);
     const Query query = query_of(draw, Style::generic, scene);
     const Answer hit = oracle::Oracle(scene).first_hit(query, request);
-    if (hit.outcome != Outcome::hit) continue;
-    ++hits;
+    if (hit.outcome != Outcome::hit && hit.outcome != Outcome::inside) continue;
+    const bool is_hit = hit.outcome == Outcome::hit;
+    ++(is_hit ? hits : insides);
     const Lattice& lattice = scene.lattices[hit.obstacle.lattice];
     const Atom& atom = lattice.atoms[hit.obstacle.atom];
     BigVec x, v, arm;  // arm: from x to the centre
@@ -233,21 +236,29 @@ TEST_CASE(
       for (Big& component : dual[n]) component /= volume;
       w[n] = inner(dual[n], v), c[n] = inner(dual[n], arm);
     }
-    const Big w2 = inner(w, w), s = inner(w, c), t = (s - sqrt(Big(s * s - w2 * (inner(c, c) - 1)))) / w2;
+    const Big w2 = inner(w, w), s = inner(w, c), root = sqrt(Big(s * s - w2 * (inner(c, c) - 1)));
+    const Big times[2] = {(s - root) / w2, (s + root) / w2};
     const Big along = inner(v, arm), v2 = inner(v, v), h2 = v2 * inner(arm, arm) - along * along;
-    BigVec normal{};
-    for (int n = 0; n < 3; ++n)
-      for (int k = 0; k < 3; ++k) normal[k] += (t * w[n] - c[n]) * dual[n][k];
-    const Big length = sqrt(inner(normal, normal));
     INFO(stream(scene, query));
-    REQUIRE(*hit.time == t.convert_to<double>());
     REQUIRE(hit.detail->impact_parameter == Big(sqrt(Big(h2 / v2))).convert_to<double>());
-    for (int k = 0; k < d; ++k) {
-      REQUIRE(hit.detail->point[k] == Big(x[k] + t * v[k]).convert_to<double>());
-      REQUIRE(hit.detail->normal[k] == Big(normal[k] / length).convert_to<double>());
+    REQUIRE(hit.time.has_value() == is_hit);
+    for (int end = is_hit ? 0 : 1; end < 2; ++end) {
+      const Big& t = times[end];
+      BigVec normal{};
+      for (int n = 0; n < 3; ++n)
+        for (int k = 0; k < 3; ++k) normal[k] += (t * w[n] - c[n]) * dual[n][k];
+      const Big length = sqrt(inner(normal, normal));
+      const Vec& point = end == 0 ? hit.detail->point : hit.detail->exit_point;
+      const Vec& outward = end == 0 ? hit.detail->normal : hit.detail->exit_normal;
+      REQUIRE(*(end == 0 ? hit.time : hit.exit_time) == t.convert_to<double>());
+      for (int k = 0; k < d; ++k) {
+        REQUIRE(point[k] == Big(x[k] + t * v[k]).convert_to<double>());
+        REQUIRE(outward[k] == Big(normal[k] / length).convert_to<double>());
+      }
     }
   }
   CHECK(hits > 200);  // 259 seen
+  CHECK(insides > 100);
 }
 
 TEST_CASE("Subnormal and huge velocities and places", "[oracle][first_hit]") {

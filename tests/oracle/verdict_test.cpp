@@ -500,6 +500,94 @@ TEST_CASE("A time that is off by a good part of itself is another quantity", "[o
   CHECK(judged(kScene, at_once, Answer::hit(at(1, 0), 0x1p-20)).other_quantity);
 }
 
+TEST_CASE("An exit is judged like a time, by its own condition", "[oracle][verdict]") {
+  oracle::Request request;
+  request.detail = true;
+  const double unit = 0x1p-53;  // ulp of 0.716.., and of what is left of it from within
+  // As above, with the other sign of the sine: dt = dx_1 - tan dx_2 + t dv_1 + dr / cos.
+  for (const double x : {0.5, 1.0}) {
+    const Query query{{x, 0.125}, {1, 0}, {}};
+    const Answer exact = oracle::Oracle(kScene).first_hit(query, request);
+    REQUIRE(exact.outcome == (x == 1 ? Outcome::inside : Outcome::hit));
+    REQUIRE(exact.exit_time == Approx(1 + 0.25 * std::cos(M_PI / 6) - x).epsilon(1e-15));
+    const double its = x == 1 ? unit / 4 : unit, tan = std::tan(M_PI / 6);
+    const double change = 2 * (1 + tan) + 2 * *exact.exit_time + 0.5 / std::cos(M_PI / 6);
+    const double condition = change * unit / its;
+    const auto judgement = [&](double ulps) {
+      Answer given = exact;
+      given.exit_time = *exact.exit_time + ulps * its;
+      Answer bare = exact;  // as answers of engines are judged, to which the exact exit is not computed
+      bare.exit_time.reset(), bare.detail.reset();
+      const oracle::Judgement one = judged(kScene, query, given);
+      CHECK(oracle::Judge(kScene).judge(query, bare, given).wrong_time == one.wrong_time);
+      CHECK(one.verdict == Verdict::agree);
+      return one;
+    };
+    CHECK_FALSE(judgement(0).wrong_time);
+    CHECK_FALSE(judgement(std::floor(4 * condition)).wrong_time);
+    CHECK(judgement(std::ceil(4 * condition + 1)).wrong_time);
+    CHECK(judgement(-std::ceil(4 * condition + 1)).departs == Approx(4).epsilon(0.1));
+    CHECK(judgement(0x1p31 * condition).other_quantity);
+    Answer right_exit = exact;  // the wrong time is not excused by it
+    if (x != 1) {
+      right_exit.time = 0.2;
+      CHECK(judged(kScene, query, right_exit).wrong_time);
+    }
+  }
+}
+
+TEST_CASE("The condition of an exit is the sum of its derivatives", "[oracle][verdict]") {
+  Draw draw(4410);
+  INFO("seed 4410");
+  int exits = 0, insides = 0;
+  for (int i = 0; i < 300; ++i) {
+    const int d = draw.one_in(2) ? 2 : 3;
+    Scene scene = unit_scene(d, draw.between(0.3, 0.9));
+    scene.lattices[0].vectors = {}, scene.lattices[0].missing = d;
+    scene.lattices[0].atoms[0].position = draw.vec(d, -0.5, 0.5);
+    const Query query{draw.vec(d, -1, 1), draw.vec(d, -3, 3), {}};
+    oracle::Request request;
+    request.detail = true;
+    const auto exit = [&](const Scene& where, const Query& one) {
+      return oracle::Oracle(where).first_hit(one, request).exit_time;
+    };
+    Answer given = oracle::Oracle(scene).first_hit(query, request);
+    const Answer exact = given;
+    if (!exact.exit_time || *exact.exit_time < 0.1) continue;
+    if (exact.outcome == Outcome::hit && *exact.exit_time - *exact.time < 0.02)
+      continue;  // grazed: bent too much
+    // Central differences. An ulp of x is at least that of the scene's largest number.
+    constexpr double kStep = 0x1p-20;
+    double size = scene.lattices[0].atoms[0].radius, change = 0;
+    for (const double component : scene.lattices[0].atoms[0].position)
+      size = std::max(size, std::fabs(component));
+    const auto add = [&](const auto& set, double its_ulp) {
+      Scene scenes[2] = {scene, scene};
+      Query queries[2] = {query, query};
+      for (const int side : {0, 1}) set(scenes[side], queries[side], side ? kStep : -kStep);
+      const auto before = exit(scenes[0], queries[0]), after = exit(scenes[1], queries[1]);
+      REQUIRE((before && after));
+      change += std::fabs(*after - *before) / (2 * kStep) * its_ulp;
+    };
+    for (int k = 0; k < d; ++k) {
+      const NumberFormat b64 = NumberFormat::binary64;
+      add([k](Scene&, Query& q, double step) { q.x[k] += step; },
+          std::max(ulp(query.x[k], b64), ulp(size, b64)));
+      add([k](Scene&, Query& q, double step) { q.v[k] += step; }, ulp(query.v[k], b64));
+    }
+    add([](Scene& s, Query&, double step) { s.lattices[0].atoms[0].radius += step; },
+        ulp(scene.lattices[0].atoms[0].radius, NumberFormat::binary64));
+    given.exit_time = *exact.exit_time + 0x1p-10;
+    const oracle::Judgement judgement = oracle::Judge(scene).judge(query, exact, given);
+    INFO(stream(scene, query));
+    CHECK(judgement.wrong_time);
+    CHECK(0x1p-10 / judgement.departs == Approx(change).epsilon(1e-3));
+    ++(exact.outcome == Outcome::hit ? exits : insides);
+  }
+  CHECK(exits > 20);
+  CHECK(insides > 20);
+}
+
 TEST_CASE("Among the subnormal numbers a rounding is as large as the time, and still a rounding",
           "[oracle][verdict]") {
   const Scene scene = unit_scene(2, 0.1909099887142184);

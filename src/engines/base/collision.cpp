@@ -42,18 +42,69 @@ double length_of_any(const Vec& a) {
   return largest > 0 ? largest * length(divided(a, largest)) : largest;
 }
 
+// The line of flight and the obstacle that an answer names. `arm`: from its centre to the point of the line where the
+// answer's time is, or to x.
+class Passage {
+ public:
+  Passage(const Scene& scene, const Query& query, const Answer& answer)
+      : dimension_(scene.dimension), v_(query.v), start_(answer.outcome == Outcome::hit ? answer.time : 0) {
+    if (!start_ || (answer.outcome != Outcome::hit && answer.outcome != Outcome::inside))
+      throw InputError("answer: needs a hit with a time, or inside");
+    checked(answer.obstacle, checked(scene));
+    atom_ = &scene.lattices[answer.obstacle.lattice].atoms[answer.obstacle.atom];
+    arm_ = plus(plus(query.x, *start_, v_), -1, centre_of(scene, answer.obstacle));
+    is_at_entry_ = answer.outcome == Outcome::hit;
+  }
+
+  // The chord's ends are the roots of q(t) = |A^-1 (arm + t v)|^2 - 1. At an entry one root is 0, and the other follows
+  // from their sum; from inside it is found in the form in which nothing cancels.
+  double exit_time() const {
+    const Vec slope = gradient(*atom_, dimension_, v_);
+    const double a = dot(v_, slope), b = dot(arm_, slope);
+    if (is_at_entry_) return *start_ - 2 * b / a;
+    const double size = atom_->is_ball() ? atom_->radius * atom_->radius : 1;
+    const double c = dot(arm_, gradient(*atom_, dimension_, arm_)) - size;
+    const double root = std::sqrt(b * b - a * c);
+    return b > 0 ? -c / (b + root) : (root - b) / a;
+  }
+
+  Vec normal_at(double time) const {
+    const Vec outward = gradient(*atom_, dimension_, plus(arm_, time - *start_, v_));
+    return divided(outward, length_of_any(outward));
+  }
+
+  double impact_parameter() const {
+    const Vec direction = divided(v_, length_of_any(v_));
+    return length_of_any(plus(arm_, -dot(arm_, direction), direction));
+  }
+
+ private:
+  const int dimension_;
+  const Vec v_;
+  const std::optional<double> start_;
+  const Atom* atom_ = nullptr;
+  Vec arm_{};
+  bool is_at_entry_ = false;
+};
+
 }  // namespace
 
+double exit_time(const Scene& scene, const Query& query, const Answer& answer) {
+  return Passage(scene, query, answer).exit_time();
+}
+
 Detail collision_detail(const Scene& scene, const Query& query, const Answer& answer) {
-  if (!answer.time) throw InputError("answer: needs a hit with a time");
-  checked(answer.obstacle, checked(scene));
-  const Vec centre = centre_of(scene, answer.obstacle);
-  const Vec point = plus(query.x, *answer.time, query.v), arm = plus(point, -1, centre);
-  const Vec direction = divided(query.v, length_of_any(query.v));
-  const Vec across = plus(arm, -dot(arm, direction), direction);
-  const Atom& atom = scene.lattices[answer.obstacle.lattice].atoms[answer.obstacle.atom];
-  const Vec outward = gradient(atom, scene.dimension, arm);
-  return {point, divided(outward, length_of_any(outward)), length_of_any(across)};
+  const Passage passage(scene, query, answer);
+  const double exit = passage.exit_time();
+  Detail detail;
+  if (answer.outcome == Outcome::hit) {
+    detail.point = plus(query.x, *answer.time, query.v);
+    detail.normal = passage.normal_at(*answer.time);
+  }
+  detail.impact_parameter = passage.impact_parameter();
+  detail.exit_point = plus(query.x, exit, query.v);
+  detail.exit_normal = passage.normal_at(exit);
+  return detail;
 }
 
 Vec reflected(const Vec& v, const Vec& normal) {
