@@ -13,6 +13,72 @@ NumberFormat number_format_named(const std::string& precision) {
   return kFormats[index_of_name(precision, {"binary64", "binary32"}, "--precision")];
 }
 
+namespace {
+
+// "1e-3..1e3"; either end may be left out.
+Domain::Range range_from(const std::string& text, const std::string& name) {
+  const std::size_t dots = text.find("..");
+  if (dots == text.npos) throw InputError(name + ": needs an interval, like 1e-3..1e3");
+  const auto end_or = [&](const std::string& end, double otherwise) {
+    return end.empty() ? otherwise : number_from_zero(end, name.c_str());
+  };
+  const Domain::Range range{end_or(text.substr(0, dots), 0),
+                            end_or(text.substr(dots + 2), std::numeric_limits<double>::infinity())};
+  if (range.low > range.high) throw InputError(name + ": the interval's ends are in the wrong order");
+  return range;
+}
+
+void take_part(const std::string& part, Domain& domain) {
+  const std::size_t equals = part.find('=');
+  const std::string key = part.substr(0, equals), value = equals == part.npos ? "" : part.substr(equals + 1);
+  const std::string name = "--domain: " + key;
+  switch (index_of_name(key, {"speed", "coordinates", "radius", "flight", "dimension", "shape", "limits"},
+                        "--domain")) {
+    case 0:
+      domain.speed = range_from(value, name);
+      break;
+    case 1:
+      domain.coordinates = range_from(value, name);
+      break;
+    case 2:
+      domain.radius = range_from(value, name);
+      break;
+    case 3:
+      domain.flight = range_from(value, name);
+      break;
+    case 4:
+      domain.dimension_2 = index_of_name(value, {"2", "3"}, name) == 0,
+      domain.dimension_3 = !domain.dimension_2;
+      break;
+    case 5:
+      domain.balls = index_of_name(value, {"ball", "ellipsoid"}, name) == 0,
+      domain.ellipsoids = !domain.balls;
+      break;
+    default:
+      domain.limits = index_of_name(value, {"no", "yes"}, name) == 1;
+  }
+}
+
+Domain domain_from(const std::string& text) {
+  Domain domain;
+  for (const std::string& part : items_of(text, "--domain")) take_part(part, domain);
+  return domain;
+}
+
+StartInside rule_from(const std::string& name) {
+  return static_cast<StartInside>(
+      index_of_name(name, {"inside", "miss", "zero", "exit", "unsupported"}, "--starts-inside"));
+}
+
+template <class T>
+void set_once(std::optional<T>& said, const T& value, const char* option) {
+  if (said && !(*said == value))
+    throw InputError(std::string(option) + ": the engines claim different ones; give it, or name one engine");
+  said = value;
+}
+
+}  // namespace
+
 std::vector<std::optional<question::Introduction>> ClaimOptions::ask(
     const std::vector<question::EngineInfo>& engines) {
   std::vector<std::optional<question::Introduction>> all;
@@ -23,13 +89,17 @@ std::vector<std::optional<question::Introduction>> ClaimOptions::ask(
     if (said->precision && (!said_precision_ || bits_of(*said->precision) < bits_of(*said_precision_)))
       said_precision_ = said->precision;
     if (said->time_tolerance) said_tolerance_ = std::max(*said->time_tolerance, said_tolerance_.value_or(0));
+    if (said->domain && !domain) set_once(said_domain_, *said->domain, "--domain");
+    if (said->inside && !starts_inside) set_once(said_inside_, *said->inside, "--starts-inside");
   }
   return all;
 }
 
 Claim ClaimOptions::claim(NumberFormat otherwise) const {
   Claim claim{precision ? number_format_named(*precision) : said_precision_.value_or(otherwise),
-              said_tolerance_};
+              said_tolerance_, said_inside_.value_or(StartInside::inside), said_domain_.value_or(Domain())};
+  if (domain) claim.domain = domain_from(*domain);
+  if (starts_inside) claim.inside = rule_from(*starts_inside);
   if (!time_tolerance) return claim;
   constexpr double kNotJudged = std::numeric_limits<double>::infinity();
   claim.time_tolerance = *time_tolerance == "inf" || *time_tolerance == "Inf"
@@ -49,6 +119,23 @@ Option ClaimOptions::time_tolerance_row() {
   return {"--time-tolerance", &time_tolerance, "T",
           "a time is right if it is off by at most T times itself, not by ulps; inf: times are not judged "
           "(default: what a cmd: or lib: engine says of itself)"};
+}
+
+Option ClaimOptions::domain_row() {
+  return {
+      "--domain", &domain, "PART=VALUE",
+      "the questions that the engine is made for, with commas between parts: speed=A..B, coordinates=A..B, "
+      "radius=A..B, flight=A..B, dimension=2|3, shape=ball|ellipsoid, limits=yes|no (default: what a cmd: or "
+      "lib: engine says of itself, else all)"};
+}
+
+Option ClaimOptions::starts_inside_row() {
+  return {"--starts-inside", &starts_inside, "inside|miss|zero|exit|unsupported",
+          "what the engine answers if x lies in an obstacle: that (inside); as if it were not there (miss); "
+          "a hit at "
+          "time 0 (zero), or when the line leaves it (exit); unsupported: it is not asked (default: what a "
+          "cmd: or "
+          "lib: engine says of itself, else inside)"};
 }
 
 }  // namespace lorentz::cli

@@ -44,7 +44,7 @@ std::string json_of(const ExaminationOptions& options, const ComparedQuestions& 
   return json::line_of([&](json::Members& object) {
     object.add("scene", questions.title(), "seed", options.seed, "judge", judge);
     report::add_claim(object, options.claim.claim());
-    object.add("not_asked", questions.not_asked(), "engines",
+    object.add("not_asked", questions.not_asked(), "outside_domain", questions.outside_domain(), "engines",
                json::objects(all, [&](json::Members& one, const LineupEntry& its) {
                  add_tally(one, its.total(), judge.has_value());
                }));
@@ -70,11 +70,14 @@ void add_logged(Lineup& lineup, const std::string& argument, const ComparedQuest
   lineup.add(argument.substr(0, equals), logged_in(argument.substr(equals + 1), questions, unknown));
 }
 
-// The line on questions that were not asked; empty if all were asked.
+// The lines on questions that were not asked; empty if all were asked.
 std::string not_asked_of(const ComparedQuestions& questions) {
-  const std::size_t count = questions.not_asked();
-  return count == 0 ? ""
-                    : fmt::format("{} more were not asked: their numbers are of another precision\n", count);
+  std::string text;
+  if (const std::size_t count = questions.not_asked(); count > 0)
+    text += fmt::format("{} more were not asked: their numbers are of another precision\n", count);
+  if (const std::size_t count = questions.outside_domain(); count > 0)
+    text += fmt::format("{} more were not asked: they are outside of the declared domain\n", count);
+  return text;
 }
 
 std::string text_of(const ExaminationOptions& options, const ComparedQuestions& questions,
@@ -101,9 +104,10 @@ std::vector<Question> examine_all(const ExaminationOptions& options, ComparedQue
   std::vector<Question> first;
   lineup.begin(options.queries ? "given" : "drawn");
   for (AskedPart part; !(part.questions = questions.next(kTogether)).empty();) {
-    lineup.pass_over(questions.passed_over());
     answer_exactly(part.questions, truth_named(options.judge, {}), terminal(),
                    static_cast<int>(options.jobs));
+    questions.drop_outside(part.questions);
+    lineup.pass_over(questions.passed_over());
     lineup.ask(part);
     if (first.empty()) first = std::move(part.questions);
   }
@@ -146,11 +150,11 @@ Command compare_command() {
       "compare",
       "Engines, and answers that other programs logged, against the exact "
       "oracle: right or wrong, error, speed.",
-      options->rows({"--engine",    "--answers",        "--scene", "--radius",        "--queries",
-                     "--jobs",      "--count",          "--seed",  "--disagreements", "--ulps",
-                     "--precision", "--time-tolerance", "--judge", "--no-oracle",     "--timeout",
-                     "--json",      "--failures",       "--times", "--strict",        "--baseline",
-                     "--junit"}),
+      options->rows({"--engine",    "--answers",        "--scene",  "--radius",        "--queries",
+                     "--jobs",      "--count",          "--seed",   "--disagreements", "--ulps",
+                     "--precision", "--time-tolerance", "--domain", "--starts-inside", "--judge",
+                     "--no-oracle", "--timeout",        "--json",   "--failures",      "--times",
+                     "--strict",    "--baseline",       "--junit"}),
 
       "wrong: another obstacle or outcome than any error of k ulps in the inputs explains. wrong time: the "
       "right obstacle,\n"

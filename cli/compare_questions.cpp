@@ -71,14 +71,27 @@ void ComparedQuestions::add(Questions& questions, const Query& query, const Id& 
     bad_ids_ = true;
     say("the query id {} comes twice: answers cannot be matched to its queries", id);
   }
-  if (!place_->has_numbers_for(query)) {
-    ++not_asked_;
-    if (!options_.answers.empty()) passed_over_.push_back({.place = place_, .query = query, .id = id});
-    return;
-  }
+  const Question question{.place = place_, .query = query, .id = id, .max_time = max_time};
+  if (!place_->has_numbers_for(query)) return pass_over(question, not_asked_);
+  const bool is_limit_taken = claim_.domain.limits || !question.has_limit();
+  if (!is_limit_taken || !place_->takes(query)) return pass_over(question, outside_domain_);
   scenes_ += std::exchange(is_new_, false);
   ++count_;
-  questions.push_back({.place = place_, .query = query, .id = id, .max_time = max_time});
+  questions.push_back(question);
+}
+
+void ComparedQuestions::pass_over(const Question& question, std::size_t& count) {
+  ++count;
+  if (!options_.answers.empty()) passed_over_.push_back(question);
+}
+
+void ComparedQuestions::drop_outside(std::vector<Question>& questions) {
+  const auto is_outside = [&](const Question& question) {
+    if (question.place->takes(question.query, question.exact)) return false;
+    pass_over(question, outside_domain_), --count_;
+    return true;
+  };
+  std::erase_if(questions, is_outside);
 }
 
 std::vector<Question> ComparedQuestions::draw(std::size_t most) {

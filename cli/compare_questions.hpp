@@ -26,8 +26,12 @@ class ComparedQuestions {
   bool had_bad_input() const { return bad_ids_ || (given_ && given_->had_bad_input()); }
   std::size_t count() const { return count_; }
   std::size_t not_asked() const { return not_asked_; }  ///< because their numbers have another precision
+  std::size_t outside_domain() const { return outside_domain_; }  ///< not asked, as the engine claims
   /// The scene's name, or the number of scenes if there are several.
   std::string title() const;
+
+  /// Takes out the questions that the engine is not asked because of their exact answers.
+  void drop_outside(std::vector<question::Question>& questions);
 
   /// The questions since the last call that were not asked. Logged answers to them must be skipped.
   std::vector<question::Question> passed_over() { return std::exchange(passed_over_, {}); }
@@ -41,6 +45,7 @@ class ComparedQuestions {
   using Questions = std::vector<question::Question>;
 
   void enter(const Scene& scene);
+  void pass_over(const question::Question& question, std::size_t& count);
   Questions draw(std::size_t most);
   Questions read(std::size_t most);
   void add(Questions& questions, const Query& query, const Id& id, double max_time = question::kForEver);
@@ -54,7 +59,7 @@ class ComparedQuestions {
   std::shared_ptr<question::Place> place_;
   bool is_new_ = false, bad_ids_ = false;
   std::vector<question::Question> passed_over_;
-  std::size_t not_asked_ = 0, count_ = 0, scenes_ = 0;
+  std::size_t not_asked_ = 0, outside_domain_ = 0, count_ = 0, scenes_ = 0;
   std::unordered_set<Id> ids_;
 };
 

@@ -59,6 +59,8 @@ std::vector<Option> rows_of_engines(O& o) {
        "forgives nothing (default: 4)"},
       o.claim.precision_row(),
       o.claim.time_tolerance_row(),
+      o.claim.domain_row(),
+      o.claim.starts_inside_row(),
       {"--times", &o.times, "", "wrong times count: exit status 1, and among the failures"},
       {"--strict", &o.strict, "",
        "ill-posed and undecided answers count, and those to invalid questions: exit status 1; unknown keys "

@@ -69,9 +69,38 @@ void add_detail(const ExactScene<D>& scene, const ExactQuery<D>& query, const Ex
   detail.impact_parameter = round_to_binary64(Quadratic{0, +1, across2 * v2, v2, query.length_exponent});
 }
 
+// By these rules obstacles that contain x are passed one row after another. A radius of very many cells has too many.
+template <std::size_t D>
+bool is_beyond_rule(const ExactScene<D>& scene, const ExactQuery<D>& query, StartInside rule) {
+  if (rule != StartInside::miss && rule != StartInside::exit) return false;
+  bool is_dense = false;
+  for_each_atom(scene, [&](int lattice, int atom) {
+    const View<D> view = query.view(scene, lattice, atom);
+    for (const LatticePoint<D>& vector : view.basis)
+      is_dense |= view.radius2 > 1'000'000 * dot(vector.p, vector.p);
+  });
+  return is_dense && smallest_around(scene, query);
+}
+
+template <std::size_t D>
+Answer hit_of(const ExactEntry<D>& entry, const Quadratic& time, const Request& request) {
+  if (request.max_time && compare(time, *request.max_time) >= 0) return Answer::later();
+  Answer answer = Answer::hit({entry.lattice, entry.atom, to_cell(entry.n)}, round_to_binary64(time));
+  if (request.digits > 0) answer.time_decimal = round_to_decimal(time, request.digits);
+  return answer;
+}
+
 template <std::size_t D>
 Answer first_hit(const ExactScene<D>& scene, const ExactQuery<D>& query, const Request& request) {
-  const Sighting<D> seen = first_entry(scene, query);
+  if (is_beyond_rule(scene, query, request.start))
+    return Answer::unsupported_because(
+        "a start inside obstacles with radii of more than 1000 lattice vectors, by the rule " +
+        std::string(name_of(request.start)));
+  if (request.start == StartInside::exit)
+    if (const auto left = first_left(scene, query)) return hit_of(*left, query.exit_time_of(*left), request);
+  const Sighting<D> seen = first_entry(scene, query, request.start == StartInside::miss);
+  if (seen.around && request.start == StartInside::zero)
+    return hit_of(query.meeting(scene, *seen.around), Quadratic{}, request);
   if (seen.around) {
     Answer inside = Answer::inside(*seen.around);
     if (request.detail) add_detail(scene, query, query.meeting(scene, *seen.around), inside);
@@ -79,11 +108,8 @@ Answer first_hit(const ExactScene<D>& scene, const ExactQuery<D>& query, const R
   }
   if (!seen.earliest.found()) return request.max_time ? Answer::later() : Answer::never();
   const ExactEntry<D>& entry = seen.earliest.entry();
-  const Quadratic time = query.time_of(entry);
-  if (request.max_time && compare(time, *request.max_time) >= 0) return Answer::later();
-  Answer answer = Answer::hit({entry.lattice, entry.atom, to_cell(entry.n)}, round_to_binary64(time));
-  if (request.digits > 0) answer.time_decimal = round_to_decimal(time, request.digits);
-  if (request.detail) add_detail(scene, query, entry, answer);
+  Answer answer = hit_of(entry, query.time_of(entry), request);
+  if (request.detail && answer.outcome == Outcome::hit) add_detail(scene, query, entry, answer);
   return answer;
 }
 

@@ -127,7 +127,9 @@ void answer_by_certified(std::span<Question> questions, const Listener& listener
   options.jobs = jobs;
   const auto certified = engine_named("certified-batch").answerer(options);
   certified->on_reply([&](Reply& reply) {
-    order[told++]->exact = std::move(reply.answer);
+    Question& question = *order[told++];
+    question.exact = std::move(reply.answer);
+    if (question.exact.outcome == Outcome::inside) question.exact = question.place->exact(question.query);
     report(listener, kExactAnswers, told, order.size());
   });
   for (const Question* question : order) {
@@ -147,7 +149,7 @@ void answer_exactly(std::span<Question> questions, Truth truth, const Listener& 
   in_stretches(questions.size(), static_cast<std::size_t>(jobs),
                [&](std::size_t, std::size_t begin, std::size_t end) {
                  for (Question& question : questions.subspan(begin, end - begin)) {
-                   question.exact = question.place->oracle().first_hit(question.query);
+                   question.exact = question.place->exact(question.query);
                    const std::lock_guard lock(mutex);
                    report(listener, kExactAnswers, ++done, questions.size());
                  }

@@ -55,6 +55,43 @@ std::vector<int> dimensions_in(json::Value value) {
   return dimensions;
 }
 
+Domain::Range range_in(json::Value value, std::string_view key) {
+  const std::string name = "domain: " + std::string(key);
+  std::vector<double> ends;
+  json::each_element(value.array(),
+                     [&](json::Value end) { ends.push_back(not_negative(end, name.c_str())); });
+  if (ends.size() != 2 || ends[0] > ends[1]) throw InputError(name + " needs two numbers, the smaller first");
+  return {ends[0], ends[1]};
+}
+
+void read_shapes(json::Value value, Domain& domain) {
+  domain.balls = domain.ellipsoids = false;
+  json::each_element(value.array(), [&](json::Value shape) {
+    const std::string_view name = shape.text();
+    if (name != "ball" && name != "ellipsoid") throw InputError("domain: shapes are ball and ellipsoid");
+    (name == "ball" ? domain.balls : domain.ellipsoids) = true;
+  });
+}
+
+Domain domain_in(json::Value value) {
+  Domain domain;
+  json::Object object = value.object();
+  json::each_member(object, [&](std::string_view key, json::Value its) {
+    if (key == "speed") domain.speed = range_in(its, key);
+    if (key == "coordinates") domain.coordinates = range_in(its, key);
+    if (key == "radius") domain.radius = range_in(its, key);
+    if (key == "flight") domain.flight = range_in(its, key);
+    if (key == "shapes") read_shapes(its, domain);
+    if (key == "limits") domain.limits = its.boolean();
+  });
+  return domain;
+}
+
+StartInside rule_called(std::string_view name) {
+  if (const auto rule = start_inside_named(name)) return *rule;
+  throw InputError("inside is inside, miss, zero, exit or unsupported, not " + json_quoted(name));
+}
+
 }  // namespace
 
 std::optional<Introduction> introduction_in(std::string_view line) {
@@ -66,7 +103,16 @@ std::optional<Introduction> introduction_in(std::string_view line) {
     if (key == "time_tolerance" && !value.is_null())
       made.time_tolerance = not_negative(value, "time_tolerance");
     if (key == "dimensions") made.dimensions = dimensions_in(value);
+    if (key == "domain") made.domain = domain_in(value);
+    if (key == "inside") made.inside = rule_called(value.text());
   });
+  if (!made.dimensions.empty()) {
+    Domain& domain = made.domain ? *made.domain : made.domain.emplace();
+    const auto has = [&](int dimension) {
+      return std::ranges::find(made.dimensions, dimension) != made.dimensions.end();
+    };
+    domain.dimension_2 = has(2), domain.dimension_3 = has(3);
+  }
   return is_there ? std::optional(made) : std::nullopt;
 }
 

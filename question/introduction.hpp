@@ -12,13 +12,16 @@
 
 namespace lorentz::question {
 
-/// `{"engine":{"name":..,"version":..,"precision":..,"time_tolerance":..,"dimensions":[..]}}`; each key may
-/// be left out.
+/// `{"engine":{"name":..,"version":..,"precision":..,"time_tolerance":..,"dimensions":[..],"domain":{"speed":[a,b],
+/// "coordinates":[a,b],"radius":[a,b],"flight":[a,b],"shapes":["ball","ellipsoid"],"limits":true},"inside":..}}`; each
+/// key may be left out.
 struct Introduction {
   std::string name = {}, version = {};
   std::optional<NumberFormat> precision = {};
   std::optional<double> time_tolerance = {};  ///< as Claim::time_tolerance
   std::vector<int> dimensions = {};           ///< empty: not stated
+  std::optional<Domain> domain = {};          ///< with the dimensions
+  std::optional<StartInside> inside = {};
 };
 
 /// Reads an introduction. Returns nothing if the line is not an object whose first key is "engine". Throws

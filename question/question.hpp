@@ -29,7 +29,8 @@ class Place {
       : scene_(std::move(scene)),
         truth_(truth),
         claim_(claim),
-        is_in_its_numbers_(consists_of(scene_, claim.precision)) {}
+        is_in_its_numbers_(consists_of(scene_, claim.precision)),
+        is_in_its_domain_(claim.domain.has(scene_)) {}
 
   const Scene& scene() const { return scene_; }
   const Claim& claim() const { return claim_; }
@@ -37,12 +38,23 @@ class Place {
   bool has_numbers_for(const Query& query) const {
     return is_in_its_numbers_ && consists_of(query, claim_.precision);
   }
+  /// True if they are also in the claim's domain.
+  bool takes(const Query& query) const {
+    return is_in_its_domain_ && claim_.domain.has(query) && has_numbers_for(query);
+  }
+  /// True if the exact answer is one that the engine is asked for, too.
+  bool takes(const Query& query, const Answer& exact) const {
+    const bool is_start_inside =
+        exact.outcome == Outcome::inside && claim_.inside == StartInside::unsupported;
+    return !is_start_inside && !exact.unsupported && claim_.domain.has(query, exact);
+  }
   const oracle::Oracle& oracle() const { return made(oracle_); }
   const oracle::Judge& judge() const { return made(judge_, claim_); }
   const oracle::Margins& margins() const { return made(margins_, claim_.precision); }
 
-  /// The true answer to a valid query.
-  Answer exact(const Query& query, const oracle::Request& request = {}) const {
+  /// The true answer to a valid query, by the claim's rule for starts inside.
+  Answer exact(const Query& query, oracle::Request request = {}) const {
+    request.start = claim_.inside;
     return truth_ == Truth::oracle ? oracle().first_hit(query, request)
                                    : made(certified_).first_hit(query, request);
   }
@@ -79,7 +91,7 @@ class Place {
   const Scene scene_;
   const Truth truth_;
   const Claim claim_;
-  const bool is_in_its_numbers_;
+  const bool is_in_its_numbers_, is_in_its_domain_;
   mutable std::unique_ptr<oracle::Oracle> oracle_;
   mutable std::unique_ptr<oracle::Certified> certified_;
   mutable std::unique_ptr<oracle::Judge> judge_;

@@ -2,11 +2,41 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <vector>
+
 namespace lorentz::report {
+
+namespace {
+
+std::string text_of(const Domain::Range& range) {
+  std::string text = range.low > 0 ? fmt::format("{}..", range.low) : "..";
+  if (std::isfinite(range.high)) text += fmt::format("{}", range.high);
+  return text;
+}
+
+// As the argument of --domain; empty for all.
+std::string text_of(const Domain& domain) {
+  std::vector<std::string> parts;
+  const auto add = [&](const char* key, const Domain::Range& range) {
+    if (range != Domain::Range()) parts.push_back(key + text_of(range));
+  };
+  add("speed=", domain.speed), add("coordinates=", domain.coordinates);
+  add("radius=", domain.radius), add("flight=", domain.flight);
+  if (!domain.dimension_2 || !domain.dimension_3)
+    parts.push_back(domain.dimension_2 ? "dimension=2" : "dimension=3");
+  if (!domain.balls || !domain.ellipsoids) parts.push_back(domain.balls ? "shape=ball" : "shape=ellipsoid");
+  if (!domain.limits) parts.push_back("limits=no");
+  return fmt::format("{}", fmt::join(parts, ","));
+}
+
+}  // namespace
 
 std::string words_of(const Claim& claim) {
   std::string words;
   if (claim.precision != NumberFormat::binary64) words += fmt::format(", in {}", name_of(claim.precision));
+  if (const std::string domain = text_of(claim.domain); !domain.empty()) words += ", for " + domain;
+  if (claim.inside != StartInside::inside) words += fmt::format(", starts inside: {}", name_of(claim.inside));
   if (!claim.time_tolerance) return words;
   return words + (std::isinf(*claim.time_tolerance)
                       ? ", times not judged"
@@ -24,11 +54,16 @@ std::string arguments_of(const Claim& claim) {
   if (claim.precision != NumberFormat::binary64)
     text += fmt::format(" --precision {}", name_of(claim.precision));
   if (claim.time_tolerance) text += fmt::format(" --time-tolerance {}", *claim.time_tolerance);
+  if (const std::string domain = text_of(claim.domain); !domain.empty()) text += " --domain " + domain;
+  if (claim.inside != StartInside::inside) text += fmt::format(" --starts-inside {}", name_of(claim.inside));
   return text;
 }
 
 void add_claim(json::Members& object, const Claim& claim) {
+  const std::string domain = text_of(claim.domain);
   object.add("precision", name_of(claim.precision), "time_tolerance", claim.time_tolerance);
+  if (!domain.empty()) object.add("domain", domain);
+  if (claim.inside != StartInside::inside) object.add("starts_inside", name_of(claim.inside));
 }
 
 }  // namespace lorentz::report

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include <lorentz/answer.hpp>
+#include <lorentz/claim.hpp>
 #include <lorentz/pimpl.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
@@ -17,6 +18,8 @@ struct Request {
   int digits = 0;                  ///< significant decimal digits of the time, rounded half to even; 0: none
   bool detail = false;             ///< Answer::detail and exit_time, each correctly rounded
   std::optional<double> max_time;  ///< answer `later` if nothing is entered before this time
+  /// The rule for a start inside; `unsupported` is as `inside`. Hits by the rules `zero` and `exit` have no detail.
+  StartInside start = StartInside::inside;
 };
 
 /// First hits by exact integer arithmetic: every decision is the sign of an integer, and only the result is
@@ -39,7 +42,10 @@ struct Request {
 ///  3. The decimal digits and the details of Request are correctly rounded, too.
 ///     held by "Details are correctly rounded"
 ///  4. The answer is never `undecided`.
-///  5. Any number of threads may use one oracle.
+///  5. A start inside is answered by the rule in Request.
+///     held by "A start inside by another rule: single obstacles are taken away, or looked at one by one",
+///             "A start inside that misses: the lattice as single obstacles says the same"
+///  6. Any number of threads may use one oracle.
 ///     held by "Many threads may ask one engine, oracle, walk and judge"
 ///
 /// Units: as in Query: lengths are in the scene's unit, and times are such that x + t v is the particle's

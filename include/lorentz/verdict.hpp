@@ -81,9 +81,12 @@ struct ExcusedAnswer {
 ///     at most T times its time before, and not yet left.
 ///     held by "In binary32 an ulp is one of 24 bits",
 ///             "A tolerance of times, and what it forgives of the order"
-///  5. Any number of threads may use one judge.
+///  5. If the claim has another rule for starts inside, the exact answer must be the one by that rule. `inside` is
+///     wrong then; whether x lies in an obstacle is one of the decisions that ulps may excuse.
+///     held by "Starts inside are judged by the rule that is claimed"
+///  6. Any number of threads may use one judge.
 ///     held by "Many threads may ask one engine, oracle, walk and judge"
-///  6. excused() lists what judge() forgives, and nothing else.
+///  7. excused() lists what judge() forgives, and nothing else.
 ///     held by "Excused answers are those that the judge calls ill-posed"
 ///
 /// Cost: negligible if the two answers agree, otherwise 100 us and more.
@@ -104,7 +107,7 @@ class Judge {
   /// All answers that judge() calls ill-posed with this tolerance, the one with the least ExcusedAnswer::ulps
   /// first. With this list, answers can be judged without a Judge. Nothing if there are more than `most` or
   /// infinitely many, or if too many obstacles come into question (kExcusedBudget). The claim's time
-  /// tolerance is ignored.
+  /// tolerance and its rule for starts inside are ignored.
   std::optional<std::vector<ExcusedAnswer>> excused(const Query& query, const Answer& exact, double ulps,
                                                     std::size_t most) const;
 

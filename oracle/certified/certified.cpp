@@ -33,6 +33,7 @@ bool Certified::answer_fast(const Query& query, const Request& request, Answer& 
   }
   Flight flight = fast_->fly(query, max_time, Reduction::Time::rounded);
   if (flight.outcome == Outcome::undecided) return false;
+  if (flight.outcome == Outcome::inside && request.start != StartInside::inside) return false;
   if (flight.outcome == Outcome::hit && !flight.time_is_rounded) return false;
   if (request.max_time && flight.outcome == Outcome::never) flight.outcome = Outcome::later;
   set_answer(flight, answer);

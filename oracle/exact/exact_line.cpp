@@ -3,42 +3,53 @@
 namespace lorentz::oracle {
 namespace {
 
-// An integer k such that every earliest entry at t >= 0 has its index in k - 1 .. k + 2; nothing if the row
-// is missed.
-//
+// Integers k such that every earliest entry at t >= 0 has its index in k - 1 .. k + 2 of one of them.
+struct Near {
+  std::optional<Z> one, other;  // none if the row is missed
+};
+
 // In the plane of (k, t) the balls at real k fill a convex region E: {|x + t v - c(k)| < r}. The lower end of
 // E at k is the entry t(k), which is convex in k.
-// - If E meets the axis t = 0, it does so in an open interval that holds no integer but `from`, so the
-//   interval is shorter than 2. E then lies on one side of the axis to the left of the interval, and on one
-//   side to the right of it. The earliest entries are those next to the interval, within 2 of its middle.
+// - If E meets the axis t = 0, it does so in an open interval: its integers are the obstacles that contain x.
+//   E then lies on one side of the axis to the left of the interval, and on one side to the right of it. The
+//   earliest entries are those next to the interval, the next but one if that is `from`. If the interval is
+//   shorter than 2, they are within 2 of its middle, and `from` is in it or it holds no integer.
 // - Otherwise E lies on one side of the axis, and t(k) is least next to its real minimum.
 // - A row along v is a strip of constant width: the entries increase along the flight, and the first is the
 //   one next to t = 0.
-std::optional<Z> index_near_first(const ExactRow<3>& row, const Z& rho2) {
+Near near_interval(const Z& centre, const Z& half2, const Z& gg) {  // (centre -+ sqrt(half2)) / gg
+  if (half2 < gg * gg) return {floor_div(centre, gg), std::nullopt};
+  return {floor_surd(centre, -1, half2, gg), -floor_surd(-centre, -1, half2, gg)};
+}
+
+Near near_first(const ExactRow<3>& row, const Z& rho2) {
   if (row.A == 0) {
     const Z d = rho2 - row.C;
-    if (d <= 0) return std::nullopt;
+    if (d <= 0) return {};
     // s0 + k sg = sqrt(d), so k = (-s0 + sqrt(d)) / sg.
-    return row.sg > 0 ? floor_surd(-row.s0, +1, d, row.sg) : floor_surd(row.s0, -1, d, -row.sg);
+    return {row.sg > 0 ? floor_surd(-row.s0, +1, d, row.sg) : floor_surd(row.s0, -1, d, -row.sg), {}};
   }
   const Z strip = row.B * row.B - row.A * (row.C - rho2);
-  if (strip <= 0) return std::nullopt;
+  if (strip <= 0) return {};
   const Z inside = row.cg * row.cg - row.gg * (row.cc - rho2);
-  if (inside > 0) return floor_div(-row.cg, row.gg);
+  if (inside > 0) return near_interval(-row.cg, inside, row.gg);
   // dt/dk = 0: A k + B = -sign(sg) sqrt(sg^2 strip / gg).
-  return floor_surd(-row.B * row.gg, -sgn(row.sg), row.sg * row.sg * strip * row.gg, row.A * row.gg);
+  return {floor_surd(-row.B * row.gg, -sgn(row.sg), row.sg * row.sg * strip * row.gg, row.A * row.gg), {}};
 }
 
 // The same in the plane, where A = h_g^2, B = h0 h_g and C = h0^2 allow shorter numbers.
-std::optional<Z> index_near_first(const FlightPoint& start, const FlightPoint& step, const Z& rho2) {
+Near near_first(const FlightPoint& start, const FlightPoint& step, const Z& rho2) {
   if (step.h == 0) {
     const Z d = rho2 - start.h * start.h;
-    if (d <= 0) return std::nullopt;
-    return step.s > 0 ? floor_surd(-start.s, +1, d, step.s) : floor_surd(start.s, -1, d, -step.s);
+    if (d <= 0) return {};
+    return {step.s > 0 ? floor_surd(-start.s, +1, d, step.s) : floor_surd(start.s, -1, d, -step.s), {}};
   }
   const Z gg = step.s * step.s + step.h * step.h, off = minor_of(start.s, start.h, step.s, step.h);
-  if (off * off < gg * rho2) return floor_div(-(start.s * step.s + start.h * step.h), gg);
-  return floor_surd(-sgn(step.h) * start.h * gg, -sgn(step.s), step.s * step.s * rho2 * gg, gg * abs(step.h));
+  const Z inside = gg * rho2 - off * off;
+  if (inside > 0) return near_interval(-(start.s * step.s + start.h * step.h), inside, gg);
+  return {
+      floor_surd(-sgn(step.h) * start.h * gg, -sgn(step.s), step.s * step.s * rho2 * gg, gg * abs(step.h)),
+      {}};
 }
 
 // Offers the entry at t >= 0 into the obstacle n + k step, if there is one.
@@ -58,22 +69,22 @@ void offer_entry(const Search<D>& search, Z s, Z d, const ZVec<D>& n, const Z& k
 
 // For any number of obstacles that the line meets in the row.
 void offer_first_of_many(const Search<2>& search, const FlightPoint& start, const FlightPoint& step) {
-  const std::optional<Z> near = index_near_first(start, step, search.rho2);
-  if (!near) return;
-  for (int i = -1; i <= 2; ++i) {
-    const Z k = *near + i, h = start.h + k * step.h;
-    offer_entry(search, start.s + k * step.s, search.rho2 - h * h, start.n, k, step.n);
-  }
+  const Near near = near_first(start, step, search.rho2);
+  for (const std::optional<Z>& one : {near.one, near.other})
+    for (int i = -1; one && i <= 2; ++i) {
+      const Z k = *one + i, h = start.h + k * step.h;
+      offer_entry(search, start.s + k * step.s, search.rho2 - h * h, start.n, k, step.n);
+    }
 }
 
 void offer_first_of_many(const Search<3>& search, const LatticePoint<3>& start, const LatticePoint<3>& step) {
   const ExactRow<3> row(search.velocity, start, step);
-  const std::optional<Z> near = index_near_first(row, search.rho2);
-  if (!near) return;
-  for (int i = -1; i <= 2; ++i) {
-    const Z k = *near + i, d = search.rho2 - (row.C + k * (2 * row.B + k * row.A));
-    offer_entry(search, row.s0 + k * row.sg, d, start.n, k, step.n);
-  }
+  const Near near = near_first(row, search.rho2);
+  for (const std::optional<Z>& one : {near.one, near.other})
+    for (int i = -1; one && i <= 2; ++i) {
+      const Z k = *one + i, d = search.rho2 - (row.C + k * (2 * row.B + k * row.A));
+      offer_entry(search, row.s0 + k * row.sg, d, start.n, k, step.n);
+    }
 }
 
 // Rows in which about this many obstacles at most are candidates are tried obstacle by obstacle, which takes

@@ -98,8 +98,8 @@ struct ExactRow {
 };
 
 /// All rows with the same step, in the plane. For a row start + k step, k any integer, `offer_first` offers
-/// the earliest entry at t >= 0. x must not lie in any of its obstacles except `from`. The cost is the same
-/// for two obstacles and for 2^1000.
+/// the earliest entry at t >= 0; obstacles that contain x have none. The cost is the same for two obstacles and
+/// for 2^1000.
 class RowsInPlane {
  public:
   RowsInPlane(const Search<2>& search, const FlightPoint& step);

@@ -35,21 +35,55 @@ std::optional<ObstacleId> smallest_around(const ExactScene<D>& scene, const Exac
 }
 
 template <std::size_t D>
-Sighting<D> first_entry(const ExactScene<D>& scene, const ExactQuery<D>& query) {
+Sighting<D> first_entry(const ExactScene<D>& scene, const ExactQuery<D>& query, bool pass_around) {
   Sighting<D> seen;
   std::vector<View<D>> views;
-  seen.around = smallest_around(scene, query, views);
+  if (!pass_around) seen.around = smallest_around(scene, query, views);
   if (seen.around) return seen;
   auto view = views.begin();
   for_each_atom(scene, [&](int lattice, int atom) {
-    search_first_hit(*view++, lattice, atom, query.from_in(lattice, atom), seen.earliest);
+    const ZVec<D>* from = query.from_in(lattice, atom);
+    if (pass_around)
+      search_first_hit(query.view(scene, lattice, atom), lattice, atom, from, seen.earliest);
+    else
+      search_first_hit(*view++, lattice, atom, from, seen.earliest);
   });
   return seen;
 }
 
+// Along a row the time of exit is a concave function of k, so it is least at one of the row's ends.
+template <std::size_t D>
+std::optional<ExactEntry<D>> first_left(const ExactScene<D>& scene, const ExactQuery<D>& query) {
+  std::optional<ExactEntry<D>> first;
+  const auto look = [&](int lattice, int atom, const LatticePoint<D>& point) {
+    ExactEntry<D> one = query.meeting(scene, {lattice, atom, to_cell(point.n)});
+    const auto key = [](const ExactEntry<D>& e) { return std::tie(e.lattice, e.atom, e.n); };
+    const int order = first ? compare_entries(-first->s, first->d, first->v2, -one.s, one.d, one.v2) : -1;
+    if (order < 0 || (order == 0 && key(one) < key(*first))) first = std::move(one);
+  };
+  for_each_atom(scene, [&](int lattice, int atom) {
+    const View<D> view = query.view(scene, lattice, atom);
+    const ZVec<D>* from = query.from_in(lattice, atom);
+    if (!view.near) return;
+    visit_ball<D>(view.basis, view.offset, view.radius2,
+                  [&](LatticePoint<D> begin, const LatticePoint<D>& step, const Z& last) {
+                    LatticePoint<D> end = begin;
+                    end.add_multiple(last, step);
+                    if (from && begin.n == *from) begin.add_multiple(1, step);
+                    if (from && end.n == *from) end.add_multiple(-1, step);
+                    if (from && last == 0 && begin.n != end.n) return false;  // it was the only one
+                    look(lattice, atom, begin), look(lattice, atom, end);
+                    return false;
+                  });
+  });
+  return first;
+}
+
 template std::optional<ObstacleId> smallest_around(const ExactScene<2>&, const ExactQuery<2>&);
 template std::optional<ObstacleId> smallest_around(const ExactScene<3>&, const ExactQuery<3>&);
-template Sighting<2> first_entry(const ExactScene<2>&, const ExactQuery<2>&);
-template Sighting<3> first_entry(const ExactScene<3>&, const ExactQuery<3>&);
+template Sighting<2> first_entry(const ExactScene<2>&, const ExactQuery<2>&, bool);
+template Sighting<3> first_entry(const ExactScene<3>&, const ExactQuery<3>&, bool);
+template std::optional<ExactEntry<2>> first_left(const ExactScene<2>&, const ExactQuery<2>&);
+template std::optional<ExactEntry<3>> first_left(const ExactScene<3>&, const ExactQuery<3>&);
 
 }  // namespace lorentz::oracle

@@ -15,8 +15,14 @@ struct Sighting {
   Earliest<D> earliest;
 };
 
+/// `pass_around`: obstacles that contain x do not count.
 template <std::size_t D>
-Sighting<D> first_entry(const ExactScene<D>& scene, const ExactQuery<D>& query);
+Sighting<D> first_entry(const ExactScene<D>& scene, const ExactQuery<D>& query, bool pass_around = false);
+
+/// Of the obstacles other than `from` that contain x, the one that the line leaves first, and of several the smallest.
+/// Looks at two obstacles of each row of the lattice in which some contain x.
+template <std::size_t D>
+std::optional<ExactEntry<D>> first_left(const ExactScene<D>& scene, const ExactQuery<D>& query);
 
 /// The smallest obstacle other than `from` that contains x.
 template <std::size_t D>

@@ -1,7 +1,6 @@
 // The search for the first obstacle of one atom on one flight. Private to oracle/.
 //
-// x must lie in no obstacle of the atom except `from`. The search offers entries at t >= 0 to
-// `search.earliest`. The atom's earliest entry is among them, unless an earlier one (of another atom) was
+// The search offers entries at t >= 0 to `search.earliest`; obstacles that contain x have none. The atom's earliest entry is among them, unless an earlier one (of another atom) was
 // there before. If the search offers nothing, and nothing was there before, the flight never enters an
 // obstacle of this atom.
 #pragma once

@@ -32,9 +32,14 @@ struct Departure {
 template <std::size_t D>
 class DepartureBound {
  public:
+  /// `pass_around`: obstacles that contain x do not count.
   DepartureBound(const PerturbedQuery<D>& perturbed, const Answer& exact, double ulps,
-                 std::optional<double> time_tolerance)
-      : query_(perturbed), exact_(exact), ulps_(ulps), time_tolerance_(time_tolerance) {
+                 std::optional<double> time_tolerance, bool pass_around = false)
+      : query_(perturbed),
+        exact_(exact),
+        ulps_(ulps),
+        time_tolerance_(time_tolerance),
+        pass_around_(pass_around) {
     if (time_tolerance_ && std::isinf(*time_tolerance_)) time_tolerance_.reset();  // times are not judged
   }
 
@@ -226,7 +231,8 @@ class DepartureBound {
       used_tolerance_ = true;
       return;
     }
-    const Real spare = atom.margin_of_meeting(centre);
+    Real spare = atom.margin_of_meeting(centre);
+    if (pass_around_) spare = std::min(spare, atom.margin_of_containing(centre));
     if (to_double(spare, kHuge) > needed_.ulps)
       needs(std::min(spare, spare_before(target, hit, atom, centre)), atom, centre);
   }
@@ -244,6 +250,7 @@ class DepartureBound {
   const Answer& exact_;
   const double ulps_;
   std::optional<double> time_tolerance_;
+  const bool pass_around_;
   bool used_tolerance_ = false;
   Departure needed_;
   std::size_t passed_over_ = 0;

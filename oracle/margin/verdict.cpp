@@ -19,6 +19,84 @@ void check_tolerance(double ulps) {
 struct Judge::Impl {
   PerturbedScene scene;
   std::optional<double> time_tolerance;
+  StartInside start;
+
+  // For another answer than the exact one.
+  Judgement judge_departure(const Query& query, const Answer& exact, const Answer& given, double ulps) const {
+    Departure needed{kInfinity};
+    bool used_tolerance = false;
+    if (given.outcome == Outcome::never || !flaw_of(Query{query.x, query.v, given.obstacle}, scene.scene()))
+      needed = scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
+        DepartureBound<D> bound(perturbed, exact, ulps, time_tolerance, start == StartInside::miss);
+        const Departure departure = bound.of(given);
+        used_tolerance = bound.used_tolerance();
+        return departure;
+      });
+    // With a tolerance of 0 nothing is forgiven, not even a tie.
+    const bool forgiven = (ulps > 0 || used_tolerance) && needed.ulps <= ulps;
+    return {forgiven ? Verdict::ill_posed : Verdict::wrong, {}, needed.ulps, false, false, needed.obstacle};
+  }
+
+  // By the rules `zero` and `exit` a hit of an obstacle that contains x stands for `inside`, and its time is judged as
+  // such. Whether x lies in it is decided within the tolerance.
+  Judgement judge_start(const Query& query, const Answer& exact, const Answer& given, double ulps) const {
+    const Answer truth = as_inside(query, exact), said = as_inside(query, given);
+    const bool is_inside = truth.outcome == Outcome::inside;
+    if (truth.outcome == said.outcome && truth.obstacle == said.obstacle)
+      return given.outcome == Outcome::hit ? judge_start_time(query, exact, given, is_inside, ulps)
+                                           : Judgement{Verdict::agree};
+    if (start == StartInside::exit && is_inside && said.outcome == Outcome::inside)
+      return judge_order_of_exits(query, exact.obstacle, given.obstacle, ulps);
+    return judge_departure(query, truth, said, ulps);
+  }
+
+  // The time is that of entry or, by the rule `exit` from inside, of exit; either if x is inside or not within the
+  // tolerance.
+  Judgement judge_start_time(const Query& query, const Answer& exact, const Answer& given, bool is_inside,
+                             double ulps) const {
+    const bool at_exit = is_inside && start == StartInside::exit;
+    Judgement judgement{Verdict::agree};
+    if (!given.time) return judgement;
+    judge_time(query, {exact.obstacle, at_exit ? End::exit : End::entry, *exact.time}, *given.time, ulps,
+               judgement);
+    if (!judgement.wrong_time || start != StartInside::exit || ulps == 0) return judgement;
+    const End other = at_exit ? End::entry : End::exit;
+    const double margin = scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
+      return to_double(
+          perturbed.atom_of(exact.obstacle).margin_of_containing(perturbed.centre_of(exact.obstacle)), kHuge);
+    });
+    if (margin > ulps) return judgement;
+    Judgement excused{Verdict::agree};
+    judge_time(query, {exact.obstacle, other, rounded_time(query, exact.obstacle, other)}, *given.time, ulps,
+               excused);
+    return excused.wrong_time ? judgement : excused;
+  }
+
+  // `inside` in place of a hit of an obstacle that contains x.
+  Answer as_inside(const Query& query, const Answer& answer) const {
+    if (answer.outcome != Outcome::hit || query.from == answer.obstacle ||
+        flaw_of(Query{query.x, query.v, answer.obstacle}, scene.scene()))
+      return answer;
+    const bool contains = scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
+      const Uncertain<D>& atom = perturbed.atom_of(answer.obstacle);
+      return perturbed.centre_of(answer.obstacle).c2 < atom.view().radius2;
+    });
+    return contains ? Answer::inside(answer.obstacle) : answer;
+  }
+
+  // Both contain x. The one that is left later is ill-posed if the inputs' ulps can make up for the difference.
+  Judgement judge_order_of_exits(const Query& query, const ObstacleId& first, const ObstacleId& named,
+                                 double ulps) const {
+    const double departs = scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
+      const Real later =
+          time_in_own_units(perturbed, named, End::exit) - time_in_own_units(perturbed, first, End::exit);
+      const Real change =
+          change_of_time(perturbed, named, End::exit) + change_of_time(perturbed, first, End::exit);
+      return to_double(later / change, kHuge);
+    });
+    return {
+        ulps > 0 && departs <= ulps ? Verdict::ill_posed : Verdict::wrong, {}, departs, false, false, named};
+  }
 
   // Judges the times that are given for the right obstacle. A right answer may give neither.
   Judgement judge_times(const Query& query, const Answer& exact, const Answer& given, double ulps) const {
@@ -27,7 +105,7 @@ struct Judge::Impl {
       judge_time(query, {exact.obstacle, End::entry, *exact.time}, *given.time, ulps, judgement);
     if (!given.exit_time) return judgement;
     Judgement of_exit;
-    const double exit = exact.exit_time ? *exact.exit_time : exit_time(query, exact.obstacle);
+    const double exit = exact.exit_time ? *exact.exit_time : rounded_time(query, exact.obstacle, End::exit);
     judge_time(query, {exact.obstacle, End::exit, exit}, *given.exit_time, ulps, of_exit);
     judgement.wrong_time |= of_exit.wrong_time;
     judgement.other_quantity |= of_exit.other_quantity;
@@ -72,10 +150,11 @@ struct Judge::Impl {
     return abs(Real(given) - Real(exact)) <= Real(tolerance) * abs(Real(exact));
   }
 
-  double exit_time(const Query& query, const ObstacleId& obstacle) const {
+  double rounded_time(const Query& query, const ObstacleId& obstacle, End end) const {
     return scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
       const ExactQuery<D>& exact = perturbed.query();
-      return round_to_binary64(exact.exit_time_of(exact.meeting(perturbed.scene(), obstacle)));
+      const ExactEntry<D> meeting = exact.meeting(perturbed.scene(), obstacle);
+      return round_to_binary64(end == End::exit ? exact.exit_time_of(meeting) : exact.time_of(meeting));
     });
   }
 
@@ -99,8 +178,8 @@ struct Judge::Impl {
 };
 
 Judge::Judge(const Scene& scene, const Claim& claim)
-    : impl_(
-          std::make_unique<const Impl>(Impl{PerturbedScene(scene, claim.precision), claim.time_tolerance})) {
+    : impl_(std::make_unique<const Impl>(
+          Impl{PerturbedScene(scene, claim.precision), claim.time_tolerance, claim.inside})) {
   if (claim.time_tolerance && !(*claim.time_tolerance >= 0))
     throw InputError("time_tolerance: must not be below zero or NaN");
 }
@@ -123,21 +202,14 @@ Judgement Judge::judge(const Query& query, const Answer& exact, const Answer& gi
   }
   if (exact.outcome == Outcome::hit || exact.outcome == Outcome::inside)
     checked(exact.obstacle, impl_->scene.scene());
+  const bool by_other_rule = impl_->start != StartInside::inside && impl_->start != StartInside::unsupported;
+  if (by_other_rule && given.outcome == Outcome::inside) return {Verdict::wrong, {}, kInfinity};
+  if (by_other_rule && impl_->start != StartInside::miss)
+    return impl_->judge_start(query, exact, given, ulps);
   const bool names_obstacle = given.outcome != Outcome::never;
   if (given.outcome == exact.outcome && (!names_obstacle || given.obstacle == exact.obstacle))
     return impl_->judge_times(query, exact, given, ulps);
-  Departure needed{kInfinity};
-  bool used_tolerance = false;
-  if (!names_obstacle || !flaw_of(Query{query.x, query.v, given.obstacle}, impl_->scene.scene()))
-    needed = impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
-      DepartureBound<D> bound(perturbed, exact, ulps, impl_->time_tolerance);
-      const Departure departure = bound.of(given);
-      used_tolerance = bound.used_tolerance();
-      return departure;
-    });
-  // With a tolerance of 0 nothing is forgiven, not even a tie.
-  const bool forgiven = (ulps > 0 || used_tolerance) && needed.ulps <= ulps;
-  return {forgiven ? Verdict::ill_posed : Verdict::wrong, {}, needed.ulps, false, false, needed.obstacle};
+  return impl_->judge_departure(query, exact, given, ulps);
 }
 
 std::optional<std::vector<ExcusedAnswer>> Judge::excused(const Query& query, const Answer& exact, double ulps,

@@ -1,17 +1,81 @@
 #include <lorentz/claim.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace lorentz {
 namespace {
 
+// In the order of StartInside.
+constexpr std::array<std::string_view, 5> kRules{"inside", "miss", "zero", "exit", "unsupported"};
+
+double largest(const Vec& a) {
+  return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+}
+
+// The length, which neither overflows nor underflows.
+double size(const Vec& a) {
+  const double scale = largest(a);
+  if (scale == 0 || !std::isfinite(scale)) return scale;
+  const double x = a[0] / scale, y = a[1] / scale, z = a[2] / scale;
+  return scale * std::sqrt(x * x + y * y + z * z);
+}
+
 void round_each(Vec& vector, NumberFormat precision) {
   for (double& component : vector) component = rounded(component, precision);
 }
 
 }  // namespace
+
+bool Domain::has(const Scene& scene) const {
+  if (!(scene.dimension == 2 ? dimension_2 : dimension_3)) return false;
+  bool all = true;
+  for_each_atom(scene, [&](const Atom& atom) {
+    all &= coordinates.contains(largest(atom.position)) && (atom.is_ball() ? balls : ellipsoids);
+    if (atom.is_ball()) all &= radius.contains(atom.radius);
+    for (const Vec& axis : atom.semiaxes) all &= radius.contains(size(axis));
+  });
+  return all;
+}
+
+bool Domain::has(const Query& query) const {
+  return speed.contains(size(query.v)) && coordinates.contains(largest(query.x));
+}
+
+bool Domain::has(const Query& query, const Answer& exact) const {
+  return exact.outcome != Outcome::hit || !exact.time || flight.contains(size(query.v) * *exact.time);
+}
+
+std::optional<Query> Domain::bring_inside(const Query& query) const {
+  if (has(query)) return query;
+  const double length = size(query.v);
+  if (!coordinates.contains(largest(query.x)) || !(length > 0) || !std::isfinite(length)) return std::nullopt;
+  // To the end of the interval on the other side of which it is.
+  const double end = length < speed.low ? speed.low : speed.high;
+  for (int exponent = std::ilogb(end) - std::ilogb(length) - 1, last = exponent + 2; exponent <= last;
+       ++exponent) {
+    Query scaled = query;
+    bool is_exact = true;
+    for (std::size_t i = 0; i < scaled.v.size(); ++i) {
+      scaled.v[i] = std::ldexp(query.v[i], exponent);
+      is_exact &= std::ldexp(scaled.v[i], -exponent) == query.v[i];
+    }
+    if (is_exact && speed.contains(size(scaled.v))) return scaled;
+  }
+  return std::nullopt;
+}
+
+std::string_view name_of(StartInside rule) {
+  return kRules[static_cast<std::size_t>(rule)];
+}
+
+std::optional<StartInside> start_inside_named(std::string_view name) {
+  const auto found = std::find(kRules.begin(), kRules.end(), name);
+  if (found == kRules.end()) return std::nullopt;
+  return static_cast<StartInside>(found - kRules.begin());
+}
 
 double rounded(double value, NumberFormat precision) {
   return precision == NumberFormat::binary64 ? value : static_cast<double>(static_cast<float>(value));

@@ -529,7 +529,7 @@ TEST_CASE("compare: columns that cannot be matched or read are told of", "[cli][
   refuses(run(csv.queries, folder.write("t.csv", names + "hit,0,0,1,0,soon,q 0\n")), 2, "column time");
   refuses(run(csv.queries, folder.write("n.csv", "outcome,lattice\n")), 2, "there is no column atom");
   refuses(run(folder.write("x.csv", "x1,x2,v1,v2\n0.5,0,1,0\n1,,2,3\n0.5,0,0,0\n"), ""), 2, "row 1: ");
-  refuses(run(folder.write("l.csv", "x1,x2,v1,v2,max_time\n0.5,0,1,0,3\n"), ""), 2, "taken without");
+  refuses(run(folder.write("l.csv", "x1,x2,v1,v2,max_time\n0.5,0,1,0,0\n"), ""), 2, "column max_time");
   // An id that comes twice is told of, and the rows behind it are read.
   const Run twice =
       run(csv.queries, folder.write("d.csv", names + "never,,,,,,q 0\nnever,,,,,,q 0\nnever,,,,,,q 1\n"),
@@ -613,4 +613,67 @@ TEST_CASE("Logged answers keep up with more queries than are judged together", "
   CHECK(whole.status == 0);
   CHECK(contains(whole.out, "20100 given queries"));
   CHECK(contains(whole.out, "mine: no wrong answer in 20100"));
+}
+
+TEST_CASE("compare: questions outside of the declared domain are counted, not asked",
+          "[cli][compare_command]") {
+  const Folder folder;
+  const std::string queries = folder.write("q", R"({"id":1,"x":[0.5,0.5],"v":[1,0.3]}
+{"id":2,"x":[0.5,0.5],"v":[1e6,0.3]}
+{"id":3,"x":[1000.5,0.5],"v":[1,0.3]}
+{"id":4,"x":[0.5,0.5],"v":[1,0.3],"max_time":0.25}
+{"id":5,"x":[0,0.05],"v":[1,0.3]}
+)");
+  const auto asked = [&](const std::string& options) {
+    const Run run = folder.lorentz("compare --scene square --radius 0.1 -e reduction --json --queries " +
+                                   queries + ' ' + options);
+    INFO(run.err);
+    std::size_t outside = 0, number = 0;
+    const auto after = [&](const std::string& key) { return run.out.substr(run.out.find(key) + key.size()); };
+    outside = std::stoul(after("\"outside_domain\":")), number = std::stoul(after("\"queries\":"));
+    CHECK(outside + number == 5);
+    return number;
+  };
+  CHECK(asked("") == 5);
+  CHECK(asked("--domain speed=..10") == 4);
+  CHECK(asked("--domain coordinates=..1000") == 4);
+  CHECK(asked("--domain speed=0x1p-3..0x1p3,coordinates=..1000,limits=no") == 2);
+  CHECK(asked("--domain radius=0.2..") == 0);
+  CHECK(asked("--domain dimension=3") == 0);
+  CHECK(asked("--domain shape=ellipsoid") == 0);
+  CHECK(asked("--domain flight=..1e-3") == 1);
+  CHECK(asked("--starts-inside unsupported") == 4);
+  for (const char* bad : {"speed", "speed=1", "speed=2..1", "speed=-1..1", "sped=1..2", "shape=box",
+                          "limits=1", "=", "speed=1..2,"}) {
+    INFO(bad);
+    const Run run = folder.lorentz("compare --count 5 --domain " + std::string(bad));
+    CHECK(run.status == 2);
+    CHECK(contains(run.err, "--domain"));
+  }
+}
+
+TEST_CASE("compare: an engine that passes obstacles around the start is right by its own rule",
+          "[cli][compare_command]") {
+  const Folder folder;
+  // Answers what the exact rule says, and what it says by other rules is wrong.
+  const std::string queries = folder.write("q", R"({"id":1,"x":[0,0.05],"v":[1,0.25]})"
+                                                "\n");
+  const std::string scene = " --scene square --radius 0.1 --json -e 'cmd:sh ";
+  const std::pair<const char*, const char*> answers[] = {
+      {"inside", R"("outcome":"inside","lattice":0,"atom":0,"cell":[0,0])"},
+      {"miss", R"("outcome":"hit","lattice":0,"atom":0,"cell":[4,1],"time":3.9034)"},
+      {"zero", R"("outcome":"hit","lattice":0,"atom":0,"cell":[0,0],"time":0)"},
+      {"exit", R"("outcome":"hit","lattice":0,"atom":0,"cell":[0,0],"time":0.0731)"}};
+  for (const auto& [rule, answer] : answers) {
+    const std::string program = folder.write(
+        std::string("engine_") + rule,
+        "exec sed -u -n 's/^{\"id\":\\([0-9]*\\),.*/{\"id\":\\1," + std::string(answer) + "}/p'\n");
+    for (const auto& [other, ignored] : answers) {
+      INFO(rule << " judged by " << other);
+      const Run run = folder.lorentz("compare" + scene + program + "' --queries " + queries +
+                                     " --time-tolerance 0.1 --starts-inside " + other);
+      const bool is_right = contains(run.out, R"("agree":1,)") && contains(run.out, R"("wrong_time":0,)");
+      CHECK(is_right == (std::string_view(rule) == other));
+    }
+  }
 }

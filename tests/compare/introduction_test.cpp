@@ -58,6 +58,47 @@ TEST_CASE("An introduction is read, whatever is left out", "[compare][introducti
     CHECK_THROWS_AS(introduction_in(bad), InputError);
 }
 
+TEST_CASE("A domain and a rule for starts inside are read", "[compare][introduction]") {
+  const auto said = introduction_in(
+      R"({"engine":{"dimensions":[3],"domain":{"speed":[0.5,2],"coordinates":[0,"inf"],"radius":[0.1,0.2],)"
+      R"("flight":[0,100],"shapes":["ball"],"limits":false,"new":1},"inside":"miss"}})");
+  REQUIRE((said && said->domain && said->inside == StartInside::miss));
+  const Domain& domain = *said->domain;
+  CHECK((domain.dimension_3 && !domain.dimension_2 && domain.balls && !domain.ellipsoids && !domain.limits));
+  CHECK(domain.has(Query{{1e300, 0, 0}, {0, 2, 0}, {}}));
+  CHECK_FALSE(domain.has(Query{{0, 0, 0}, {0, 2.1, 0}, {}}));
+  CHECK(domain.has(unit_scene(3, 0.1)));
+  CHECK_FALSE((domain.has(unit_scene(3, 0.25)) || domain.has(unit_scene(2, 0.1))));
+  CHECK_FALSE(domain.has(Query{{}, {2, 0, 0}, {}}, Answer::hit({}, 51)));
+  for (const char* bad :
+       {R"({"engine":{"domain":1}})", R"({"engine":{"domain":{"speed":[1]}}})",
+        R"({"engine":{"domain":{"speed":[2,1]}}})", R"({"engine":{"domain":{"speed":[-1,1]}}})",
+        R"({"engine":{"domain":{"shapes":["box"]}}})", R"({"engine":{"inside":"behind"}})",
+        R"({"engine":{"domain":{"limits":1}}})"}) {
+    INFO(bad);
+    CHECK_THROWS_AS(introduction_in(bad), InputError);
+  }
+}
+
+TEST_CASE("A flight at another speed is brought into the domain, exactly or not at all",
+          "[compare][introduction]") {
+  Domain domain;
+  domain.speed = {0.5, 2};
+  const auto speed = [&](const Vec& v) {
+    const auto query = domain.bring_inside({{}, v, {}});
+    return query ? query->v : Vec{};
+  };
+  CHECK(speed({1, 0, 0}) == Vec{1, 0, 0});
+  CHECK(speed({0x3p100, 0, 0}) == Vec{0.75, 0, 0});
+  CHECK(speed({0, 0x3p-100, 0}) == Vec{0, 0.75, 0});
+  CHECK(speed({0x1p1023, 0x1p1023, 0}) == Vec{1, 1, 0});
+  CHECK(speed({0x1p1000, 0x1p-1000, 0}) == Vec{});  // the small one would vanish
+  domain.speed = {1, 1.5};
+  CHECK(speed({7, 0, 0}) == Vec{});  // no power of two helps
+  domain.coordinates = {0, 1};
+  CHECK_FALSE(domain.bring_inside({{2, 0, 0}, {1, 0, 0}, {}}));
+}
+
 TEST_CASE("The time of an engine's own calls is read", "[compare][introduction]") {
   const auto time = own_time_in(R"({"engine_time":{"seconds":0.5,"queries":250}})");
   REQUIRE(time);
@@ -102,6 +143,11 @@ TEST_CASE("An engine is judged by what it says of itself, unless an option says 
 
 TEST_CASE("The coarsest claim of several engines holds", "[compare][introduction]") {
   const Folder folder;
+  const std::string missing = engine_of(folder, said(R"("inside":"miss","domain":{"limits":false})"));
+  CHECK(contains(folder.lorentz("compare --json --count 8 " + missing).out,
+                 R"("domain":"limits=no","starts_inside":"miss")"));
+  CHECK(contains(folder.lorentz("compare --json --count 8 --starts-inside exit " + missing).out,
+                 R"("starts_inside":"exit")"));
   const std::string one = engine_of(folder, said(R"("precision":"binary32","time_tolerance":0.125)"));
   fs::create_directory(folder.file("other"));
   const std::string program = folder.write("other/engine", kProgram);

@@ -2,6 +2,7 @@
 #include <boost/multiprecision/mpfr.hpp>
 #include <catch2/catch.hpp>
 
+#include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/walk.hpp>
 #include "tests/support/support.hpp"
@@ -259,6 +260,127 @@ TEST_CASE(
   }
   CHECK(hits > 200);  // 259 seen
   CHECK(insides > 100);
+}
+
+namespace {
+
+constexpr StartInside kRules[] = {StartInside::miss, StartInside::zero, StartInside::exit};
+
+// An obstacle as a scene of its own.
+Scene alone(const Scene& scene, const ObstacleId& id) {
+  const Lattice& lattice = scene.lattices[id.lattice];
+  Atom atom = lattice.atoms[id.atom];
+  for (int i = 0; i < lattice.rank(scene.dimension); ++i)
+    for (int k = 0; k < 3; ++k)
+      atom.position[k] += static_cast<double>(id.cell[i].int64()) * lattice.vectors[i][k];
+  Scene one{scene.dimension, {}};
+  one.lattices.push_back({.vectors = {}, .atoms = {atom}, .missing = scene.dimension});
+  return one;
+}
+
+// What the rule says of single obstacles, from what the oracle says by the usual rule of each of them, or of some.
+Answer by_single_obstacles(const Scene& scene, const std::vector<ObstacleId>& ids, const Query& query,
+                           StartInside rule) {
+  Scene others{scene.dimension, {}};
+  std::vector<ObstacleId> left;
+  std::optional<Answer> first;
+  for (const ObstacleId& id : ids) {
+    const Scene one = alone(scene, id);
+    if (query.from == id) continue;
+    oracle::Request request;
+    request.detail = true;
+    const Answer answer = oracle::Oracle(one).first_hit({query.x, query.v, {}}, request);
+    if (answer.outcome != Outcome::inside) {
+      others.lattices.push_back(one.lattices[0]), left.push_back(id);
+    } else if (rule == StartInside::zero) {
+      if (!first) first = Answer::hit(id, 0);
+    } else if (rule == StartInside::exit && (!first || *answer.exit_time < *first->time)) {
+      first = Answer::hit(id, *answer.exit_time);
+    }
+  }
+  if (first) return *first;
+  if (others.lattices.empty()) return Answer::never();
+  Answer answer = oracle::Oracle(others).first_hit({query.x, query.v, {}});
+  if (answer.outcome == Outcome::hit)
+    answer.obstacle = left[static_cast<std::size_t>(answer.obstacle.lattice)];
+  return answer;
+}
+
+}  // namespace
+
+TEST_CASE("A start inside by another rule: single obstacles are taken away, or looked at one by one",
+          "[oracle][first_hit]") {
+  Draw draw(6701);
+  INFO("seed 6701");
+  int around = 0, free = 0;
+  for (int i = 0; i < 300; ++i) {
+    const int d = draw.one_in(2) ? 2 : 3;
+    Scene scene{d, {}};
+    std::vector<ObstacleId> ids;
+    for (int n = 0; n < 8; ++n) {
+      const Atom atom{draw.vec(d, -1, 1), draw.between(0.2, 1), {}};
+      scene.lattices.push_back({.vectors = {}, .atoms = {atom}, .missing = d});
+      ids.push_back({n, 0, {}});
+    }
+    Query query{draw.vec(d, -1, 1), draw.vec(d, -3, 3), {}};
+    if (draw.one_in(3)) query.from = ids[draw.below(8)];
+    const oracle::Oracle oracle(scene);
+    INFO(stream(scene, query));
+    ++(oracle.first_hit(query).outcome == Outcome::inside ? around : free);
+    for (const StartInside rule : kRules) {
+      INFO(name_of(rule));
+      oracle::Request request;
+      request.start = rule;
+      REQUIRE(same(oracle.first_hit(query, request), by_single_obstacles(scene, ids, query, rule)));
+    }
+  }
+  CHECK(around > 100);
+  CHECK(free > 30);
+}
+
+TEST_CASE("A start inside that misses: the lattice as single obstacles says the same",
+          "[oracle][first_hit]") {
+  Draw draw(6702);
+  INFO("seed 6702");
+  int around = 0, many = 0;
+  for (int i = 0; i < 200; ++i) {
+    const int d = i % 8 == 0 ? 3 : 2, reach = d == 2 ? 6 : 4;
+    Scene scene = unit_scene(d, draw.between(0.5, d == 2 ? 2 : 1.2));
+    for (int k = 0; k < d; ++k)  // dyadic, so that positions of cells are exact
+      for (int m = 0; m < d; ++m)
+        scene.lattices[0].vectors[k][m] += static_cast<double>(draw.below(9)) / 32 - 0.125;
+    const Query query{draw.vec(d, -0.5, 0.5), draw.vec(d, -1, 1), {}};
+    std::vector<ObstacleId> ids;
+    for (int a = -reach; a <= reach; ++a)
+      for (int b = -reach; b <= reach; ++b)
+        for (int c = d == 3 ? -reach : 0; c <= (d == 3 ? reach : 0); ++c) ids.push_back({0, 0, {a, b, c}});
+    const oracle::Oracle oracle(scene);
+    INFO(stream(scene, query));
+    const bool is_inside = oracle.first_hit(query).outcome == Outcome::inside;
+    around += is_inside, many += is_inside && scene.lattices[0].atoms[0].radius > 1.2;
+    for (const StartInside rule : kRules) {
+      INFO(name_of(rule));
+      oracle::Request request;
+      request.start = rule;
+      const Answer answer = oracle.first_hit(query, request);
+      if (rule == StartInside::miss && (!answer.time || *answer.time * length(query.v) > 1))
+        continue;  // beyond reach
+      REQUIRE(same(answer, by_single_obstacles(scene, ids, query, rule)));
+    }
+  }
+  CHECK(around > 100);
+  CHECK(many > 30);
+}
+
+TEST_CASE("A start inside balls of very many cells is no question by the rules that pass them",
+          "[oracle][first_hit]") {
+  const oracle::Oracle oracle(unit_scene(2, 1e20));
+  for (const StartInside rule : {StartInside::miss, StartInside::exit}) {
+    oracle::Request request;
+    request.start = rule;
+    const Answer answer = oracle.first_hit({{0.25, 0.5}, {1, 0.5}, {}}, request);
+    CHECK((answer.outcome == Outcome::error && answer.unsupported));
+  }
 }
 
 TEST_CASE("Subnormal and huge velocities and places", "[oracle][first_hit]") {

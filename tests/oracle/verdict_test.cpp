@@ -588,6 +588,64 @@ TEST_CASE("The condition of an exit is the sum of its derivatives", "[oracle][ve
   CHECK(insides > 20);
 }
 
+TEST_CASE("Starts inside are judged by the rule that is claimed", "[oracle][verdict]") {
+  // Two discs overlap at x: the one of cell (0, 0) is left at t = 1/4, that of an atom beside it at t = 3/8.
+  Scene scene = unit_scene(2, 0.25);
+  scene.lattices[0].vectors = {Vec{4, 0}, Vec{0, 4}, Vec{}};
+  scene.lattices[0].atoms.push_back({Vec{0.125, 0}, 0.25, {}});
+  const ObstacleId first{0, 0, {}}, second{0, 1, {}}, next{0, 0, {1, 0, 0}};
+  const auto judged_by = [&](StartInside rule, const Query& query, const Answer& given, double ulps = 4) {
+    Claim claim;
+    claim.inside = rule;
+    oracle::Request request;
+    request.start = rule;
+    return oracle::Judge(scene, claim)
+        .judge(query, oracle::Oracle(scene).first_hit(query, request), given, ulps);
+  };
+  const auto is = [&](StartInside rule, const Query& query, const Answer& given, Verdict verdict,
+                      bool wrong_time = false) {
+    const oracle::Judgement one = judged_by(rule, query, given);
+    CHECK(one.verdict == verdict);
+    CHECK(one.wrong_time == wrong_time);
+  };
+  const Query within{{0, 0}, {1, 0}, {}};
+  for (const StartInside rule : {StartInside::miss, StartInside::zero, StartInside::exit})
+    is(rule, within, Answer::inside(first), Verdict::wrong);
+  is(StartInside::miss, within, Answer::hit(next, 3.75), Verdict::agree);
+  is(StartInside::miss, within, Answer::hit(next, 3.5), Verdict::agree, true);
+  is(StartInside::miss, within, Answer::hit(first, 0.25), Verdict::wrong);
+  is(StartInside::miss, within, Answer::never(), Verdict::wrong);
+  is(StartInside::zero, within, Answer::hit(first, 0), Verdict::agree);
+  is(StartInside::zero, within, Answer::hit(first, 0.25), Verdict::agree, true);
+  is(StartInside::zero, within, Answer::hit(second, 0), Verdict::wrong);
+  is(StartInside::zero, within, Answer::hit(next, 3.75), Verdict::wrong);
+  is(StartInside::exit, within, Answer::hit(first, 0.25), Verdict::agree);
+  is(StartInside::exit, within, Answer::hit(first, 0), Verdict::agree, true);
+  is(StartInside::exit, within, Answer::hit(second, 0.375), Verdict::wrong);
+  is(StartInside::exit, within, Answer::never(), Verdict::wrong);
+  // By an ulp inside, or outside: both answers are right or excused.
+  const double inner = std::nextafter(-0.25, 0), outer = std::nextafter(-0.25, -1);
+  for (const double x : {inner, outer}) {
+    const Query edge{{x, 0}, {1, 0}, {}};
+    is(StartInside::miss, edge, Answer::hit(second, -0.125 - x),
+       x == inner ? Verdict::agree : Verdict::ill_posed);
+    is(StartInside::miss, edge, Answer::hit(first, 0), x == inner ? Verdict::ill_posed : Verdict::agree);
+    is(StartInside::zero, edge, Answer::hit(first, 0), Verdict::agree);
+    is(StartInside::exit, edge, Answer::hit(first, 0.25 - x), Verdict::agree);
+    is(StartInside::exit, edge, Answer::hit(first, 0), Verdict::agree);
+  }
+  // Two exits within ulps of each other.
+  scene.lattices[0].atoms[1].position[0] = 0x1p-55;
+  is(StartInside::exit, within, Answer::hit(second, 0.25), Verdict::ill_posed);
+  CHECK(judged_by(StartInside::exit, within, Answer::hit(second, 0.25), 0).verdict == Verdict::wrong);
+  // Where x is free all rules are one.
+  const Query free{{1, 0}, {1, 0}, {}};
+  for (const StartInside rule : {StartInside::miss, StartInside::zero, StartInside::exit}) {
+    is(rule, free, Answer::hit(next, 2.75), Verdict::agree);
+    is(rule, free, Answer::hit(first, 2.75), Verdict::wrong);
+  }
+}
+
 TEST_CASE("Among the subnormal numbers a rounding is as large as the time, and still a rounding",
           "[oracle][verdict]") {
   const Scene scene = unit_scene(2, 0.1909099887142184);
