@@ -1,4 +1,4 @@
-// Google Benchmark of the figures in docs/speed.md: engines by radius, lattices, hard directions, and the
+// Google Benchmark of the figures in docs/results.md: engines by radius, lattices, hard directions, and the
 // bare continued fraction for comparison. Times only; build/lorentz bench compares times and errors.
 #include <benchmark/benchmark.h>
 

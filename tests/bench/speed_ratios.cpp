@@ -1,6 +1,6 @@
 // Measures the speed of the engines by ratios of two ways to do the same work. They alternate in turns over
 // the same queries, so that the load of the machine affects both alike. Prints the ratios, compares them with
-// a file of earlier ones, writes that file, and writes the table of docs/speed.md.
+// a file of earlier ones, and writes that file; ./run results puts it into docs/results.md.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -341,30 +341,11 @@ int compare_with(const std::string& path, const std::vector<Ratio>& results) {
   return worse ? 1 : 0;
 }
 
-// Writes the table of a document between two marks.
-void write_table(const std::string& path, const std::vector<Ratio>& results) {
-  constexpr const char *kBegin = "<!-- ratios: begin -->\n", *kEnd = "<!-- ratios: end -->\n";
-  std::ifstream in(path);
-  std::string text((std::istreambuf_iterator<char>(in)), {});
-  const std::size_t begin = text.find(kBegin), end = text.find(kEnd);
-  if (begin == std::string::npos || end == std::string::npos) {
-    fmt::print(stderr, "speed_ratios: {}: has no marks for the table\n", path);
-    std::exit(3);
-  }
-  std::string table = "| | ratio (quartiles) | ns a query | left to single flights |\n|---|---|---|---|\n";
-  for (const Ratio& one : results)
-    table += fmt::format("| {} | {:.3g} ({:.3g} to {:.3g}) | {:.4g} / {:.4g} | {} |\n", one.name, one.median,
-                         one.low, one.high, one.one_ns, one.other_ns,
-                         one.name.find("single / batch") == 0 ? fmt::format("{:.2g}", one.left) : "");
-  text.replace(begin + std::string(kBegin).size(), end - begin - std::string(kBegin).size(), table);
-  std::ofstream(path) << text;
-}
-
 constexpr const char* kUsage =
-    "usage: speed_ratios [--seconds S] [--only TEXT] [--compare FILE] [--write FILE] [--table DOCUMENT]\n"
+    "usage: speed_ratios [--seconds S] [--only TEXT] [--compare FILE] [--write FILE]\n"
     "  ratios of times, measured in alternating turns; S seconds each (1)\n"
     "  --compare FILE   which are worse than those of FILE: status 1 if any\n"
-    "  --write FILE     writes them for --compare; --table puts them into a document, between its marks\n";
+    "  --write FILE     writes them for --compare\n";
 
 }  // namespace
 
@@ -372,8 +353,7 @@ int main(int argc, char** argv) {
   std::map<std::string, std::string> options{{"--seconds", "1"}, {"--only", ""}};
   for (int i = 1; i < argc; i += 2) {
     const std::string name = argv[i];
-    const bool known = name == "--seconds" || name == "--only" || name == "--compare" || name == "--write" ||
-                       name == "--table";
+    const bool known = name == "--seconds" || name == "--only" || name == "--compare" || name == "--write";
     if (!known || i + 1 == argc) {
       fmt::print(name == "--help" ? stdout : stderr, "{}", kUsage);
       return name == "--help" ? 0 : 2;
@@ -384,6 +364,5 @@ int main(int argc, char** argv) {
   measure_batches(measurement);
   measure_engines(measurement);
   if (options.contains("--write")) write(options["--write"], measurement.results);
-  if (options.contains("--table")) write_table(options["--table"], measurement.results);
   return options.contains("--compare") ? compare_with(options["--compare"], measurement.results) : 0;
 }

@@ -2,7 +2,7 @@
 """The league: engines of other people, asked the same questions and judged by what they claim (docs/league/README.md).
 
     league.py [NAME ..] [--fresh]    judges each engine of league.json, or those that are named
-    league.py --write                puts what came of it into docs/league: table, chart, a page for each library
+    league.py --write                puts what came of it into docs/league: table, chart, what goes wrong with each library
     league.py --baseline FILE        holds it against an earlier league.json: status 1 if an engine is worse anywhere
 
 What came of an engine is kept in build/league/NAME.json: a run that was stopped goes on where it stood, and --fresh
@@ -24,8 +24,7 @@ KEPT = ROOT / "build/league"
 PAGES = ROOT / "docs/league"
 QUESTIONS = 1500  # per row of `lorentz judge`, unless league.json sets fewer for a slow engine
 FAR = ("golden long-flight", "golden tiny-radius")
-FALSE = ("false-hit", "behind", "leaving", "inside-not-so")
-MISSED = ("passed-over", "never-for", "inside-unseen")
+MOST = 4  # kinds of faults of an engine that are shown
 COUNTS = ("queries", "agree", "wrong", "ill_posed", "undecided", "unsupported", "error", "missing", "wrong_time",
           "other_quantity")
 
@@ -99,11 +98,6 @@ def sums(result, kind):
     return total
 
 
-def of_cause(result, beginnings):
-    """The number of wrong answers whose cause begins with one of `beginnings`."""
-    return sum(f["count"] for f in result["findings"] if f["verdict"] == "wrong" and f["cause"].startswith(beginnings))
-
-
 def interval(count, number):
     """The Wilson interval at 95 %."""
     z, p = 1.96, count / number
@@ -115,14 +109,14 @@ def two_digits(value):
     return f"{float(f'{value:.2g}'):,.0f}".replace(",", " ")
 
 
-def per_million(total, key="wrong"):
+def percent(total, key="wrong"):
     if total["answered"] == 0:
         return "–"
     count, number = total[key], total["answered"]
     low, high = interval(count, number)
     if count == 0:
-        return f"0 (< {two_digits(1e6 * high)})"
-    return f"{two_digits(1e6 * count / number)} ({two_digits(1e6 * low)} to {two_digits(1e6 * high)})"
+        return f"0 (< {100 * high:.2g})"
+    return f"{100 * count / number:.2g} ({100 * low:.2g} to {100 * high:.2g})"
 
 
 def largest_radii(result):
@@ -147,21 +141,25 @@ def mode_of(entry):
     return f"{entry['precision']}, {'cells' if entry['coordinates'] == 'cells' else 'world'}"
 
 
-def table_row(entry, result):
-    radii, ns, fault = largest_radii(result), result["engine_ns"], simplest(result)
-    answered = " / ".join(two_digits(sums(result, kind)["answered"]) for kind in ("drawn", "hard", "far"))
-    cells = [f"[{entry['title']}]({library_of(entry)}.md) {result['version']}", mode_of(entry), entry["formula"].replace("|", "\\|"), answered,
-             per_million(sums(result, "drawn")), per_million(sums(result, "hard")), per_million(sums(result, "far")),
-             f"{of_cause(result, FALSE)} / {of_cause(result, MISSED)}",
-             per_million(sums(result, "hard"), "ill_posed"), "–" if radii is None else f"{radii:.1g}",
-             "–" if ns is None else two_digits(ns), fault["title"] if fault else "none"]
+def anchor_of(title):
+    """As GitHub makes it of a heading."""
+    return re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
+
+
+def table_row(entry, result, titles):
+    radii, ns = largest_radii(result), result["engine_ns"]
+    cells = [f"[{entry['title']}](libraries.md#{anchor_of(titles[library_of(entry)])}) {result['version']}", mode_of(entry),
+             percent(sums(result, "drawn")), percent(sums(result, "hard")), percent(sums(result, "far")),
+             "–" if radii is None else f"{radii:.1g}", "–" if ns is None else two_digits(ns)]
     return "| " + " | ".join(cells) + " |\n"
 
 
 def table(results):
-    head = ("| library | numbers, coordinates | formula | answers: drawn / hard / far | drawn: wrong | hard: wrong | far: wrong | hits what it misses / "
-            "misses what it hits | hard: ill-posed | largest error, radii | ns a query | worst |\n")
-    return head + "|---" * 12 + "|\n" + "".join(table_row(entry, result) for entry, result in results)
+    titles = {}
+    for entry, _ in results:
+        titles.setdefault(library_of(entry), entry["title"])
+    head = "| library | numbers, coordinates | drawn: % wrong | hard: % wrong | far: % wrong | largest error, radii | ns a query |\n"
+    return head + "|---" * 7 + "|\n" + "".join(table_row(entry, result, titles) for entry, result in results)
 
 
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 820, 470, 70, 20, 40, 60
@@ -232,49 +230,63 @@ def chart(results):
 
 
 def alone(library):
-    """The source and output of the program that shows the fault: the library alone, one ray, one ball."""
+    """What the program prints that shows the fault: the library alone, one ray, one ball."""
     for program, command in ((HERE / library / "alone.mjs", ["node", "alone.mjs"]),
                              (HERE / library / "alone.cpp", ["./alone"])):
         if program.exists():
             printed = subprocess.run(command, cwd=program.parent, capture_output=True, text=True, check=True).stdout
-            fence = "js" if program.suffix == ".mjs" else "cpp"
-            return (f"## The library alone\n\n`docs/examples/engines/{library}/{program.name}`, without lorentz and without "
-                    f"the walk from cell to cell:\n\n```{fence}\n{program.read_text(encoding='utf-8')}```\n\n"
-                    f"It prints\n\n```\n{printed}```\n\n")
+            return (f"[{program.name}](../examples/engines/{library}/{program.name}), the library alone, without lorentz and "
+                    f"without a walk, prints\n\n```\n{printed}```\n\n")
     return ""
 
 
-FINDINGS = "| engine | what goes wrong | times | of drawn questions | of the others |\n|---|---|---|---|---|\n"
+def wrapped(text, indent=""):
+    return textwrap.fill(text, 110, break_long_words=False, break_on_hyphens=False, subsequent_indent=indent)
 
 
-def finding_row(entry, finding):
-    shares = [f"{100 * finding[key]:.2g} %" for key in ("share_of_plain", "share_of_hard")]
-    return f"| {' | '.join([entry['name'], finding['title'], str(finding['count']), *shares])} |\n"
+def in_json(value):
+    return json.dumps(value, separators=(",", ":"))
 
 
-def page(library, members):
+def section(library, members):
+    """What goes wrong with a library, by each of its engines, and the simplest case."""
     first, _ = members[0]
-    text = (f"# {first['title']}\n\n[{first['link']}]({first['link']}), {first['license']}. How it is called: "
-            f"[docs/examples/engines/{library}](../examples/engines/{library}).\n\n{table(members)}\n"
-            "[What the columns mean](README.md). ")
-    text += "To ask the same again:\n\n```\n" + "".join(
-        " ".join(part if re.fullmatch(r"[\w/.:-]+", part) else f"'{part}'" for part in judge_line(entry)) + "\n"
-        for entry, _ in members) + "```\n\n## What goes wrong\n\n"
-    rows = [finding_row(entry, finding) for entry, result in members for finding in result["findings"]
-            if finding["verdict"] != "ill-posed"]
-    text += (FINDINGS + "".join(rows) if rows else "Nothing.\n") + "\n"
+    text = f"## {first['title']}\n\n<{first['link']}>, {first['license']}; [how it is called](../examples/engines/{library}).\n\n"
+    for entry, result in members:
+        faults = sorted((f for f in result["findings"] if f["verdict"] != "ill-posed"), key=lambda f: -f["count"])
+        faults = [f"{f['title']} {f['count']}" for f in faults[:MOST]] + ([f"{len(faults) - MOST} kinds more"] if len(faults) > MOST else [])
+        text += wrapped(f"- `{entry['name']}`: {', '.join(faults) if faults else 'nothing'}", "  ") + "\n"
+    text += "\n"
     for entry, result in members:
         finding = simplest(result)
         if finding and finding["drawing"]:
             (PAGES / f"{library}.svg").write_text(finding["drawing"] + "\n", encoding="utf-8")
-            text += (f"The simplest of {entry['name']} ({finding['title']}):\n\n![The flight, and what is named]"
-                     f"({library}.svg)\n\n```\n{json.dumps({'scene': finding['scene']})}\n"
-                     f"{json.dumps(finding['query'])}\n```\n\nIt says `{json.dumps(finding['given'])}`; exact is "
-                     f"`{json.dumps(finding['exact'])}`.\n\n")
+            text += (f"The simplest of `{entry['name']}` ({finding['title']}):\n\n![The flight, and what is named]({library}.svg)\n\n"
+                     f"```\n{in_json({'scene': finding['scene']})}\n{in_json(finding['query'])}\n"
+                     f"says  {in_json(finding['given'])}\nexact {in_json(finding['exact'])}\n```\n\n")
             break
-    text += alone(library)
     known = json.loads(LIST.read_text(encoding="utf-8"))["known"].get(library)
-    return text + (f"## Is it known?\n\n{textwrap.fill(known, 118, break_long_words=False)}\n" if known else "")
+    return text + alone(library) + (wrapped(f"*Is it known?* {known}") if known else "").strip() + "\n\n"
+
+
+HEAD = """# What goes wrong with each library
+
+For those who use or write one of these libraries. Each section has the most frequent kinds of fault with their numbers, by
+engine of [the league](README.md), and the simplest one. To ask the same again, with the `command` and the number of `questions`
+(1500 if it has none) of [league.json](../examples/engines/league.json):
+
+```
+build/lorentz judge --engine 'cmd:cd docs/examples/engines && exec COMMAND' --questions 1500 --timeout 20
+```
+
+"""
+
+
+def libraries(results):
+    members = {}
+    for entry, result in results:
+        members.setdefault(library_of(entry), []).append((entry, result))
+    return HEAD + "".join(section(library, those) for library, those in members.items()).rstrip("\n") + "\n"
 
 
 BEGIN, END = "<!-- league: begin -->\n", "<!-- league: end -->\n"
@@ -289,11 +301,7 @@ def write(results):
     about = f"\nOn {machine}; seed {results[0][1]['seed']}.\n"
     readme.write_text(head + BEGIN + table(results) + about + END + rest.split(END)[1], encoding="utf-8")
     (PAGES / "chart.svg").write_text(chart(results), encoding="utf-8")
-    libraries = {}
-    for entry, result in results:
-        libraries.setdefault(library_of(entry), []).append((entry, result))
-    for library, members in libraries.items():
-        (PAGES / f"{library}.md").write_text(page(library, members), encoding="utf-8")
+    (PAGES / "libraries.md").write_text(libraries(results), encoding="utf-8")
     lines = [json.dumps({key: value for key, value in result.items() if key != "findings"}
                         | {"causes": {f["cause"] + "/" + f["verdict"]: f["count"] for f in result["findings"]}})
              for _, result in results]
