@@ -1,6 +1,8 @@
-"""docs/results.md is what `./run results` makes of the stored results: results_test.py SOURCE"""
+"""The pages of results are what commands make of the stored results: results_test.py SOURCE"""
 
 import difflib
+import importlib.util
+import json
 import shutil
 import subprocess
 import sys
@@ -21,6 +23,17 @@ class Results(unittest.TestCase):
         page = (SOURCE / "docs/results.md").read_text()
         self.assertEqual(page, printed(SOURCE), "".join(difflib.unified_diff(
             page.splitlines(True), printed(SOURCE).splitlines(True), "docs/results.md", "./run results", n=0)))
+
+    def test_the_league(self):
+        place = SOURCE / "docs/examples/engines/league.py"
+        spec = importlib.util.spec_from_file_location("league", place)
+        league = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(league)
+        results = {one["name"]: one for one in json.loads((league.PAGES / "league.json").read_text())}
+        entries = [one for one in json.loads(league.LIST.read_text())["engines"] if one["name"] in results]
+        table = league.table([(one, results[one["name"]]) for one in entries])
+        self.assertGreater(table.count("\n"), 20)
+        self.assertIn(league.BEGIN + table, (league.PAGES / "README.md").read_text())
 
     def test_each_stored_file_counts(self):
         """A changed figure changes the page."""
