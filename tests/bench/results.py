@@ -6,7 +6,9 @@
     results.py --print          prints the page, and writes nothing
 """
 import csv
+import datetime
 import json
+import os
 import pathlib
 import re
 import statistics
@@ -47,13 +49,13 @@ def stored(path):
 def ask_golden(lorentz):
     words = [lorentz, "golden", "check", "--engine", ",".join(ENGINES), "--first", str(FIRST), "--json"]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
-    said = json.loads(done.stdout)
     commit = subprocess.run(["git", "-C", ROOT, "describe", "--always"], capture_output=True, text=True, check=True).stdout.strip()
-    lines = [f"# `lorentz golden check --engine {','.join(ENGINES)} --first {FIRST}`; commit {commit}; {said_when()}",
+    processor = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8"))[1]
+    lines = [f"# `lorentz {' '.join(words[1:-1])}`; commit {commit}; {datetime.date.today()}; {processor}, {os.cpu_count()} threads",
              "\t".join(["set", "engine", "records", *COUNTS])]
-    for one in said["sets"]:
-        for engine in one["engines"]:
-            lines.append("\t".join(map(str, [one["name"], engine["engine"], engine["records"], *(engine[c] for c in COUNTS)])))
+    for said in map(json.loads, done.stdout.splitlines()):  # a line for each engine
+        for one in said["sets"]:
+            lines.append("\t".join(map(str, [one["set"], said["engine"], one["records"], *(one[c] for c in COUNTS)])))
     GOLDEN.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
@@ -133,11 +135,6 @@ def bench():
             "2 threads, AVX2.\n\n" + table(["scene", "engine", "ns, median", "wrong", "wrong times", "ulps that 99 % do not exceed"], rows)
             + "\n![error of the time against the time a query](results/speed_against_error.svg)\n"
             "\n![time against radius, with powers](results/time_against_radius.svg)\n")
-
-
-def said_when():
-    import datetime
-    return datetime.date.today().isoformat() + "; " + re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())[1]
 
 
 def page():
