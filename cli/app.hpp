@@ -35,13 +35,9 @@ Command golden_make_command();
 Command golden_check_command();
 Command golden_verify_command();
 Command golden_explain_command();
-Command golden_export_command();
-Command golden_filter_command();
 
 // The parts of `lorentz fuzz`.
-Command fuzz_list_command();
 Command fuzz_show_command();
-Command fuzz_merge_command();
 Command fuzz_export_command();
 
 /// The shell line that called this program.

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "fuzz/families/target.hpp"
+#include "fuzz/families/family.hpp"
 #include "judge/golden/sets.hpp"
 #include "question/engines.hpp"
 #include "report/files/scene_file.hpp"

@@ -81,9 +81,7 @@ std::vector<Option> rows_of_sinks(O& o) {
       {"--html", &o.html, "FILE", "write the report there as a page that opens offline, whole or not at all",
        kOutput},
       {"--golden", &o.golden, "FILE",
-       "write the simplest case of each fault there, as a golden set for the engine's own tests; FOLDER/ "
-       "gets it with its schema, an index and checksums",
-       kOutput},
+       "write the simplest case of each fault there, as a golden set for the engine's own tests", kOutput},
   };
 }
 

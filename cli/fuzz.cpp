@@ -20,9 +20,8 @@
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
+#include "fuzz/campaign/examiner.hpp"
 #include "fuzz/campaign/ranks.hpp"
-#include "fuzz/examine/answerers.hpp"
-#include "judge/golden/record.hpp"
 #include "question/answerer.hpp"
 #include "report/claim_words.hpp"
 
@@ -44,40 +43,6 @@ int exit_status(const FuzzReport& report, bool times, bool answerer_failed) {
   return wrong || (times && report.total(Kind::wrong_time) > 0) ? kDisagreement : kDone;
 }
 
-// Throws InputError if the options need a campaign that is the same on every machine and this one is not.
-void check_files(const FuzzOptions& options) {
-  const auto option = options.files.first_option();
-  if (option && (!options.count || options.seconds || options.first))
-    throw InputError(*option +
-                     ": needs --count, and neither --time nor --first, so that each run asks the same");
-}
-
-// Records the kept failures by target and by the id of the case as found.
-void take_down(const FuzzReport& report, bool times, FailureLedger& ledger) {
-  for (const std::string& target : report.targets) {
-    bool failed = false;
-    for (const fuzz::Stored& stored : report.findings) {
-      const fuzz::Finding& finding = stored.finding;
-      const bool counts = finding.kind == name_of(Kind::wrong).words ||
-                          finding.kind == name_of(Kind::error).words ||
-                          (times && finding.kind == name_of(Kind::wrong_time).words);
-      if (!counts || finding.target != target) continue;
-      const fuzz::ReadCase found = fuzz::case_in(finding.text);
-      ledger.take(target, golden::id_of(found.scene, found.query), tag_of(finding.kind));
-      failed = true;
-    }
-    if (!failed) ledger.take(target, "no-failure", std::nullopt);
-    ledger.end(target);
-  }
-}
-
-// A campaign in its store, with its current progress.
-struct Opened {
-  FuzzReport report;
-  std::int64_t campaign = 0;
-  std::vector<fuzz::Finding> unshrunk;
-};
-
 std::vector<fuzz::Stored> findings_of(const Store& store, std::int64_t campaign) {
   std::vector<fuzz::Stored> findings = store.findings();
   std::erase_if(findings, [&](const fuzz::Stored& one) { return one.campaign != campaign; });
@@ -87,7 +52,7 @@ std::vector<fuzz::Stored> findings_of(const Store& store, std::int64_t campaign)
 // A store has one claim. Otherwise it would mix margins and findings in ulps of different precisions.
 void check_claim(const Store& store, const Claim& claim) {
   for (const fuzz::Campaign& campaign : store.campaigns()) {
-    const Claim known = claim_of(campaign.manifest);
+    const Claim& known = campaign.manifest.claim;
     if (known == claim) continue;
     const std::string arguments = report::arguments_of(known);
     throw InputError(
@@ -97,22 +62,21 @@ void check_claim(const Store& store, const Claim& claim) {
   }
 }
 
-Opened opened(Store& store, const fuzz::Plan& plan, const FuzzOptions& options) {
+// The campaign in its store, with its current progress.
+FuzzReport opened(Store& store, const fuzz::Plan& plan, const FuzzOptions& options) {
   check_claim(store, plan.claim);
-  Opened one;
-  one.report.is_stored = options.store.has_value();
-  one.report.manifest = manifest_of(plan, options.engine);
-  one.campaign = store.open_campaign(one.report.manifest);
+  FuzzReport report;
+  report.is_stored = options.store.has_value();
+  report.manifest = manifest_of(plan, options.engine());
+  report.campaign = store.open_campaign(report.manifest);
+  report.findings = findings_of(store, report.campaign);
   bool resumed = false;
-  for (const cases::Target* target : plan.targets) {
-    one.report.targets.emplace_back(target->name());
-    one.report.tallies.push_back(store.tally(one.campaign, target->name()));
-    resumed |= one.report.tallies.back().next > 0;
+  for (const std::string& target : report.manifest.targets) {
+    report.tallies.push_back(store.tally(report.campaign, target));
+    resumed |= report.tallies.back().next > 0;
   }
-  for (fuzz::Stored& found : findings_of(store, one.campaign))
-    if (found.finding.shrinking != fuzz::Shrinking::done) one.unshrunk.push_back(std::move(found.finding));
-  if (resumed) say("{}: goes on with campaign {}", store.path(), one.campaign);
-  return one;
+  if (resumed) say("{}: goes on with campaign {}", store.path(), report.campaign);
+  return report;
 }
 
 // The store's journal. If stderr is a terminal, it shows a progress bar in seconds or in cases; if not, it
@@ -135,9 +99,7 @@ class JournalWithProgress final : public fuzz::Journal {
 
   void record(const cases::Target& target, const fuzz::TargetTally& tally,
               const std::vector<fuzz::Finding>& kept) override {
-    Met& met = met_[target.name()];
-    met = {tally.next, tally.cases, 0};
-    for (const auto& [sort, number] : tally.sorts) met.findings += number;
+    met_[target.name()] = tally;
     journal_.record(target, tally, kept);
     last_record_ = seconds();
   }
@@ -161,22 +123,18 @@ class JournalWithProgress final : public fuzz::Journal {
   }
 
  private:
-  struct Met {
-    std::uint64_t next = 0, cases = 0, findings = 0;
-  };
-
   double seconds() const { return std::chrono::duration<double>(Progress::Clock::now() - start_).count(); }
 
   // Like "1234 cases, 5 findings, 7 of 33 targets".
   std::string summary() const {
-    Met all;
+    std::uint64_t cases = 0, findings = 0;
     std::size_t begun = 0;
     for (const auto& [target, met] : met_) {
-      all.cases += met.cases;
-      all.findings += met.findings;
+      cases += met.cases;
       begun += met.cases > 0;
+      for (const auto& [sort, number] : met.sorts) findings += number;
     }
-    return fmt::format("{} cases, {} findings, {} of {} targets", all.cases, all.findings, begun, targets_);
+    return fmt::format("{} cases, {} findings, {} of {} targets", cases, findings, begun, targets_);
   }
 
   fuzz::StoreJournal journal_;
@@ -187,7 +145,7 @@ class JournalWithProgress final : public fuzz::Journal {
   double next_line_, last_record_ = 0;
   const std::function<void(double silent)> on_end_;
   std::optional<Progress> progress_;
-  std::map<std::string_view, Met> met_;  // by target
+  std::map<std::string_view, fuzz::TargetTally> met_;
   Progress::Clock::time_point start_ = Progress::Clock::now();
 };
 
@@ -213,8 +171,7 @@ void say_how_it_ended(const FuzzOptions& options, double silent) {
   constexpr double kLong = 1;  // seconds
   if (Interrupt::came())
     say("{}; {}", Interrupt::what(),
-        options.store ? "this goes on: " + command_of(options)
-                      : "without --store nothing is kept to go on with");
+        options.store ? "this goes on: " + command_line() : "without --store nothing is kept to go on with");
   if (silent >= kLong)
     say("no answer was judged in the last {:.1f} s: the cases asked then are not counted", silent);
 }
@@ -243,12 +200,13 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, fuzz::Bound
                  const question::MakeAnswerer& make_answerer, fuzz::Ranks* ranks) {
   const Interrupt interrupt;
   bounds.stop = &Interrupt::came();
-  FailureLedger ledger(options.files);
-  Store store(options.store.value_or(":memory:"), Store::Access::write, say_left_out);
-  auto [report, campaign, unshrunk] = opened(store, plan, options);
+  Store store(options.store.value_or(":memory:"), Store::Access::write);
+  FuzzReport report = opened(store, plan, options);
+  std::vector<fuzz::Finding> known;
+  for (const fuzz::Stored& one : report.findings) known.push_back(one.finding);
   std::optional<LastResort> last_resort;
-  const auto on_end = [&, &report = report, campaign = campaign](double silent) {
-    report.findings = findings_of(store, campaign);
+  const auto on_end = [&](double silent) {
+    report.findings = findings_of(store, report.campaign);
     print(options.json ? report.json() : report.text());
     say_how_it_ended(options, silent);
     const int status = exit_status(report, options.times, false);
@@ -261,30 +219,24 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, fuzz::Bound
   };
   bool failed = false;
   {
-    JournalWithProgress journal(store, campaign, bounds, plan.targets.size(),
+    JournalWithProgress journal(store, report.campaign, bounds, plan.targets.size(),
                                 options.progress.value_or(kDefaultSecondsALine), on_end);
-    failed = fuzz::run(plan, bounds, make_answerer, report.tallies, journal, ranks, unshrunk);
+    failed = fuzz::run(plan, bounds, make_answerer, report.tallies, journal, ranks, known);
   }
   last_resort.reset();
   if (const auto status = status_of_none(report, plan, bounds)) return *status;
-  const int status = exit_status(report, options.times, failed);
-  if (Interrupt::came()) return status;
-  take_down(report, options.times, ledger);
-  ledger.finish(options.engine);
-  return !ledger.has_baseline() || failed ? status : ledger.new_failures() > 0 ? kDisagreement : kDone;
+  return exit_status(report, options.times, failed);
 }
 
 int act(const FuzzOptions& options) {
   const auto begun = Progress::Clock::now();
-  check_files(options);
   fuzz::Bounds bounds = bounds_of(options);
-  const double timeout = options.timeout.value_or(AnswererOptions::kDefaultTimeout);
+  const double timeout = options.longest_wait();
   const question::EngineInfo engine =
-      question::engine_named(options.engine, std::min(timeout, kShareOfStart * bounds.seconds));
+      question::engine_named(options.engine(), std::min(timeout, kShareOfStart * bounds.seconds));
   const fuzz::Plan plan = plan_of(options, engine);
   const question::MakeAnswerer make_answerer = fuzz::answerer_maker(engine, {{}, timeout, terminal()});
-  const std::unique_ptr<fuzz::Ranks> ranks =
-      runs::join<fuzz::Ranks>("--jobs, or --shard and `lorentz fuzz merge`");
+  const std::unique_ptr<fuzz::Ranks> ranks = runs::join<fuzz::Ranks>("--jobs, or campaigns with other seeds");
   bounds.seconds -= std::chrono::duration<double>(Progress::Clock::now() - begun).count();
   if (!ranks) return run_campaign(options, plan, bounds, make_answerer, nullptr);
   try {
@@ -306,11 +258,13 @@ Command fuzz_command() {
       "Campaigns: hard cases and variants of them until an engine fails, and what is found made readable.",
       rows_of(*options),
 
-      "docs/campaigns.md: targets, variants, what is a finding, how it is shrunk, the store.\n"
+      "docs/campaigns.md: targets, variants, what is a finding, how it is shrunk, the store. Without "
+      "--engine: "
+      "reduction.\n"
       "Example:\n  lorentz fuzz --engine published --time 60 --store published.campaign\n"
-      "  lorentz fuzz list --store published.campaign",
+      "  lorentz fuzz show --store published.campaign",
       [options] { return act(*options); },
-      {fuzz_list_command(), fuzz_show_command(), fuzz_export_command(), fuzz_merge_command()}};
+      {fuzz_show_command(), fuzz_export_command()}};
 }
 
 }  // namespace lorentz::cli

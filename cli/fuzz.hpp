@@ -6,10 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "cli/claim_options.hpp"
-#include "cli/known_failures.hpp"
+#include "cli/examination_options.hpp"
 #include "fuzz/campaign/store.hpp"
-#include "question/starts/free_starts.hpp"
 #include "src/exchange/json_writer.hpp"
 
 namespace lorentz::cli {
@@ -17,16 +15,18 @@ namespace lorentz::cli {
 inline constexpr double kDefaultSeconds = 60;
 inline constexpr std::uint64_t kMostCases = 1'000'000'000'000;
 
-struct FuzzOptions {
+/// The options of a campaign besides those that it has in common with other examinations.
+struct FuzzOptions : ExaminationOptions {
   std::vector<std::string> targets;
   std::optional<std::string> store;
-  std::optional<double> seconds, ulps, timeout, progress;
-  std::optional<std::uint64_t> count, dimension;
-  std::uint64_t seed = starts::kDefaultSeed, jobs = 1, keep = 3, mutate = 32, reword = 1;
-  std::string engine = "reduction", shard = "0/1", judge = "oracle", scenes = "any";
-  ClaimOptions claim;
-  FailureFiles files;
-  bool json = false, first = false, times = false, undecided = false, no_undecided = false;
+  std::optional<double> progress;
+  std::optional<std::uint64_t> cases, dimension;
+  std::uint64_t keep = 3, mutate = 32, reword = 1;
+  std::string scope = "any";
+  bool to_first = false, undecided = false, no_undecided = false;
+
+  /// The name of the engine. Throws InputError if there are several.
+  const std::string& engine() const;
 };
 
 std::vector<Option> rows_of(FuzzOptions& options);
@@ -37,17 +37,11 @@ fuzz::Plan plan_of(FuzzOptions options, const question::EngineInfo& engine);
 fuzz::Bounds bounds_of(const FuzzOptions& options);
 fuzz::CampaignManifest manifest_of(const fuzz::Plan& plan, const std::string& engine);
 
-/// The claim by which a campaign was judged, from the options in its manifest.
-Claim claim_of(const fuzz::CampaignManifest& manifest);
-
-/// The command with these options, quoted for a shell.
-std::string command_of(const FuzzOptions& options);
-
 /// The result of a campaign: its manifest, the tally of each target, and its findings.
 struct FuzzReport {
   fuzz::CampaignManifest manifest;
-  std::vector<std::string> targets;
-  std::vector<fuzz::TargetTally> tallies;  ///< one for each target
+  std::vector<fuzz::TargetTally> tallies;  ///< one for each of its targets
+  std::int64_t campaign = 0;               ///< its id in the store
   std::vector<fuzz::Stored> findings;      ///< of this campaign
   bool is_stored = true;                   ///< false: the findings remain only in text()
 
@@ -62,9 +56,6 @@ struct FuzzReport {
 
 /// A kind of finding as a word: "wrong-time".
 std::string tag_of(const std::string& kind);
-
-/// Reports which part of a store cannot be read.
-void say_left_out(const std::string& message);
 
 /// A campaign from the store, with its findings.
 FuzzReport report_of(const fuzz::Store& store, const fuzz::Campaign& campaign);

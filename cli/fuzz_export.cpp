@@ -1,4 +1,4 @@
-// lorentz fuzz export: writes the findings of a campaign as a golden set or as a query stream.
+// lorentz fuzz export: writes the findings of a campaign as a golden set.
 #include <algorithm>
 #include <map>
 
@@ -7,11 +7,9 @@
 #include "cli/fuzz.hpp"
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
-#include "cli/set_output.hpp"
 #include "judge/golden/production.hpp"
-#include "question/engines.hpp"
 #include "report/claim_words.hpp"
-#include "src/exchange/nearest_name.hpp"
+#include "report/files/whole_file.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -19,121 +17,84 @@ namespace {
 using fuzz::Store;
 using fuzz::Stored;
 
-struct ExportOptions {
-  std::string store, output = "-";
-  bool all = false, queries = false;
-};
-
-// A shrunk case and the cause that it illustrates.
-struct ExportedCase {
-  const Stored* stored;
-  fuzz::ReadCase shrunk;
-};
-
-// The simplest finding of each cause, or all findings, grouped by scene.
-std::vector<ExportedCase> examples_in(const std::vector<Stored>& findings, bool all) {
-  std::vector<const Stored*> chosen;
-  if (all)
-    for (const Stored& one : findings) chosen.push_back(&one);
-  else
-    for (const FindingCause& cause : causes_of(findings)) chosen.push_back(cause.simplest);
-  std::stable_sort(chosen.begin(), chosen.end(), [](const Stored* a, const Stored* b) {
-    return a->finding.shrunk.scene < b->finding.shrunk.scene;
-  });
-  std::vector<ExportedCase> examples;
-  for (const Stored* one : chosen) examples.push_back({one, fuzz::case_in(one->finding.shrunk)});
-  return examples;
-}
-
-std::string queries_of(const std::vector<ExportedCase>& examples) {
-  std::string scene, lines;
-  for (const ExportedCase& one : examples) {
-    const fuzz::CaseText& text = one.stored->finding.shrunk;
-    if (text.scene != scene) lines += text.scene + '\n';
-    scene = text.scene;
-    lines += text.query + '\n';
-  }
-  return lines;
+// The simplest finding of each cause, grouped by scene.
+std::vector<const fuzz::Finding*> examples_in(const std::vector<Stored>& findings) {
+  std::vector<const fuzz::Finding*> chosen;
+  for (const FindingCause& cause : causes_of(findings)) chosen.push_back(&cause.simplest->finding);
+  std::ranges::stable_sort(chosen, {}, [](const fuzz::Finding* one) { return one->shrunk.scene; });
+  return chosen;
 }
 
 // Explains each tag that no finding explains yet by the aim of its target.
 void explain_targets(const std::vector<fuzz::Campaign>& campaigns, std::map<std::string, std::string>& tags) {
   for (const fuzz::Campaign& campaign : campaigns)
-    for (const std::string& name : items_of(campaign.manifest.targets, "targets"))
+    for (const std::string& name : campaign.manifest.targets)
       if (const cases::Target* target = cases::target_named(name)) tags.emplace(name, target->description());
 }
 
 golden::Header header_of(const std::vector<fuzz::Campaign>& campaigns) {
   golden::Header header;
   for (const fuzz::Campaign& campaign : campaigns)
-    header.precision = claim_of(campaign.manifest).precision;  // the same for all
+    header.precision = campaign.manifest.claim.precision;  // the same for all
   header.name = "findings";
   header.description = "What campaigns found, shrunk: the answers are the exact ones.";
   header.version = LORENTZ_VERSION;
   for (const fuzz::Campaign& campaign : campaigns) {
     const fuzz::CampaignManifest& m = campaign.manifest;
-    header.generator += fmt::format("lorentz fuzz --engine {} --seed {} --shard {} --target {}{} ({}); ",
-                                    shell_quoted(m.engine), m.seed, m.shard, m.targets,
-                                    report::arguments_of(claim_of(m)), m.options);
+    header.generator +=
+        fmt::format("lorentz fuzz --engine {} --seed {} --target {}{} ({}); ", shell_quoted(m.engine), m.seed,
+                    fmt::join(m.targets, ","), report::arguments_of(m.claim), m.options);
   }
   header.generator += "lorentz fuzz export";
   return header;
 }
 
 // Findings that shrank to the same question become one record.
-std::string golden_set_of(const std::vector<ExportedCase>& examples,
-                          const std::vector<fuzz::Campaign>& campaigns) {
+std::string golden_set_of(const Store& store) {
+  const std::vector<Stored> findings = store.findings();
+  const std::vector<fuzz::Campaign> campaigns = store.campaigns();
   golden::GivenQuestions given(header_of(campaigns));
   std::map<std::string, std::string> tags;
-  for (const ExportedCase& one : examples) {
-    const fuzz::Finding& finding = one.stored->finding;
-    if (const cases::Target* target = cases::target_named(finding.target))
-      tags.emplace(finding.target, target->description());
-    tags.emplace(tag_of(finding.kind), "what was found: an answer of the kind `" + finding.kind + "`");
-    const auto& [scene, query] = std::tie(one.shrunk.scene, one.shrunk.query);
-    given.add({scene, golden::question_of(query, scene), query, {finding.target, tag_of(finding.kind)}});
+  for (const fuzz::Finding* finding : examples_in(findings)) {
+    if (const cases::Target* target = cases::target_named(finding->target))
+      tags.emplace(finding->target, target->description());
+    tags.emplace(tag_of(finding->kind), "what was found: an answer of the kind `" + finding->kind + "`");
+    const fuzz::ReadCase shrunk = fuzz::case_in(finding->shrunk);
+    given.add({shrunk.scene,
+               golden::question_of(shrunk.query, shrunk.scene),
+               shrunk.query,
+               {finding->target, tag_of(finding->kind)}});
   }
-  if (examples.empty()) explain_targets(campaigns, tags);
+  if (findings.empty()) explain_targets(campaigns, tags);
   given.header.tags.assign(tags.begin(), tags.end());
-  MadeSet made = made_set(given);
-  say_unproved(made.counts);
-  return std::move(made.text);
+  auto [text, counts] = made_set(given);
+  say_unproved(counts);
+  return std::move(text);
 }
 
-int act(const ExportOptions& options) {
-  if (options.queries && options.output.ends_with('/'))
-    throw InputError("--queries: is a stream, which needs no folder; name a file");
-  std::optional<SetOutput> output;
-  if (options.output != "-") output.emplace(options.output, "findings");
-  const Store store(options.store, Store::Access::read, say_left_out);
-  const std::vector<Stored> findings = store.findings();
-  const std::vector<ExportedCase> examples = examples_in(findings, options.all);
-  const auto text = [&] {
-    return options.queries ? queries_of(examples) : golden_set_of(examples, store.campaigns());
-  };
-  if (output)
-    output->write(text);
+int act(const std::string& path, const std::string& output) {
+  RequestedFile file(output == "-" ? std::nullopt : std::optional(output));
+  const Store store(path, Store::Access::read);
+  if (output == "-")
+    print(golden_set_of(store));
   else
-    print(text());
-  return store.is_whole() ? kDone : kFailed;
+    file.write([&] { return golden_set_of(store); });
+  return kDone;
 }
 
 }  // namespace
 
 Command fuzz_export_command() {
-  auto options = std::make_shared<ExportOptions>();
-  return {"export",
-          "A golden set of the simplest shrunk finding of each cause: exact answers, with their proofs.",
-          {
-              {"--store", &options->store, "FILE", "the store", kRequired},
-              {"--all", &options->all, "", "of every finding"},
-              {"--queries", &options->queries, "", "a query stream instead"},
-              {"-o,--output", &options->output, "FILE", kSetOutputHelp, kOutput | kTakesStdout},
-          },
+  auto store = std::make_shared<std::string>(), output = std::make_shared<std::string>("-");
+  return {
+      "export",
+      "A golden set of the simplest shrunk finding of each cause: exact answers, with their proofs.",
+      {{"--store", store.get(), "FILE", "the store", kRequired},
+       {"-o,--output", output.get(), "FILE", "file to write (- is standard output)", kOutput | kTakesStdout}},
 
-          "Example:\n  lorentz fuzz export --store published.campaign -o mine/; "
-          "lorentz golden check mine --engine published",
-          [options] { return act(*options); }};
+      "Example:\n  lorentz fuzz export --store published.campaign -o mine.ndjson; "
+      "lorentz golden check mine.ndjson --engine published",
+      [store, output] { return act(*store, *output); }};
 }
 
 }  // namespace lorentz::cli

@@ -11,7 +11,6 @@
 #include "report/reason.hpp"
 #include "report/share.hpp"
 #include "report/table.hpp"
-#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -76,15 +75,12 @@ std::string reason_in(const fuzz::CaseText& text, NumberFormat precision) {
 
 }  // namespace
 
-void say_left_out(const std::string& message) {
-  say("{}", message);
-}
-
 FuzzReport report_of(const fuzz::Store& store, const fuzz::Campaign& campaign) {
   FuzzReport report;
   report.manifest = campaign.manifest;
-  report.targets = items_of(campaign.manifest.targets, "targets");
-  for (const std::string& target : report.targets) report.tallies.push_back(store.tally(campaign.id, target));
+  report.campaign = campaign.id;
+  for (const std::string& target : campaign.manifest.targets)
+    report.tallies.push_back(store.tally(campaign.id, target));
   for (fuzz::Stored& one : store.findings())
     if (one.campaign == campaign.id) report.findings.push_back(std::move(one));
   return report;
@@ -108,36 +104,35 @@ std::string FuzzReport::target_table() const {
         {std::isfinite(tally.margin) ? fmt::format("{:.2g}", tally.margin) : "-"},
         [](Kind, std::size_t number) { return std::to_string(number); }));
   };
-  for (std::size_t t = 0; t < targets.size(); ++t) {
-    add(targets[t], tallies[t]);
+  for (std::size_t t = 0; t < tallies.size(); ++t) {
+    add(manifest.targets[t], tallies[t]);
     all.add(tallies[t]);
   }
-  if (targets.size() > 1) add("all", all);
+  if (tallies.size() > 1) add("all", all);
   return table.text();
 }
 
 std::string FuzzReport::text() const {
   std::string out = fmt::format(
-      "{}, seed {}{}: cases, and variants of some, judged by {}{}\n\n{}\n{}{}", manifest.engine,
-      manifest.seed, manifest.shard == "0/1" ? "" : ", shard " + manifest.shard,
+      "{}, seed {}: cases, and variants of some, judged by {}{}\n\n{}\n{}{}", manifest.engine, manifest.seed,
       manifest.options.find("judged by certified") != std::string::npos ? "certified" : "the oracle",
-      report::words_of(claim_of(manifest)), target_table(), layers(*this), bounds(*this));
+      report::words_of(manifest.claim), target_table(), layers(*this), bounds(*this));
   if (findings.empty()) return out + "no findings\n";
   out += table_of(causes_of(findings));
   if (is_stored) return out;
   out += "\nthe simplest finding of each cause (--store FILE keeps all):\n";
   for (const FindingCause& cause : causes_of(findings))
     out += fmt::format("\n{}: {}\n{}", cause.simplest->label(), cause.name,
-                       text_of(cause.simplest->finding.shrunk, claim_of(manifest).precision));
+                       text_of(cause.simplest->finding.shrunk, manifest.claim.precision));
   return out;
 }
 
 void FuzzReport::add_targets(json::Members& object) const {
-  object.add("version", manifest.version, "engine", manifest.engine, "seed", manifest.seed, "shard",
-             manifest.shard, "options", manifest.options);
-  report::add_claim(object, claim_of(manifest));
+  object.add("version", manifest.version, "engine", manifest.engine, "seed", manifest.seed, "options",
+             manifest.options);
+  report::add_claim(object, manifest.claim);
   object.add("targets", json::objects(tallies, [&](json::Members& one, const TargetTally& tally) {
-               add_target(one, targets[static_cast<std::size_t>(&tally - tallies.data())], tally);
+               add_target(one, manifest.targets[static_cast<std::size_t>(&tally - tallies.data())], tally);
              }));
 }
 

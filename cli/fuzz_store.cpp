@@ -1,7 +1,5 @@
-// lorentz fuzz list, show, merge: the contents of stores.
+// lorentz fuzz show: the contents of a store, and one finding of it.
 #include <algorithm>
-#include <deque>
-#include <filesystem>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
@@ -9,7 +7,6 @@
 #include "cli/fuzz.hpp"
 #include "cli/output.hpp"
 #include "report/claim_words.hpp"
-#include "report/files/beside.hpp"
 #include "report/reason.hpp"
 #include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
@@ -20,23 +17,19 @@ namespace {
 using fuzz::Store;
 using fuzz::Stored;
 
-struct StoreOptions {
-  std::string store, id;
+struct ShowOptions {
+  std::string store;
+  std::optional<std::string> id;
   bool json = false, all = false;
   CaseFiles files;
 };
 
-struct MergeOptions {
-  std::vector<std::string> stores;
-  std::string output;
-};
-
 std::string campaign_table(const Store& store) {
-  report::Table table({"campaign", "engine", "seed", "shard", "version", "options"});
+  report::Table table({"campaign", "engine", "seed", "version", "options"});
   table.with_prose();
   for (const fuzz::Campaign& campaign : store.campaigns()) {
     const fuzz::CampaignManifest& m = campaign.manifest;
-    table.add({std::to_string(campaign.id), m.engine, std::to_string(m.seed), m.shard, m.version, m.options});
+    table.add({std::to_string(campaign.id), m.engine, std::to_string(m.seed), m.version, m.options});
   }
   return table.text();
 }
@@ -62,15 +55,14 @@ std::string json_of_list(const Store& store, const std::vector<Stored>& findings
   });
 }
 
-int list(const StoreOptions& options) {
-  const Store store(options.store, Store::Access::read, say_left_out);
+int list(const Store& store, const ShowOptions& options) {
   std::vector<Stored> findings = store.findings();
   std::stable_sort(findings.begin(), findings.end(), [](const Stored& a, const Stored& b) {
     return fuzz::rank_of(a.finding.kind) < fuzz::rank_of(b.finding.kind);
   });
   if (options.json) {
     print(json_of_list(store, findings));
-    return store.is_whole() ? kDone : kFailed;
+    return kDone;
   }
   print(campaign_table(store));
   for (const fuzz::Campaign& campaign : store.campaigns())
@@ -80,17 +72,17 @@ int list(const StoreOptions& options) {
     print("no findings\n");
   else
     print(options.all ? finding_table(findings) : table_of(causes_of(findings)));
-  return store.is_whole() ? kDone : kFailed;
+  return kDone;
 }
 
 std::string lines_of(const std::string& heading, const fuzz::CaseText& text, NumberFormat precision) {
   return '\n' + heading + '\n' + text_of(text, precision);
 }
 
-// The claim of the campaign that found it.
-Claim claim_of(const Store& store, const Stored& one) {
+// The campaign that found it.
+fuzz::CampaignManifest manifest_of(const Store& store, const Stored& one) {
   for (const fuzz::Campaign& campaign : store.campaigns())
-    if (campaign.id == one.campaign) return cli::claim_of(campaign.manifest);
+    if (campaign.id == one.campaign) return campaign.manifest;
   return {};
 }
 
@@ -117,7 +109,9 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
   report.title = "finding " + one.label();
   report.command = fmt::format("lorentz fuzz show {} --store {}{}", shell_quoted(one.label()),
                                shell_quoted(store.path()), files.as_typed());
-  report.claim = claim_of(store, one);
+  const fuzz::CampaignManifest manifest = manifest_of(store, one);
+  report.claim = manifest.claim;
+  report.engine = manifest.engine;
   report.cause = finding.cause;
   report.where = "campaign target " + finding.target;
   report.verdict = finding.kind == "wrong time" ? "wrong-time" : finding.kind;
@@ -131,84 +125,42 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
   if (dispute) report.explanation = dispute->text;
   if (!finding.words.empty()) report.more.push_back("It was asked in other words: " + finding.words);
   if (finding.shrunk.departs > 0) report.by_ulps = finding.shrunk.departs;
-  for (const fuzz::Campaign& campaign : store.campaigns())
-    if (campaign.id == one.campaign) report.engine = campaign.manifest.engine;
   return report;
 }
 
-int show(const StoreOptions& options) {
-  const Store store(options.store, Store::Access::read, say_left_out);
+int show(const Store& store, const ShowOptions& options) {
   for (const Stored& one : store.findings()) {
-    if (one.label() != options.id) continue;
+    if (one.label() != *options.id) continue;
     if (options.files.any()) options.files.write(case_report(store, one, options.files));
     print(options.json ? json::line_of([&](json::Members& object) { add_finding(object, one); })
-                       : text_of(options.id, one.finding, claim_of(store, one)));
+                       : text_of(*options.id, one.finding, manifest_of(store, one).claim));
     return kDone;
   }
-  throw InputError(fmt::format("{}: no finding is called {}; `lorentz fuzz list --all` has the names",
-                               options.store, json_quoted(options.id)));
+  throw InputError(fmt::format("{}: no finding is called {}; `lorentz fuzz show --all` has the names",
+                               options.store, json_quoted(*options.id)));
 }
 
-int merge_stores(const MergeOptions& options) {
-  std::error_code error;
-  if (std::filesystem::exists(options.output, error))
-    throw InputError(options.output + ": is there already; merge into a new store");
-  // An incomplete store would look like a complete one, so the store is built beside its final place.
-  const std::string place = place_of(options.output);
-  const Beside folder(place, Beside::Kind::folder);
-  const std::string store = folder.path() + "/store";
-  std::deque<Unfinished> files;
-  for (const char* end : {"", "-wal", "-shm", ".lock"}) files.emplace_back(store + end);
-  {
-    Store into(store, Store::Access::write);
-    fuzz::merge(options.stores, into);
-    for (const fuzz::Campaign& campaign : into.campaigns())
-      say("{}: campaign {} of {} merged from {} shards{}", options.output, campaign.id,
-          campaign.manifest.engine, options.stores.size(),
-          campaign.manifest.shard == fuzz::CampaignManifest::kMerged
-              ? "; they are not all there, or not equally far: to be read, not gone on with"
-              : "");
-  }
-  std::filesystem::rename(store, place);
-  return kDone;
-}
-
-Option store_row(StoreOptions& options) {
-  return {"--store", &options.store, "FILE", "the store", kRequired};
+int act(const ShowOptions& options) {
+  if (options.files.any() && !options.id) throw InputError("--html, --svg: are of one finding; name it");
+  const Store store(options.store, Store::Access::read);
+  return options.id ? show(store, options) : list(store, options);
 }
 
 }  // namespace
 
-Command fuzz_list_command() {
-  auto options = std::make_shared<StoreOptions>();
-  return {"list",
-          "What a store holds: campaigns, with the counters of their targets, and findings by cause.",
-          {store_row(*options),
-           {"--all", &options->all, "", "every finding"},
-           {"--json", &options->json, "", "one JSON object with all campaigns and findings"}},
-          "Example:\n  lorentz fuzz list --store published.campaign",
-          [options] { return list(*options); }};
-}
-
 Command fuzz_show_command() {
-  auto options = std::make_shared<StoreOptions>();
-  return {"show", "One finding: shrunk, and as it was found.",
-          joined({store_row(*options),
-                  {"ID", &options->id, "TEXT", "CAMPAIGN/TARGET/INDEX, as in the list", kRequired},
+  auto options = std::make_shared<ShowOptions>();
+  return {"show",
+          "What a store holds: campaigns, with the counters of their targets, and findings by cause; or one "
+          "finding, shrunk and as it was found.",
+          joined({{"--store", &options->store, "FILE", "the store", kRequired},
+                  {"ID", &options->id, "TEXT", "one finding: CAMPAIGN/TARGET/INDEX"},
+                  {"--all", &options->all, "", "list every finding"},
                   {"--json", &options->json, "", "one JSON object"}},
                  options->files.rows()),
-          "Example:\n  lorentz fuzz show 1/leaving/6 --store published.campaign",
-          [options] { return show(*options); }};
-}
-
-Command fuzz_merge_command() {
-  auto options = std::make_shared<MergeOptions>();
-  return {"merge",
-          "Puts the stores of shards together: as if one run had made them.",
-          {{"STORE", &options->stores, "FILE", "stores of shards of one campaign", kRequired},
-           {"-o,--output", &options->output, "FILE", "the new store", kOutput | kRequired}},
-          "Example:\n  lorentz fuzz merge shard-0.campaign shard-1.campaign -o both.campaign",
-          [options] { return merge_stores(*options); }};
+          "Example:\n  lorentz fuzz show --store published.campaign\n"
+          "  lorentz fuzz show 1/leaving/6 --store published.campaign",
+          [options] { return act(*options); }};
 }
 
 }  // namespace lorentz::cli

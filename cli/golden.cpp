@@ -57,15 +57,14 @@ Command golden_list_command() {
 Command golden_command() {
   return {
       "golden",
-      "Golden sets: cases with their exact answers and the proofs of these. Make, check, verify, explain, "
-      "export.",
+      "Golden sets: cases with their exact answers and the proofs of these. Make, check, verify, explain.",
       {},
 
       "Example:\n  lorentz golden check --engine reduction near-rational\n"
       "docs/formats.md has the format, docs/certificates.md the proofs, data/README.md the committed sets.",
       {},
       {golden_make_command(), golden_check_command(), golden_verify_command(), golden_explain_command(),
-       golden_export_command(), golden_filter_command(), golden_list_command()}};
+       golden_list_command()}};
 }
 
 }  // namespace lorentz::cli

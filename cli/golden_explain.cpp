@@ -16,7 +16,6 @@ namespace {
 
 struct ExplainOptions {
   std::string id;
-  std::uint64_t most = 12;
   std::vector<std::string> sets;
   CaseFiles files;
 };
@@ -30,7 +29,8 @@ std::string passed_table(const std::vector<oracle::PassedObstacle>& passed, cons
   return table.text();
 }
 
-void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::size_t most) {
+void explain(const golden::Reader& reader, const golden::ReadRecord& read) {
+  constexpr std::size_t kMostPassed = 12;
   const golden::Record& record = read.record;
   const Components count(reader.scene());
   print(fmt::format("{}:{}: {}\n\n{}\n{}\n\n", reader.path(), read.line, record.id, reader.scene_line(),
@@ -62,7 +62,7 @@ void explain(const golden::Reader& reader, const golden::ReadRecord& read, std::
   print(report::decision_text(*margins.hardest_decision(*read.query, expect), count) + '\n');
   if (hit)
     print("\nThe nearest obstacles on the way (below 0: met):\n\n" +
-          passed_table(margins.passed(*read.query, expect, most), expect.obstacle, count));
+          passed_table(margins.passed(*read.query, expect, kMostPassed), expect.obstacle, count));
 }
 
 // The tags say what the record is designed to break. They name the case, and their notes explain it.
@@ -92,7 +92,6 @@ CaseReport case_report(const golden::Reader& reader, const golden::ReadRecord& r
 }
 
 int act(const ExplainOptions& options) {
-  const auto most = static_cast<std::size_t>(options.most);
   std::set<std::string> ids;
   std::string place;  // the set of the first match
   for (const std::string& path : golden::find_sets(options.sets)) {
@@ -116,7 +115,7 @@ int act(const ExplainOptions& options) {
     throw InputError(
         fmt::format("{}: the record is not a valid query, so there is nothing to draw", read.record.id));
   if (options.files.any()) options.files.write(case_report(reader, read, options.files));
-  explain(reader, read, most);
+  explain(reader, read);
   return kDone;
 }
 
@@ -131,7 +130,6 @@ Command golden_explain_command() {
                   {"id", &options->id, "TEXT", "the record's id, or its first characters", kRequired},
                   {"sets", &options->sets, "SET",
                    "files, folders, or names of committed sets, to look in (default: all of these)"},
-                  {"--most", Whole{&options->most, 1, 10'000}, "N", "list at most N obstacles"},
               },
               options->files.rows()),
           "Example:\n  lorentz golden explain 9cbb135e --html record.html",

@@ -1,5 +1,4 @@
 // lorentz golden make: makes one set, or all committed sets.
-#include <cerrno>
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
@@ -9,15 +8,13 @@
 #include "cli/golden_questions.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
-#include "cli/set_output.hpp"
 #include "judge/golden/index.hpp"
 #include "judge/golden/production.hpp"
-#include "judge/golden/selection.hpp"
 #include "question/starts/free_starts.hpp"
+#include "report/files/scene_file.hpp"
 #include "report/files/whole_file.hpp"
-#include "report/manifest.hpp"
+#include "src/exchange/exchange_json.hpp"
 #include "src/exchange/nearest_name.hpp"
-#include "src/problem/write_error.hpp"
 
 namespace lorentz::cli {
 
@@ -26,8 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct MakeOptions {
-  std::optional<std::string> set, folder, precision, name;
-  QuestionOptions questions;
+  std::optional<std::string> set, folder, precision, name, queries, scene;
+  std::optional<double> radius;
+  std::vector<std::string> tags;
   std::optional<std::uint64_t> count;
   std::string output = "-";
   std::uint64_t seed = starts::kDefaultSeed, jobs = 1;
@@ -51,6 +49,50 @@ const golden::Set& set_of(const MakeOptions& options) {
   return *set;
 }
 
+// Parses "name" or "name=the sentence that explains it".
+std::pair<std::string, std::string> tag_in(const std::string& text) {
+  const std::size_t end = text.find('=');
+  const std::string name = text.substr(0, end);
+  if (!is_set_name(name))
+    throw InputError("--tag: " + json_quoted(name) +
+                     " is not a tag; expected small letters, digits and hyphens, and perhaps =SENTENCE");
+  if (end + 1 == text.size()) throw InputError("--tag: " + name + "= lacks its sentence");
+  return {name, end == text.npos ? "given by --tag" : text.substr(end + 1)};
+}
+
+// The tags, each once. The tags that the program gives itself are refused.
+std::vector<std::pair<std::string, std::string>> tags_in(const std::vector<std::string>& texts) {
+  std::vector<std::pair<std::string, std::string>> tags;
+  for (const std::string& text : texts) {
+    const auto tag = tag_in(text);
+    const bool is_there =
+        std::ranges::any_of(tags, [&](const auto& other) { return other.first == tag.first; });
+    if (is_there || is_given_by_program(tag.first))
+      throw InputError("--tag: " + tag.first + " is a tag already; name another");
+    tags.push_back(tag);
+  }
+  return tags;
+}
+
+void check_set_name(const std::string& name) {
+  if (!is_set_name(name))
+    throw InputError("--name: " + json_quoted(name) +
+                     " is not a name of a set; expected small letters, digits and hyphens");
+}
+
+// Says which set was made. `origin`: for example " (seed 5)".
+void report(const std::string& name, const golden::RecordCounts& counts, const std::string& origin = "") {
+  say("{}: {} records{}: {} hit, {} inside, {} never, {} error", name, counts.records, origin, counts.hits,
+      counts.insides, counts.nevers, counts.errors);
+  if (const std::uint64_t answered = counts.records - counts.errors; answered > 0)
+    say("{}: all {} answers agreed by their checked certificates, {} of them by walk, too", name, answered,
+        counts.walked);
+  if (counts.needing_judge > 0)
+    say("{}: {} records have the tag {}: their acceptable answers are not listed", name, counts.needing_judge,
+        golden::kNeedsJudge);
+  say_unproved(counts);
+}
+
 std::string name_of(const golden::Order& order) {
   return golden::header_of(order).name;
 }
@@ -64,39 +106,42 @@ golden::RecordCounts make_file(const golden::Order& order, const std::string& pa
   if (fs::exists(path, error) && !fs::is_regular_file(path, error))
     throw FileError(path + ": is not a regular file; name another, or use standard output");
   refuse_other_kinds(path, OutputKind::golden_set);
-  goes_on_when_repeated();
-  const std::string part = path + ".part";
-  if (fs::is_symlink(fs::symlink_status(part))) throw write_error(part, ELOOP);
-  golden::RecordCounts counts;
-  {
-    runs::Plan plan = golden::plan_of(order);
-    plan.push_back(
-        {"commit", report::manifest_of(order.seed, command_line()).commit});  // its records may change
-    runs::PieceStore kept(part, "golden make", plan);
-    WholeFile file(path);
-    Progress progress(name_of(order), order.count, 1);
-    counts = golden::produce(
-        order, [&](std::string_view text) { file.write(text); },
-        [&](std::uint64_t done) { progress.at(done); }, &kept);
-    file.commit();
-  }
-  fs::remove(part);
+  WholeFile file(path);
+  Progress progress(name_of(order), order.count, 1);
+  const golden::RecordCounts counts = golden::produce(
+      order, [&](std::string_view text) { file.write(text); },
+      [&](std::uint64_t done) { progress.at(done); });
+  file.commit();
   return counts;
 }
 
-// Several records of each tag, for a first check in less than a second.
+// For a first check in less than a second.
 std::string smoke_of(const std::vector<std::string>& files) {
   constexpr std::size_t kRecords = 100;
-  golden::Selection selection;
-  for (const std::string& file : files) {
-    golden::Reader set(file);
-    selection.add(set, [](const golden::Record& record) { return !golden::needs_judge(record); });
-  }
-  selection.thin(kRecords);
-  return selection.text({.name = "smoke",
-                         .description = "A few records of each tag of the sets in binary64.",
-                         .generator = "lorentz golden make --all data/golden",
-                         .version = LORENTZ_VERSION});
+  return golden::smoke_of(files, kRecords,
+                          {.name = "smoke",
+                           .description = "A few records of each tag of the sets in binary64.",
+                           .generator = "lorentz golden make --all data/golden",
+                           .version = LORENTZ_VERSION});
+}
+
+// Throws InputError if the folder has an index or checksums that did not come from here.
+void check_folder(const fs::path& folder) {
+  const auto is_index = [](const fs::path& file) {
+    try {
+      const std::string text = text_of_file(file);
+      json::Document document;
+      document.open(text);
+      return (document.object()["sets"].array(), true);
+    } catch (const json::Error&) {
+      return false;
+    }
+  };
+  if (fs::exists(folder / "index.json") && is_index(folder / "index.json")) return;
+  for (const char* name : {"index.json", "SHA256SUMS"})
+    if (fs::exists(folder / name))
+      throw InputError((folder / name).string() +
+                       ": was not written by this command, and is left as it is; move it, or the sets");
 }
 
 int make_all(golden::Order order, const std::string& folder) {
@@ -117,7 +162,7 @@ int make_all(golden::Order order, const std::string& folder) {
   names.push_back("smoke/smoke.ndjson");
   refuse_other_kinds(in_folder(names.back()), OutputKind::golden_set);
   write_whole(in_folder(names.back()), smoke_of(wide));
-  golden::write_index(folder, golden::index_of(folder, names), names);
+  golden::write_index(folder, names);
   return kDone;
 }
 
@@ -142,15 +187,37 @@ int make_one(golden::Order order, const MakeOptions& options) {
   return kDone;
 }
 
+// The questions with the tags of the options, which the header gets, too. `had_bad_input`: some were invalid, or
+// their numbers do not have the header's precision.
+golden::GivenQuestions given_questions(const MakeOptions& options, golden::Header header,
+                                       bool& had_bad_input) {
+  const NumberFormat precision = header.precision;
+  header.tags = tags_in(options.tags);
+  std::optional<Scene> first;
+  if (options.scene) first = load_scene(*options.scene, options.radius, UnknownKeys::warned);
+  if (options.radius && !options.scene)
+    throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
+  GivenQueries source(*options.queries, first, UnknownKeys::warned);
+  std::size_t others = 0;
+  golden::GivenQuestions given = questions_in(source, std::move(header), others);
+  given.look = true;
+  if (others > 0)
+    say("{}: {} queries left out, for they do not consist of numbers of {}", source.name(), others,
+        lorentz::name_of(precision));
+  if (given.questions.empty())
+    throw InputError(source.name() + ": no question in it can be a record; nothing is written");
+  had_bad_input = source.had_bad_input() || others > 0;
+  return given;
+}
+
 int make_of_queries(golden::Order order, const MakeOptions& options) {
-  const golden::Header header{
-      .name = options.name.value_or("queries"),
-      .description = "Given queries, answered exactly.",
-      .generator = "lorentz golden make --queries " + shell_quoted(*options.questions.queries),
-      .version = LORENTZ_VERSION,
-      .precision = precision_of(options)};
+  const golden::Header header{.name = options.name.value_or("queries"),
+                              .description = "Given queries, answered exactly.",
+                              .generator = "lorentz golden make --queries " + shell_quoted(*options.queries),
+                              .version = LORENTZ_VERSION,
+                              .precision = precision_of(options)};
   bool had_bad_input = false;
-  const golden::GivenQuestions given = options.questions.read(header, had_bad_input);
+  const golden::GivenQuestions given = given_questions(options, header, had_bad_input);
   order.given = &given;
   order.count = given.questions.size();
   const golden::RecordCounts counts = make(order, options.output);
@@ -159,20 +226,18 @@ int make_of_queries(golden::Order order, const MakeOptions& options) {
 }
 
 void check(const MakeOptions& options) {
-  const int ways =
-      options.set.has_value() + options.folder.has_value() + options.questions.queries.has_value();
+  const int ways = options.set.has_value() + options.folder.has_value() + options.queries.has_value();
   if (ways != 1)
     throw InputError(
         "name a set (--set NAME), a file of queries (--queries FILE), or a folder for all sets (--all "
         "FOLDER)");
   if (options.folder && (options.count || options.precision))
     throw InputError("--all makes every set as it is committed; leave --count and --precision out");
-  if (options.questions.queries && options.count)
-    throw InputError("--count: not with --queries, which are all taken");
-  if (options.questions.queries && options.seed != starts::kDefaultSeed)
+  if (options.queries && options.count) throw InputError("--count: not with --queries, which are all taken");
+  if (options.queries && options.seed != starts::kDefaultSeed)
     throw InputError("--seed: not with --queries, which are not drawn");
   if (options.name) check_set_name(*options.name);
-  if (!options.questions.queries && (options.questions.are_given() || options.name))
+  if (!options.queries && (options.scene || options.radius || !options.tags.empty() || options.name))
     throw InputError("--scene, --radius, --name and --tag: need --queries");
 }
 
@@ -182,7 +247,7 @@ int act(const MakeOptions& options) {
   order.seed = options.seed;
   order.jobs = options.jobs;
   if (options.folder) return make_all(order, *options.folder);
-  return options.questions.queries ? make_of_queries(order, options) : make_one(order, options);
+  return options.queries ? make_of_queries(order, options) : make_one(order, options);
 }
 
 }  // namespace
@@ -193,25 +258,29 @@ Command golden_make_command() {
       "make",
       "Produces a set, of cases that are drawn or of queries that you have: the same, bit for bit, whatever "
       "--jobs.",
-      joined(joined({{"--set", &options->set, "SET", "which set (lorentz golden list)"}},
-                    options->questions.rows()),
-             {
-                 {"--name", &options->name, "NAME", "of the set that --queries become (default: queries)"},
-                 {"--precision", &options->precision, "binary64|binary32",
-                  "of the numbers of scenes and queries: cases are hard in its ulps, which margins and "
-                  "conditions count (default: binary64)"},
-                 {"--count", Whole{&options->count, 1, 1'000'000'000'000}, "N",
-                  "how many records (default: as many as are committed, or would be)"},
-                 {"--seed", Whole{&options->seed}, "N", "of the cases"},
-                 {"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads"},
-                 {"-o,--output", &options->output, "FILE",
-                  "file to write (- is standard output); killed in between, the same command goes on where "
-                  "it was",
-                  kOutput | kTakesStdout},
-                 {"--all", &options->folder, "FOLDER",
-                  "make all sets in this folder as they are committed, index.json, smoke/smoke.ndjson (a few "
-                  "records of each tag) and SHA256SUMS"},
-             }),
+      {
+          {"--set", &options->set, "SET", "which set (lorentz golden list)"},
+          {"--queries", &options->queries, "FILE",
+           "records of these queries: a stream (- is standard input), or columns (.npy, .csv); invalid "
+           "queries of a stream become records of errors"},
+          {"--scene", &options->scene, "SCENE",
+           "scene before the first scene line, and of columns: a file, or a name of the catalogue"},
+          {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
+          {"--tag", &options->tags, "TAG[=SENTENCE]", "tag of each record of --queries", kOneAtATime},
+          {"--name", &options->name, "NAME", "of the set that --queries become (default: queries)"},
+          {"--precision", &options->precision, "binary64|binary32",
+           "of the numbers of scenes and queries: cases are hard in its ulps, which margins and "
+           "conditions count (default: binary64)"},
+          {"--count", Whole{&options->count, 1, 1'000'000'000'000}, "N",
+           "how many records (default: as many as are committed, or would be)"},
+          {"--seed", Whole{&options->seed}, "N", "of the cases"},
+          {"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads"},
+          {"-o,--output", &options->output, "FILE", "file to write (- is standard output)",
+           kOutput | kTakesStdout},
+          {"--all", &options->folder, "FOLDER",
+           "make all sets in this folder as they are committed, index.json, smoke/smoke.ndjson (a few "
+           "records of each tag) and SHA256SUMS"},
+      },
 
       "Every record was agreed by two oracles: walk, where it can go, and the checked certificate.\n"
       "Example:\n  lorentz golden make --set near-rational --count 1e3 --jobs 2 -o near-rational.ndjson\n"

@@ -7,26 +7,13 @@
 #include <lorentz/exchange.hpp>
 #include "judge/golden/seen.hpp"
 #include "report/files/messages.hpp"
-#include "report/files/scene_file.hpp"
 #include "src/exchange/exchange_json.hpp"
 
 namespace lorentz::cli {
-namespace {
 
-bool is_name(const std::string& text) {
+bool is_set_name(const std::string& text) {
   const auto is_allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; };
   return !text.empty() && std::ranges::all_of(text, is_allowed);
-}
-
-// Parses "name" or "name=the sentence that explains it".
-std::pair<std::string, std::string> tag_in(const std::string& text) {
-  const std::size_t end = text.find('=');
-  const std::string name = text.substr(0, end);
-  if (!is_name(name))
-    throw InputError("--tag: " + json_quoted(name) +
-                     " is not a tag; expected small letters, digits and hyphens, and perhaps =SENTENCE");
-  if (end + 1 == text.size()) throw InputError("--tag: " + name + "= lacks its sentence");
-  return {name, end == text.npos ? "given by --tag" : text.substr(end + 1)};
 }
 
 bool is_given_by_program(const std::string& tag) {
@@ -34,19 +21,7 @@ bool is_given_by_program(const std::string& tag) {
          std::ranges::any_of(golden::seen_tags(), [&](const auto& seen) { return seen.first == tag; });
 }
 
-// The tags, each once. The tags that the program gives itself are refused.
-std::vector<std::pair<std::string, std::string>> tags_in(const std::vector<std::string>& texts) {
-  std::vector<std::pair<std::string, std::string>> tags;
-  for (const std::string& text : texts) {
-    const auto tag = tag_in(text);
-    const bool is_there =
-        std::ranges::any_of(tags, [&](const auto& other) { return other.first == tag.first; });
-    if (is_there || is_given_by_program(tag.first))
-      throw InputError("--tag: " + tag.first + " is a tag already; name another");
-    tags.push_back(tag);
-  }
-  return tags;
-}
+namespace {
 
 // The tags in the key `tags` of a query's line, except those that the program gives itself. Throws
 // InputError.
@@ -64,7 +39,7 @@ std::vector<std::string> tags_in_line(const GivenQuery& given, const std::string
     throw InputError(fmt::format("{}: query {}: tags: expected a list of texts", name, given.id));
   }
   for (const std::string& tag : tags)
-    if (!is_name(tag))
+    if (!is_set_name(tag))
       throw InputError(
           fmt::format("{}: query {}: tags: {} is not a tag; expected small letters, digits and hyphens", name,
                       given.id, json_quoted(tag)));
@@ -78,43 +53,6 @@ void add_tag(const std::string& tag, golden::SetQuestion& question, golden::Head
 }
 
 }  // namespace
-
-std::vector<Option> QuestionOptions::rows() {
-  return {{"--queries", &queries, "FILE",
-           "records of these queries: a stream (- is standard input), or columns (.npy, .csv); invalid "
-           "queries of a stream become records of errors"},
-          {"--scene", &scene, "SCENE",
-           "scene before the first scene line, and of columns: a file, or a name of the catalogue"},
-          {"--radius", Positive{&radius}, "R", "radius of every ball of --scene"},
-          {"--tag", &tags, "TAG[=SENTENCE]", "tag of each record of --queries", kOneAtATime}};
-}
-
-golden::GivenQuestions QuestionOptions::read(golden::Header header, bool& had_bad_input) const {
-  const UnknownKeys unknown = UnknownKeys::warned;
-  const NumberFormat precision = header.precision;
-  header.tags = tags_in(tags);
-  std::optional<Scene> first;
-  if (scene) first = load_scene(*scene, radius, unknown);
-  if (radius && !scene)
-    throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
-  GivenQueries source(*queries, first, unknown);
-  std::size_t others = 0;
-  golden::GivenQuestions given = questions_in(source, std::move(header), others);
-  given.look = true;
-  if (others > 0)
-    say("{}: {} queries left out, for they do not consist of numbers of {}", source.name(), others,
-        name_of(precision));
-  if (given.questions.empty())
-    throw InputError(source.name() + ": no question in it can be a record; nothing is written");
-  had_bad_input = source.had_bad_input() || others > 0;
-  return given;
-}
-
-void check_set_name(const std::string& name) {
-  if (!is_name(name))
-    throw InputError("--name: " + json_quoted(name) +
-                     " is not a name of a set; expected small letters, digits and hyphens");
-}
 
 golden::GivenQuestions questions_in(GivenQueries& queries, golden::Header header, std::size_t& others) {
   golden::GivenQuestions all(std::move(header));
@@ -145,31 +83,18 @@ golden::GivenQuestions questions_in(GivenQueries& queries, golden::Header header
   return all;
 }
 
-MadeSet made_set(const golden::GivenQuestions& given, std::uint64_t jobs,
-                 const golden::OnProgress& on_progress) {
-  MadeSet made;
-  const golden::Order order{.count = given.questions.size(), .jobs = jobs, .given = &given};
-  made.counts = golden::produce(
-      order, [&](std::string_view more) { made.text += more; }, on_progress);
-  return made;
+std::pair<std::string, golden::RecordCounts> made_set(const golden::GivenQuestions& given) {
+  std::string text;
+  const golden::Order order{.count = given.questions.size(), .given = &given};
+  const golden::RecordCounts counts =
+      golden::produce(order, [&](std::string_view more) { text += more; }, {});
+  return {std::move(text), counts};
 }
 
 void say_unproved(const golden::RecordCounts& counts) {
   if (counts.left_out > 0)
     say("{} questions were left out: their proofs take more steps than the checkers go through",
         counts.left_out);
-}
-
-void report(const std::string& name, const golden::RecordCounts& counts, const std::string& origin) {
-  say("{}: {} records{}: {} hit, {} inside, {} never, {} error", name, counts.records, origin, counts.hits,
-      counts.insides, counts.nevers, counts.errors);
-  if (const std::uint64_t answered = counts.records - counts.errors; answered > 0)
-    say("{}: all {} answers agreed by their checked certificates, {} of them by walk, too", name, answered,
-        counts.walked);
-  if (counts.needing_judge > 0)
-    say("{}: {} records have the tag {}: their acceptable answers are not listed", name, counts.needing_judge,
-        golden::kNeedsJudge);
-  say_unproved(counts);
 }
 
 }  // namespace lorentz::cli

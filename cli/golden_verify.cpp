@@ -15,10 +15,6 @@ namespace {
 
 constexpr std::size_t kMostComplaints = 20;
 
-struct VerifyFindings {
-  std::size_t records = 0, flaws = 0;
-};
-
 // The flaw of a record within its set: ids must be unique, tags must be explained.
 std::optional<std::string> flaw_in_set(const golden::Header& header, const golden::Record& record,
                                        std::set<std::string>& ids) {
@@ -29,18 +25,19 @@ std::optional<std::string> flaw_in_set(const golden::Header& header, const golde
   return std::nullopt;
 }
 
-VerifyFindings verify(const std::string& path, bool walk) {
+// Prints a line about the set, and returns the number of its flaws.
+std::size_t verify(const std::string& path, bool walk) {
   golden::Reader reader(path);
   Progress progress(path.c_str(), reader.header().count);
-  VerifyFindings findings;
+  std::size_t records = 0, flaws = 0;
   std::set<std::string> ids;
   std::optional<golden::Maker> maker;
   std::size_t scene = 0;
   const auto complain = [&](std::size_t line, const std::string& what) {
-    if (++findings.flaws <= kMostComplaints) say("{}:{}: {}", reader.path(), line, what);
+    if (++flaws <= kMostComplaints) say("{}:{}: {}", reader.path(), line, what);
   };
-  for (golden::ReadRecord read; reader.next(read); progress.at(findings.records)) {
-    ++findings.records;
+  for (golden::ReadRecord read; reader.next(read); progress.at(records)) {
+    ++records;
     if (scene != reader.scene_number())
       maker.emplace(reader.scene(), reader.scene_line(), golden::Others{}, reader.header().precision);
     scene = reader.scene_number();
@@ -48,28 +45,24 @@ VerifyFindings verify(const std::string& path, bool walk) {
     if (!flaw) flaw = maker->flaw_of(read.record, read.query, walk, reader.header().format);
     if (flaw) complain(read.line, "id " + read.record.id + ": " + *flaw);
   }
-  if (findings.records != reader.header().count)
-    complain(
-        1, fmt::format("the header says {} records, there are {}", reader.header().count, findings.records));
-  return findings;
+  if (records != reader.header().count)
+    complain(1, fmt::format("the header says {} records, there are {}", reader.header().count, records));
+  if (flaws > kMostComplaints) say("{}: {} more", path, flaws - kMostComplaints);
+  print(fmt::format("{}: {} records, {}\n", path, records,
+                    flaws ? fmt::format("{} REFUTED", flaws) : "all verified"));
+  return flaws;
 }
 
 int act(const std::vector<std::string>& names, bool walk) {
   std::size_t flaws = 0;
   bool bad = false;
   for (const std::string& path : golden::find_sets(names)) {
-    VerifyFindings findings;
     try {
-      findings = verify(path, walk);
+      flaws += verify(path, walk);
     } catch (const InputError& error) {  // the other sets are still checked
       say("{}", error.what());
       bad = true;
-      continue;
     }
-    flaws += findings.flaws;
-    if (findings.flaws > kMostComplaints) say("{}: {} more", path, findings.flaws - kMostComplaints);
-    print(fmt::format("{}: {} records, {}\n", path, findings.records,
-                      findings.flaws ? fmt::format("{} REFUTED", findings.flaws) : "all verified"));
   }
   return bad ? kBadInput : flaws ? kDisagreement : kDone;
 }

@@ -13,10 +13,9 @@
 #include "cli/interrupt.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
-#include "cli/set_output.hpp"
 #include "cli/terminal.hpp"
 #include "judge/golden/production.hpp"
-#include "judge/judging.hpp"
+#include "judge/judge_report.hpp"
 #include "report/claim_words.hpp"
 #include "report/files/whole_file.hpp"
 #include "report/page.hpp"
@@ -71,23 +70,6 @@ std::function<void(const std::string&)> rows_shown(const JudgeOrder& order) {
   };
 }
 
-// The options quoted for a shell, without the files of the report.
-std::string command_of(const ExaminationOptions& o) {
-  const ExaminationOptions usual;
-  std::string command = "lorentz judge --engine " + shell_quoted(o.engines.at(0));
-  if (o.quick) command += " --quick";
-  if (o.seconds) command += fmt::format(" --time {}", *o.seconds);
-  if (o.questions) command += fmt::format(" --questions {}", *o.questions);
-  if (o.seed != usual.seed) command += fmt::format(" --seed {}", o.seed);
-  if (o.jobs != usual.jobs) command += fmt::format(" --jobs {}", o.jobs);
-  if (o.ulps) command += fmt::format(" --ulps {}", *o.ulps);
-  command += report::arguments_of(o.claim.claim());
-  if (o.timeout) command += fmt::format(" --timeout {}", *o.timeout);
-  if (o.times) command += " --times";
-  if (o.strict) command += " --strict";
-  return command;
-}
-
 JudgeOrder order_of(ExaminationOptions options) {
   if (options.engines.size() != 1) throw InputError("--engine: name one (" + names_for_help() + ")");
   JudgeOrder order;
@@ -100,7 +82,7 @@ JudgeOrder order_of(ExaminationOptions options) {
                               ? options.longest_wait()
                               : std::min(options.longest_wait(), kShareOfStart * order.seconds()));
   order.introduction = options.claim.ask({order.engine}).front();
-  order.command = command_of(options);
+  order.command = command_line();
   order.seed = options.seed;
   order.jobs = static_cast<unsigned>(options.jobs);
   order.ulps = options.tolerance();
@@ -127,7 +109,7 @@ std::string golden_set_of(const JudgeReport& report) {
     if (!given.header.explains(tag)) given.header.tags.emplace_back(tag, finding.summary());
     given.add({scene, golden::question_of(question.query, scene), question.query, {tag}});
   }
-  return made_set(given).text;
+  return made_set(given).first;
 }
 
 int act(const ExaminationOptions& options) {
@@ -136,7 +118,7 @@ int act(const ExaminationOptions& options) {
     throw InputError(*option + ": needs --questions, so that each run asks the same");
   if (options.html) report::page("{}");  // throws without a page: now rather than after two minutes
   RequestedFile html(options.html);
-  SetOutput golden(options.golden, "findings");
+  RequestedFile golden(options.golden);
   FailureLedger ledger(options.files);
   order.on_judged = recorder(options, ledger);
   const Interrupt interrupt;

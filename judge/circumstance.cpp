@@ -1,4 +1,4 @@
-#include "judge/circumstance.hpp"
+#include "judge/findings.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "judge/diagnosis.hpp"
 #include "question/radii.hpp"
 #include "src/exchange/exchange_number.hpp"
 #include "src/problem/scene_geometry.hpp"
@@ -99,22 +98,22 @@ namespace {
 
 constexpr double kCommon = 0.5, kByChance = 1e-3;
 
-struct Predicate {
-  std::string text;
-  std::function<bool(const Features&)> holds;
-  bool is_of_depth = false;
-};
+using Holds = std::function<bool(const Features&)>;
 
-std::vector<Predicate> plain_predicates() {
-  return {{"in 3D", [](const Features& f) { return f.in_space; }},
-          {"in 2D", [](const Features& f) { return !f.in_space; }},
-          {"where a component of v is zero", [](const Features& f) { return f.zero_component; }},
-          {"of particles that leave an obstacle (from)", [](const Features& f) { return f.leaving; }},
-          {"in scenes of several lattices", [](const Features& f) { return f.several_lattices; }},
-          {"in scenes of several atoms a cell", [](const Features& f) { return f.several_atoms; }},
-          {"among ellipses or ellipsoids", [](const Features& f) { return f.ellipsoids; }},
-          {"in cells other than the unit square or cube", [](const Features& f) { return f.other_cell; }},
-          {"where nothing is ever hit", [](const Features& f) { return f.never; }}};
+std::vector<Circumstance> plain_circumstances() {
+  const std::pair<const char*, Holds> all[] = {
+      {"in 3D", [](const Features& f) { return f.in_space; }},
+      {"in 2D", [](const Features& f) { return !f.in_space; }},
+      {"where a component of v is zero", [](const Features& f) { return f.zero_component; }},
+      {"of particles that leave an obstacle (from)", [](const Features& f) { return f.leaving; }},
+      {"in scenes of several lattices", [](const Features& f) { return f.several_lattices; }},
+      {"in scenes of several atoms a cell", [](const Features& f) { return f.several_atoms; }},
+      {"among ellipses or ellipsoids", [](const Features& f) { return f.ellipsoids; }},
+      {"in cells other than the unit square or cube", [](const Features& f) { return f.other_cell; }},
+      {"where nothing is ever hit", [](const Features& f) { return f.never; }}};
+  std::vector<Circumstance> circumstances;
+  for (const auto& [text, holds] : all) circumstances.push_back({.text = text, .holds = holds});
+  return circumstances;
 }
 
 // A limit on a quantity: the least power of ten above all failing questions, the greatest power of ten that
@@ -148,7 +147,7 @@ double exponent_of(LimitSide bound, double extreme) {
 
 // Nothing if a failing question lacks the quantity, or if the limit says nothing: that a line enters by less
 // than a radius, or that something near is far.
-std::optional<Predicate> predicate_for(const Limit& its, const std::vector<Features>& failing) {
+std::optional<Circumstance> circumstance_for(const Limit& its, const std::vector<Features>& failing) {
   constexpr double kFar = 10;
   const auto quantity = its.quantity;
   const bool is_below = its.bound == LimitSide::below, is_far = its.bound == LimitSide::from_afar,
@@ -162,15 +161,16 @@ std::optional<Predicate> predicate_for(const Limit& its, const std::vector<Featu
   if (!(extreme > 0) || !std::isfinite(extreme)) return std::nullopt;
   const double exponent = exponent_of(its.bound, extreme), limit = std::pow(is_far ? 2 : 10, exponent);
   if ((is_of_depth && limit >= 1) || (is_far && exponent < kFar)) return std::nullopt;
-  return Predicate{fmt::format(fmt::runtime(its.text), is_far ? exponent : limit),
-                   [=](const Features& f) { return is_below ? f.*quantity < limit : f.*quantity >= limit; },
-                   is_of_depth};
+  return Circumstance{
+      .text = fmt::format(fmt::runtime(its.text), is_far ? exponent : limit),
+      .is_of_depth = is_of_depth,
+      .holds = [=](const Features& f) { return is_below ? f.*quantity < limit : f.*quantity >= limit; }};
 }
 
-std::vector<Predicate> predicates_for(const std::vector<Features>& failing) {
-  std::vector<Predicate> all = plain_predicates();
+std::vector<Circumstance> circumstances_for(const std::vector<Features>& failing) {
+  std::vector<Circumstance> all = plain_circumstances();
   for (const Limit& limit : kLimits)
-    if (const auto one = predicate_for(limit, failing)) all.push_back(*one);
+    if (const auto one = circumstance_for(limit, failing)) all.push_back(*one);
   return all;
 }
 
@@ -180,15 +180,15 @@ std::optional<Circumstance> circumstance_of(const std::vector<Features>& failing
                                             const std::vector<Features>& right) {
   if (failing.empty() || right.empty()) return std::nullopt;
   std::optional<Circumstance> rarest;
-  for (const Predicate& predicate : predicates_for(failing)) {
-    if (!std::all_of(failing.begin(), failing.end(), predicate.holds)) continue;
-    const auto number = std::count_if(right.begin(), right.end(), predicate.holds);
+  for (Circumstance& one : circumstances_for(failing)) {
+    if (!std::all_of(failing.begin(), failing.end(), one.holds)) continue;
+    const auto number = std::count_if(right.begin(), right.end(), one.holds);
     const double share = static_cast<double>(number) / static_cast<double>(right.size());
     // With this number of right answers, a share that was not seen may still be this large.
     const double possible = std::max(share, 3 / static_cast<double>(right.size()));
     if (share > kCommon || std::pow(possible, failing.size()) > kByChance) continue;
-    if (!rarest || share < rarest->share)
-      rarest = Circumstance{predicate.text, share, predicate.is_of_depth, predicate.holds};
+    one.share = share;
+    if (!rarest || share < rarest->share) rarest = std::move(one);
   }
   return rarest;
 }

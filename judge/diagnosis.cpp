@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fuzz/examine/tie.hpp"
+#include "fuzz/campaign/tie.hpp"
 #include "question/radii.hpp"
 
 namespace lorentz::judge {
@@ -14,34 +14,34 @@ bool exists(const Question& question, const ObstacleId& obstacle) {
   return !flaw_of(Query{question.query.x, question.query.v, obstacle}, question.place->scene());
 }
 
-struct Fault {
-  Cause cause;
-  std::optional<double> by_radii = {};
-};
+// Below, diagnoses are of wrong answers, and `decisive` is the obstacle that the judgement rests on.
 
-Fault graded(Cause grazing, Cause gross, double gap) {
-  return {std::fabs(gap) < kGrazing ? grazing : gross, std::fabs(gap)};
+Diagnosis of_wrong(Cause cause, std::optional<double> by_radii = {}) {
+  return {cause, Severity::wrong, by_radii};
 }
 
-// Below, `decisive` is the obstacle that the judgement rests on.
+Diagnosis graded(Cause grazing, Cause gross, double gap) {
+  return of_wrong(std::fabs(gap) < kGrazing ? grazing : gross, std::fabs(gap));
+}
 
 // The answer says that x lies in an obstacle, which must exist.
-Fault of_false_inside(const Question& question, const Answer& given, const ObstacleId& decisive) {
+Diagnosis of_false_inside(const Question& question, const Answer& given, const ObstacleId& decisive) {
   const double gap = question.place->margins().approach(question.query, given.obstacle).start_gap;
   if (question.exact.outcome == Outcome::inside && (gap < 0 || decisive != given.obstacle))
-    return {Cause::inside_another};
-  return {Cause::inside_not_so, gap};  // x lies outside, else it is the case above or right
+    return of_wrong(Cause::inside_another);
+  return of_wrong(Cause::inside_not_so, gap);  // x lies outside, else it is the case above or right
 }
 
 // The answer names another obstacle than the exact one, or one where nothing is hit.
-Fault of_false_hit(const Question& question, const Answer& given, const ObstacleId& decisive) {
+Diagnosis of_false_hit(const Question& question, const Answer& given, const ObstacleId& decisive) {
   const question::Place& place = *question.place;
   const oracle::Approach approach = place.margins().approach(question.query, decisive);
   if (decisive == given.obstacle) {
-    if (!approach.ahead && approach.start_gap >= 0) return {Cause::behind};
+    if (!approach.ahead && approach.start_gap >= 0) return of_wrong(Cause::behind);
     return graded(Cause::false_hit_grazing, Cause::false_hit, approach.gap);
   }
-  if (fuzz::is_tie(place.scene(), place.judge(), question.query, question.exact, given)) return {Cause::tie};
+  if (fuzz::is_tie(place.scene(), place.judge(), question.query, question.exact, given))
+    return of_wrong(Cause::tie);
   return graded(Cause::passed_over_grazing, Cause::passed_over, approach.gap);
 }
 
@@ -52,12 +52,12 @@ bool is_touched(const Question& question, const Answer& given) {
          question.place->margins().approach(question.query, given.obstacle).gap >= 0;
 }
 
-Fault of_another_answer(const Question& question, const Answer& given,
-                        const std::optional<ObstacleId>& needed) {
+Diagnosis of_another_answer(const Question& question, const Answer& given,
+                            const std::optional<ObstacleId>& needed) {
   const Query& query = question.query;
   const Answer& exact = question.exact;
-  if (names_obstacle(given) && !exists(question, given.obstacle)) return {Cause::no_obstacle};
-  if (names_obstacle(given) && query.from == given.obstacle) return {Cause::leaving};
+  if (names_obstacle(given) && !exists(question, given.obstacle)) return of_wrong(Cause::no_obstacle);
+  if (names_obstacle(given) && query.from == given.obstacle) return of_wrong(Cause::leaving);
   // A judgement that rests on no obstacle has margin 0: there is a tie, or an obstacle is touched.
   const ObstacleId& decisive = needed                        ? *needed
                                : is_touched(question, given) ? given.obstacle
@@ -65,7 +65,7 @@ Fault of_another_answer(const Question& question, const Answer& given,
   if (given.outcome == Outcome::inside) return of_false_inside(question, given, decisive);
   const oracle::Approach approach = question.place->margins().approach(query, decisive);
   if (exact.outcome == Outcome::inside && approach.start_gap < 0)
-    return {Cause::inside_unseen, std::fabs(approach.start_gap)};
+    return of_wrong(Cause::inside_unseen, std::fabs(approach.start_gap));
   if (given.outcome == Outcome::hit) return of_false_hit(question, given, decisive);
   return graded(Cause::never_for_grazing, Cause::never_for_hit, approach.gap);
 }
@@ -142,11 +142,12 @@ std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& gi
   if (judgement.wrong_time) return of_wrong_time(question, given, judgement.other_quantity);
   if (judgement.verdict == Verdict::error) return Diagnosis{Cause::refused, Severity::error};
   if (judgement.verdict == Verdict::missing) return Diagnosis{Cause::no_answer, Severity::error};
-  const bool wrong = judgement.verdict == Verdict::wrong;
-  if (!wrong && judgement.verdict != Verdict::ill_posed) return std::nullopt;
+  const bool is_excused = judgement.verdict == Verdict::ill_posed;
+  if (judgement.verdict != Verdict::wrong && !is_excused) return std::nullopt;
   if (!question.is_query()) return Diagnosis{Cause::answers_nonsense, Severity::nonsense};
-  const Fault fault = of_another_answer(question, given, judgement.obstacle);
-  return Diagnosis{fault.cause, wrong ? Severity::wrong : Severity::ill_posed, fault.by_radii};
+  Diagnosis diagnosis = of_another_answer(question, given, judgement.obstacle);
+  if (is_excused) diagnosis.severity = Severity::ill_posed;
+  return diagnosis;
 }
 
 Blame Diagnosis::blame() const {

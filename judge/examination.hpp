@@ -23,6 +23,10 @@ class Countdown {
   explicit Countdown(double seconds, Clock::time_point begun = Clock::now())
       : end_(begun + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {}
   double left() const { return std::max(std::chrono::duration<double>(end_ - Clock::now()).count(), 0.0); }
+  /// What the next of these parts gets; the others get the time that it leaves.
+  double share(std::ptrdiff_t parts) const {
+    return left() / static_cast<double>(std::max<std::ptrdiff_t>(parts, 1));
+  }
 
  private:
   Clock::time_point end_;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "fuzz/examine/shrink.hpp"
+#include "fuzz/campaign/shrink.hpp"
 
 namespace lorentz::judge {
 namespace {

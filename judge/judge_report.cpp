@@ -238,20 +238,15 @@ std::vector<std::string> cells_of(const question::Tally& t, const std::optional<
       question::dash_for_none);
 }
 
-enum class RowState { asked, unsupported, no_time, too_slow, given_up, other_numbers };
-constexpr const char* kRowStates[] = {"asked",    "unsupported", "no time",
-                                      "too slow", "given up",    "other numbers"};
-
-RowState state_of(const ExaminedRow& row, const JudgeReport& report) {
-  if (row.scenes_given_up > 0) return RowState::given_up;
-  if (row.tally[Count::too_slow] > 0) return RowState::too_slow;
-  if (row.asked() > 0)
-    return row.tally[Count::unsupported] == row.asked() ? RowState::unsupported : RowState::asked;
+std::string_view state_of(const ExaminedRow& row, const JudgeReport& report) {
+  if (row.scenes_given_up > 0) return "given up";
+  if (row.tally[Count::too_slow] > 0) return "too slow";
+  if (row.asked() > 0) return row.tally[Count::unsupported] == row.asked() ? "unsupported" : "asked";
   // Its scenes had been left before: either all were unsupported, or some were too slow to be asked again.
   const question::Tally all = report.total();
-  if (!row.is_exhausted) return RowState::no_time;
-  if (all.queries == all[Count::unsupported]) return RowState::unsupported;
-  return report.claim.precision == NumberFormat::binary64 ? RowState::too_slow : RowState::other_numbers;
+  if (!row.is_exhausted) return "no time";
+  if (all.queries == all[Count::unsupported]) return "unsupported";
+  return report.claim.precision == NumberFormat::binary64 ? "too slow" : "other numbers";
 }
 
 // A line for each failure: "given up in scenes of: drawn cubic (4), golden ties (20); cmd died (exit 3) .."
@@ -267,7 +262,7 @@ std::string given_up_lines(const JudgeReport& report) {
 }
 
 // "unsupported: drawn ball, golden ties"; nothing if there are no such rows.
-std::string line_of(RowState state, const std::string& what, const JudgeReport& report) {
+std::string line_of(std::string_view state, const std::string& what, const JudgeReport& report) {
   std::vector<std::string> names;
   for (const ExaminedRow& row : report.rows)
     if (state_of(row, report) == state) names.push_back(row.name);
@@ -282,22 +277,21 @@ std::string table_of(const JudgeReport& report) {
   question::Tally total = report.total();
   total.name = "all";
   table.add(cells_of(total, report.max_radii()));
-  return table.text() + line_of(RowState::unsupported, "unsupported", report) +
-         line_of(RowState::no_time, "not asked, no time", report) +
-         line_of(RowState::too_slow,
+  return table.text() + line_of("unsupported", "unsupported", report) +
+         line_of("no time", "not asked, no time", report) +
+         line_of("too slow",
                  fmt::format("too slow to ask (no answer within {:.3g} s, or more than "
                              "0.1 s each in earlier rows)",
                              report.longest_wait),
                  report) +
-         line_of(RowState::other_numbers, "not asked, numbers of another precision", report) +
-         given_up_lines(report);
+         line_of("other numbers", "not asked, numbers of another precision", report) + given_up_lines(report);
 }
 
 void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& report) {
   const question::Tally& t = row.tally;
-  object.add("name", row.name, "explanation", row.explanation, "state",
-             kRowStates[static_cast<int>(state_of(row, report))], "scenes_given_up", row.scenes_given_up,
-             "why", row.scenes_given_up == 0 ? std::nullopt : std::optional(row.last_failure));
+  object.add("name", row.name, "explanation", row.explanation, "state", state_of(row, report),
+             "scenes_given_up", row.scenes_given_up, "why",
+             row.scenes_given_up == 0 ? std::nullopt : std::optional(row.last_failure));
   object.add("queries", t.queries);
   question::add_counts(object, t.counts, Counted::judge);
   object.add("max_radii", json::finite(row.max_radii), "records", row.records);

@@ -1,6 +1,7 @@
 // The report that `lorentz judge` gives at the end.
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,6 +57,13 @@ struct JudgeReport : JudgeOrder {
   std::string text() const;
   std::string json() const;
 };
+
+/// The number of rows of a report.
+std::size_t number_of_rows(const JudgeOrder& order);
+
+/// Judges one engine: the full report on it; once `stop` is set, what was found until then. Throws FileError
+/// without the catalogue or the golden sets.
+JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop);
 
 /// A number with two digits, or with all digits before the point.
 std::string two_digits(double a);

@@ -1,4 +1,4 @@
-#include "judge/judging.hpp"
+#include "judge/judge_report.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -17,17 +17,6 @@ namespace lorentz::judge {
 using starts::Kind;
 
 namespace {
-
-// Parts of one stretch of time. The others get the time that one leaves.
-class Shares {
- public:
-  Shares(double seconds, std::size_t parts) : all_(seconds), parts_(parts) {}
-  double next() { return all_.left() / static_cast<double>(std::max<std::size_t>(parts_--, 1)); }
-
- private:
-  Countdown all_;
-  std::size_t parts_;
-};
 
 // The order, how its engine is asked, and the time until the end of the run.
 struct Terms {
@@ -74,19 +63,13 @@ double length_of_flight(const Question& question) {
 // Asks one question of each row, the one with the shortest flight first: an engine that is slow has then
 // answered something everywhere before long flights take all the time.
 void ask_one_each(TimedExamination& examination, JudgePlan& plan, const Terms& terms) {
-  struct First {
-    const PlannedRow* row;
-    Question question;
-    double flight;
-  };
-  std::vector<First> firsts;
+  std::vector<std::tuple<double, const PlannedRow*, Question>> firsts;
   for (PlannedRow& row : plan.rows())
     if (const auto question = examination.is_over() ? std::nullopt : row.source())
-      firsts.push_back({&row, *question, length_of_flight(*question)});
-  std::ranges::stable_sort(firsts, {}, &First::flight);
-  for (const First& first : firsts)
-    examination.run(first.row->row, question::all_of({&first.question, 1}), terms.all.left(), first.row->look,
-                    1);
+      firsts.emplace_back(length_of_flight(*question), &row, *question);
+  std::ranges::stable_sort(firsts, {}, [](const auto& first) { return std::get<double>(first); });
+  for (const auto& [flight, row, question] : firsts)
+    examination.run(row->row, question::all_of({&question, 1}), terms.all.left(), row->look, 1);
   examination.run(campaign_row(), plan.campaign(0, terms.jobs()), terms.all.left(), {}, 1);
 }
 
@@ -117,10 +100,10 @@ void ask_all(TimedExamination& examination, JudgePlan& plan, const Terms& terms)
   examination.results().row(campaign_row());
   if (!terms.order.questions) ask_one_each(examination, plan, terms);
   for (const JudgePart part : {JudgePart::drawn, JudgePart::hard, JudgePart::paths, JudgePart::golden}) {
-    const auto rows = std::ranges::count(plan.rows(), part, &PlannedRow::part);
-    Shares shares(terms.seconds_of(part), static_cast<std::size_t>(rows));
+    auto rows = std::ranges::count(plan.rows(), part, &PlannedRow::part);
+    const Countdown time(terms.seconds_of(part));
     for (const PlannedRow& row : plan.rows())
-      if (row.part == part) examination.run(row.row, row.source, shares.next(), row.look);
+      if (row.part == part) examination.run(row.row, row.source, time.share(rows--), row.look);
   }
   run_campaign(examination, plan, terms);
 }
@@ -129,10 +112,11 @@ void ask_all(TimedExamination& examination, JudgePlan& plan, const Terms& terms)
 
 void find_simplest(std::vector<Finding>& findings, TimedExamination& examination, double seconds) {
   examination.limit(seconds);
-  Shares shares(seconds, findings.size());
+  const Countdown time(seconds);
+  auto left_over = std::ssize(findings);
   for (Finding& finding : findings) {
     const Question met = finding.simplest.question;
-    finding.simplest = simplest(finding, examination, shares.next());
+    finding.simplest = simplest(finding, examination, time.share(left_over--));
     const Question& left = finding.simplest.question;
     finding.was_shrunk = left.place->scene() != met.place->scene() || left.query.x != met.query.x ||
                          left.query.v != met.query.v || left.query.from != met.query.from;
@@ -147,12 +131,13 @@ void find_simplest(std::vector<Finding>& findings, TimedExamination& examination
 // new start gets kForOne times the first start's time until its answer, if there is so much left.
 void recheck_all(std::vector<Finding>& findings, const Terms& terms, double seconds, double first_answer) {
   constexpr double kForOne = 4;
-  Shares shares(seconds, 2 * findings.size());
+  const Countdown time(seconds);
+  auto parts = 2 * std::ssize(findings);
   for (Finding& finding : findings)
     if (finding.severity() != Severity::ill_posed)
       judge::recheck(
           finding, [&] { return terms.silent_examination(); },
-          std::min(shares.next() + kForOne * first_answer, terms.all.left()));
+          std::min(time.share(parts--) + kForOne * first_answer, terms.all.left()));
 }
 
 // Finds the simplest case of each finding.

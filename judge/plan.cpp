@@ -15,18 +15,9 @@ using starts::Kind;
 
 namespace {
 
-// Seconds of the parts, in the order in which they run; their proportions also hold for another time.
-struct PartTime {
-  JudgePart part;
-  double whole, quick;
-};
-constexpr PartTime kPartTimes[] = {{.part = JudgePart::drawn, .whole = 15, .quick = 4},
-                                   {.part = JudgePart::hard, .whole = 8, .quick = 2.5},
-                                   {.part = JudgePart::paths, .whole = 3, .quick = 1},
-                                   {.part = JudgePart::golden, .whole = 24, .quick = 3.5},
-                                   {.part = JudgePart::campaign, .whole = 58, .quick = 4.5},
-                                   {.part = JudgePart::simplest, .whole = 12, .quick = 3},
-                                   {.part = JudgePart::speed, .whole = 4, .quick = 1}};
+// Seconds of the parts, by JudgePart, of a whole run and of a quick one; their proportions also hold for another time.
+constexpr double kPartTimes[][2] = {{15, 4}, {8, 2.5}, {3, 1}, {24, 3.5}, {58, 4.5}, {12, 3}, {4, 1}};
+static_assert(std::size(kPartTimes) == static_cast<std::size_t>(JudgePart::speed) + 1);
 
 // The largest number of flights of a drawn row; a hard row in the same scenes has twice as many.
 constexpr std::size_t kDrawn = 4000, kDrawnQuickly = 500;
@@ -36,10 +27,7 @@ std::size_t number_of_flights(const JudgeOrder& order) {
 }
 
 // The scenes of the catalogue that are examined, and their radii; scenes without radii keep their own sizes.
-struct Scenery {
-  const char* scene;
-  std::vector<double> radii;
-};
+using Scenery = std::pair<const char*, std::vector<double>>;
 const std::vector<Scenery> kSceneries{{"square", {0.3, 0.1, 0.01, 0.001, 1e-6}},
                                       {"cubic", {0.3, 0.1, 0.01, 0.001}},
                                       {"triangular", {0.1, 0.001}},
@@ -59,11 +47,12 @@ constexpr std::pair<const char*, double> kFlown[] = {{"square", 0.1}, {"square",
 constexpr std::size_t kFlights = 30'000;
 
 std::vector<NamedPlace> places_of(const Scenery& scenery, const Claim& claim) {
-  if (scenery.radii.empty()) return {{scenery.scene, place_for(read_scene(scenery.scene, {}), claim)}};
+  const auto& [scene, radii] = scenery;
+  if (radii.empty()) return {{scene, place_for(read_scene(scene, {}), claim)}};
   std::vector<NamedPlace> places;
-  for (const double radius : scenery.radii)
-    places.push_back({fmt::format("{}, r = {:g}", scenery.scene, radius),
-                      place_for(read_scene(scenery.scene, radius), claim)});
+  for (const double radius : radii)
+    places.push_back(
+        {fmt::format("{}, r = {:g}", scene, radius), place_for(read_scene(scene, radius), claim)});
   return places;
 }
 
@@ -82,19 +71,18 @@ std::vector<std::string> golden_sets_for(NumberFormat precision) {
 double JudgeOrder::seconds() const {
   if (time) return *time;
   double all = 0;
-  for (const PartTime& one : kPartTimes) all += quick ? one.quick : one.whole;
+  for (const auto& part : kPartTimes) all += part[quick];
   return all;
 }
 
 double seconds_of(JudgePart part, const JudgeOrder& order, double left) {
-  double all = 0, its = 0, needed = 0;
-  for (const PartTime& one : kPartTimes) {
-    const double seconds = order.quick ? one.quick : one.whole;
-    all += seconds;
-    if (one.part == part) its = seconds;
-    if (its > 0) needed += seconds;
+  const auto number = static_cast<std::size_t>(part);
+  double all = 0, needed = 0;
+  for (std::size_t i = 0; i < std::size(kPartTimes); ++i) {
+    all += kPartTimes[i][order.quick];
+    if (i >= number) needed += kPartTimes[i][order.quick];
   }
-  return its * std::min(order.seconds() / all, left / needed);
+  return kPartTimes[number][order.quick] * std::min(order.seconds() / all, left / needed);
 }
 
 void JudgePlan::add(JudgePart part, ExaminedRow row, Source source) {
@@ -109,7 +97,7 @@ JudgePlan::JudgePlan(const JudgeOrder& order) : order_(order) {
   for (std::size_t i = 0; i < kSceneries.size(); ++i) {
     places_.insert(places_.end(), sceneries_[i].begin(), sceneries_[i].end());
     add(JudgePart::drawn,
-        {.name = fmt::format("drawn {}", kSceneries[i].scene),
+        {.name = fmt::format("drawn {}", kSceneries[i].first),
          .explanation = "uniform starts, isotropic directions",
          .is_hard = false},
         drawn(sceneries_[i], Kind::uniform, order_.seed, number));
@@ -160,8 +148,7 @@ ExaminedRow campaign_row() {
 Source JudgePlan::campaign(unsigned part, unsigned parts) {
   const fuzz::Scope scope = scope_of(places_);
   const auto source = [&] {
-    return judge::campaign(order_.seed, scope, order_.questions ? Fairness::of_scenes : Fairness::of_time,
-                           part, parts, order_.claim);
+    return judge::campaign(order_.seed, scope, !order_.questions, part, parts, order_.claim);
   };
   if (part == 0 && (!campaign_ || scope != scope_)) campaign_ = source(), scope_ = scope;
   return part == 0 ? campaign_ : source();

@@ -1,14 +1,50 @@
-// The plan of `judge`: the parts of a run with their times, and the rows of its report with their questions.
+// The plan of `judge`: where its questions come from, the parts of a run with their times, and the rows of its report.
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
+#include "fuzz/campaign/campaign.hpp"
+#include "judge/examination.hpp"
 #include "judge/free_paths.hpp"
-#include "judge/questions.hpp"
+#include "question/starts/free_starts.hpp"
 
 namespace lorentz::judge {
 
-/// The parts of a run. Each has a time of its own, however many rows it has.
+// ---- Sources of questions: drawn flights, golden sets, and the families of hard cases (questions.cpp)
+
+/// A scene and its name: "square, r = 0.1".
+struct NamedPlace {
+  std::string name;
+  std::shared_ptr<Place> place;
+};
+
+/// The place in which an engine with this claim is asked: the scene's numbers are rounded to its precision.
+std::shared_ptr<Place> place_for(const Scene& scene, const Claim& claim);
+
+/// `count` starts of a kind, a few of each place in turn. Places beyond the engine are left out. The places
+/// must outlast the source.
+Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count);
+
+/// The records of a golden set that consist of numbers of the claim's precision; only the first ones of a
+/// scene that is beyond the engine. Throws as golden::Reader does.
+Source golden_set(const std::string& path, const Claim& claim = {});
+
+/// Cases of all targets of campaigns in turn, without end; and for one case of each scene the variants that
+/// climb to the smallest margin. Only scenes that the scope admits are used, and of these only number `part`
+/// modulo `parts`. All cases consist of numbers of the claim's precision. The targets get the same time (a few
+/// take a hundred times as long as others), or the same number of scenes.
+Source campaign(std::uint64_t seed, const fuzz::Scope& scope, bool same_time = true, unsigned part = 0,
+                unsigned parts = 1, const Claim& claim = {});
+
+/// The narrowest scope that contains all the places in which the engine answered (a single ball and a single
+/// disc are in one scope); all scenes if it answered nowhere.
+fuzz::Scope scope_of(const std::vector<NamedPlace>& places);
+
+// ---- The plan
+
+/// The parts of a run, in the order in which they run. Each has a time of its own, however many rows it has.
 enum class JudgePart { drawn, hard, paths, golden, campaign, simplest, speed };
 
 /// Seconds of a part: its share of the order's, or less if `left`, which also the parts behind it need, is

@@ -1,4 +1,4 @@
-#include "judge/questions.hpp"
+#include "judge/plan.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <deque>
 #include <tuple>
 
-#include "fuzz/examine/variants.hpp"
-#include "fuzz/families/target.hpp"
+#include "fuzz/campaign/variants.hpp"
+#include "fuzz/families/family.hpp"
 #include "judge/golden/questions.hpp"
 #include "question/starts/free_starts.hpp"
 
@@ -58,12 +58,12 @@ class Drawn {
 
 class CampaignQuestions {
  public:
-  CampaignQuestions(std::uint64_t seed, const fuzz::Scope& scope, Fairness fairness, unsigned part,
+  CampaignQuestions(std::uint64_t seed, const fuzz::Scope& scope, bool same_time, unsigned part,
                     unsigned parts, const Claim& claim)
       : seed_(seed),
         scope_(scope),
         claim_(claim),
-        fairness_(fairness),
+        same_time_(same_time),
         stride_(parts * cases::kCasesPerScene) {
     for (const cases::Target& target : cases::targets())
       if (scope_.meets(target, seed_)) tracks_.push_back({&target, part * cases::kCasesPerScene});
@@ -96,7 +96,7 @@ class CampaignQuestions {
     const auto start = std::chrono::steady_clock::now();
     make(*track.target, track.next);
     track.next += stride_;
-    if (fairness_ == Fairness::of_scenes) return;
+    if (!same_time_) return;
     track.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
@@ -127,7 +127,7 @@ class CampaignQuestions {
   const std::uint64_t seed_;
   const fuzz::Scope scope_;
   const Claim claim_;
-  const Fairness fairness_;
+  const bool same_time_;
   const std::uint64_t stride_;  // from one scene to the next
   std::vector<TargetTrack> tracks_;
   std::deque<Question> questions_;
@@ -163,9 +163,9 @@ Source golden_set(const std::string& path, const Claim& claim) {
   };
 }
 
-Source campaign(std::uint64_t seed, const fuzz::Scope& scope, Fairness fairness, unsigned part,
-                unsigned parts, const Claim& claim) {
-  return source_of<CampaignQuestions>(seed, scope, fairness, part, parts, claim);
+Source campaign(std::uint64_t seed, const fuzz::Scope& scope, bool same_time, unsigned part, unsigned parts,
+                const Claim& claim) {
+  return source_of<CampaignQuestions>(seed, scope, same_time, part, parts, claim);
 }
 
 fuzz::Scope scope_of(const std::vector<NamedPlace>& places) {

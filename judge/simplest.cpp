@@ -4,8 +4,7 @@
 #include <chrono>
 
 #include <lorentz/geometry.hpp>
-#include "fuzz/examine/examiner.hpp"
-#include "fuzz/examine/shrink.hpp"
+#include "fuzz/campaign/shrink.hpp"
 
 namespace lorentz::judge {
 namespace {
@@ -16,38 +15,6 @@ bool is_alike(const Example& a, const Example& b, const std::optional<double>& b
          a.given.outcome == b.given.outcome && a.question.exact.outcome == b.question.exact.outcome;
 }
 
-// Tests whether a case goes wrong like the example.
-class SameWay {
- public:
-  SameWay(const Finding& finding, TimedExamination& examination)
-      : like_(finding.simplest), by_radii_(finding.by_radii), examination_(examination) {}
-
-  bool operator()(const Scene& scene, const Query& query) {
-    if (!place_ || place_->scene() != scene) {
-      if (!fuzz::is_sound(scene) || !fuzz::is_sane(scene)) return false;
-      place_ = std::make_shared<Place>(scene, question::Truth::oracle, examination_.order().claim);
-    }
-    if (flaw_of(query, scene) || !place_->has_numbers_for(query)) return false;
-    const Question question{
-        .place = place_, .query = query, .exact = place_->exact(query), .where = like_.question.where};
-    last_ = example_of(question, examination_);
-    return last_ && is_alike(*last_, like_, by_radii_);
-  }
-
-  double flight() const {
-    const Question& question = last_->question;
-    return question.exact.time ? *question.exact.time * length(question.query.v) : -1;
-  }
-  const std::optional<Example>& last() const { return last_; }
-
- private:
-  const Example& like_;
-  std::optional<double> by_radii_;
-  TimedExamination& examination_;
-  std::shared_ptr<Place> place_;
-  std::optional<Example> last_;
-};
-
 }  // namespace
 
 // A program that gives no answer is not asked thousands of times, because it would be given up.
@@ -57,15 +24,29 @@ Example simplest(const Finding& finding, TimedExamination& examination, double s
   const Cause cause = example.diagnosis.cause;
   if (!example.question.is_query() || cause == Cause::no_answer || cause == Cause::bad_line) return example;
   const auto start = Clock::now();
-  SameWay same(finding, examination);
+  std::optional<Example> last;
+  const fuzz::StillFails same = fuzz::in_places(
+      [&](const Scene& scene) {
+        return std::make_shared<Place>(scene, question::Truth::oracle, examination.order().claim);
+      },
+      [&](const std::shared_ptr<Place>& place, const Query& query) {
+        last = example_of(
+            {.place = place, .query = query, .exact = place->exact(query), .where = example.question.where},
+            examination);
+        return last && is_alike(*last, example, finding.by_radii);
+      });
+  const auto flight = [&] {
+    const Question& question = last->question;
+    return question.exact.time ? *question.exact.time * length(question.query.v) : -1;
+  };
   const Scene& scene = example.question.place->scene();
   if (examination.is_over() || !same(scene, example.question.query)) return example;
   const auto is_up = [&] {
     return examination.is_over() || std::chrono::duration<double>(Clock::now() - start).count() > seconds;
   };
-  const fuzz::Shrunk shrunk = fuzz::shrink(scene, example.question.query, std::ref(same),
-                                           [&] { return same.flight(); }, {fuzz::kShrinkTries, is_up});
-  return same(shrunk.scene, shrunk.query) ? *same.last() : example;
+  const fuzz::Shrunk shrunk =
+      fuzz::shrink(scene, example.question.query, same, flight, {fuzz::kShrinkTries, is_up});
+  return same(shrunk.scene, shrunk.query) ? *last : example;
 }
 
 std::optional<Example> example_of(const Question& question, TimedExamination& examination) {

@@ -8,7 +8,7 @@
 
 namespace lorentz::judge {
 
-/// Shrinks the finding's simplest example (fuzz/examine/shrink.hpp) for at most `seconds`. The engine must
+/// Shrinks the finding's simplest example (fuzz/campaign/shrink.hpp) for at most `seconds`. The engine must
 /// keep going wrong with the same cause and severity and the same outcomes, and by no more radii than in the
 /// finding, so that all statements about the finding also hold for its case. The example is returned
 /// unchanged if there is nothing to shrink, or if the engine does not repeat its fault.

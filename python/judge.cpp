@@ -5,7 +5,7 @@
 #include <mutex>
 #include <set>
 
-#include "judge/judging.hpp"
+#include "judge/judge_report.hpp"
 #include "python/lines.hpp"
 #include "python/scene.hpp"
 #include "python/signals.hpp"

@@ -61,9 +61,9 @@ void TargetTally::add(const TargetTally& other) {
 
 bool run(const Plan& plan, const Bounds& bounds, const MakeAnswerer& make_answerer,
          std::vector<TargetTally>& tallies, Journal& journal, Ranks* ranks,
-         const std::vector<Finding>& unshrunk) {
+         const std::vector<Finding>& known) {
   const std::size_t processes = ranks ? static_cast<std::size_t>(ranks->size()) : 1;
-  Ledger ledger(plan, bounds, processes * bounds.jobs, tallies, journal, unshrunk);
+  Ledger ledger(plan, bounds, processes * bounds.jobs, tallies, journal, known);
   Workers workers(plan, make_answerer, ledger, bounds.jobs);
   try {
     keep(ledger, bounds, journal, ranks);

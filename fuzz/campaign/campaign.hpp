@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "fuzz/campaign/finding.hpp"
-#include "fuzz/families/target.hpp"
+#include "fuzz/families/family.hpp"
 
 namespace lorentz::fuzz {
 
@@ -44,7 +44,6 @@ struct Plan {
   std::vector<const cases::Target*> targets;
   Scope scope;  ///< cases beyond it, and other words that lead there, are left out; shrinking stays within
   std::uint64_t seed = 0;
-  std::uint64_t shard = 0, shards = 1;  ///< only indices that are `shard` modulo `shards`
   Sought sought;
   std::uint64_t keep = 3;     ///< findings of each sort and target that are kept and shrunk; all are counted
   std::uint64_t mutate = 32;  ///< a climb starts from one in `mutate` cases; 0: from none
@@ -93,7 +92,7 @@ class Journal {
 
 /// When to stop: at a number of cases of each target, after a time for all, or both; or at a finding.
 struct Bounds {
-  std::uint64_t count = std::numeric_limits<std::uint64_t>::max();  ///< indices, of all shards together
+  std::uint64_t count = std::numeric_limits<std::uint64_t>::max();  ///< indices
   double seconds = std::numeric_limits<double>::infinity();
   unsigned jobs = 1;
   bool first = false;                       ///< also stop as soon as a finding is recorded
@@ -104,13 +103,13 @@ struct Bounds {
 
 class Ranks;
 
-/// Continues from the tallies (one for each target of the plan), which it updates, and from those of their
+/// Continues from the tallies (one for each target of the plan), which it updates, and from those of the known
 /// findings that are not fully shrunk. Each target gets the same time of the threads, shrinking included.
 /// Work that is unfinished when the time is up is dropped, and answers that are due are not waited for: at
 /// most the few cases, or the one finding, that each thread was at. The next run goes on from these cases.
 /// Returns whether an engine failed. With `ranks` (this is rank 0) other processes help.
 bool run(const Plan& plan, const Bounds& bounds, const MakeAnswerer& make_answerer,
          std::vector<TargetTally>& tallies, Journal& journal, Ranks* ranks = nullptr,
-         const std::vector<Finding>& unshrunk = {});
+         const std::vector<Finding>& known = {});
 
 }  // namespace lorentz::fuzz

@@ -6,7 +6,7 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/exchange.hpp>
-#include "fuzz/rewording/notation.hpp"
+#include "fuzz/campaign/notation.hpp"
 
 namespace lorentz::fuzz {
 namespace {
@@ -61,7 +61,7 @@ std::string features_of(const Scene& scene, const Query& query) {
 }
 
 // Reads a line that text_of() wrote.
-StreamItem read(const std::string& line, const Scene* scene) {
+StreamItem read_stored(const std::string& line, const Scene* scene) {
   StreamItem item = read_line(line, scene);
   if (item.kind != (scene ? StreamItem::Kind::query : StreamItem::Kind::scene))
     throw FileError("the store holds an invalid line: " + line);
@@ -144,8 +144,8 @@ CaseText text_of(const std::string& id, const Scene& scene, const Query& query, 
 
 ReadCase case_in(const CaseText& text) {
   ReadCase one;
-  one.scene = read(text.scene, nullptr).scene;
-  one.query = read(text.query, &one.scene).query;
+  one.scene = read_stored(text.scene, nullptr).scene;
+  one.query = read_stored(text.query, &one.scene).query;
   one.given = read_answer(text.given);
   one.exact = read_answer(text.exact);
   return one;
@@ -162,6 +162,8 @@ std::string flaw_of(const Finding& f) {
   for (const std::string* text : {&f.target, &f.words, &f.kind, &f.sort, &f.cause})
     if (!is_plain(*text)) return "a name that is not plain text";
   if (rank_of(f.kind) == static_cast<int>(std::size(kInOrder))) return "a kind that no finding has";
+  if (f.shrinking > Shrinking::done) return "a state of shrinking that no finding has";
+  if (std::min({f.step, f.bits, f.tries}) < 0) return "a number below zero";
   for (const CaseText* text : {&f.text, &f.shrunk})
     if (const std::string flaw = flaw_of_text(*text); !flaw.empty()) return flaw;
   return "";

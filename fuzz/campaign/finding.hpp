@@ -10,7 +10,7 @@
 #include <lorentz/answer.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
-#include "fuzz/examine/examiner.hpp"
+#include "fuzz/campaign/examiner.hpp"
 
 namespace lorentz::fuzz {
 

@@ -41,7 +41,7 @@ bool is_wrong(int rank) {
 }  // namespace
 
 Ledger::Ledger(const Plan& plan, const Bounds& bounds, std::size_t threads, std::vector<TargetTally>& tallies,
-               Journal& journal, const std::vector<Finding>& unshrunk)
+               Journal& journal, const std::vector<Finding>& known)
     : plan_(plan),
       count_(bounds.count),
       first_(bounds.first),
@@ -51,7 +51,7 @@ Ledger::Ledger(const Plan& plan, const Bounds& bounds, std::size_t threads, std:
       journal_(journal) {
   for (const cases::Target* target : plan.targets) {
     Queue& queue = queues_.emplace_back();
-    for (const Finding& one : unshrunk) {
+    for (const Finding& one : known) {
       // Shrinking that was cut short would be cut short again, unless the time is unlimited.
       const bool is_due =
           one.shrinking == Shrinking::due || (one.shrinking == Shrinking::cut_short && !bounds.limits_time());

@@ -13,9 +13,9 @@ namespace lorentz::fuzz {
 
 class Ledger final : public WorkSource {
  public:
-  /// `threads`: of all processes together. `unshrunk`: findings from before that are not fully shrunk.
+  /// `threads`: of all processes together. `known`: findings from before; those that are not fully shrunk are due.
   Ledger(const Plan& plan, const Bounds& bounds, std::size_t threads, std::vector<TargetTally>& tallies,
-         Journal& journal, const std::vector<Finding>& unshrunk = {});
+         Journal& journal, const std::vector<Finding>& known = {});
 
   std::optional<Assignment> take(std::uint64_t batch_size) override;
   void hand_in(Done done) override;

@@ -35,12 +35,7 @@ struct Report {
   }
 };
 
-struct Orders {
-  std::vector<Assignment> assignments;
-  bool stop = false;
-
-  friend auto members_of(Orders& self) { return std::tie(self.assignments, self.stop); }
-};
+using Orders = std::pair<std::vector<Assignment>, bool>;  // and whether to stop
 
 // Messages are pieces of JSON (src/exchange/json_piece.hpp).
 template <class T>
@@ -99,8 +94,8 @@ class RemoteWork final : public WorkSource {
   }
   void obey(Orders orders) {
     const std::lock_guard lock(mutex_);
-    for (Assignment& one : orders.assignments) waiting_.push_back(std::move(one));
-    if (orders.stop) stop_ = true;
+    for (Assignment& one : orders.first) waiting_.push_back(std::move(one));
+    if (orders.second) stop_ = true;
     changed_.notify_all();
   }
 

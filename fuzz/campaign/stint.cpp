@@ -9,11 +9,9 @@
 
 #include <lorentz/geometry.hpp>
 #include <lorentz/margin.hpp>
-#include "fuzz/examine/answerers.hpp"
-#include "fuzz/examine/shrink.hpp"
-#include "fuzz/examine/variants.hpp"
-#include "fuzz/rewording/notation.hpp"
-#include "fuzz/rewording/rewording.hpp"
+#include "fuzz/campaign/notation.hpp"
+#include "fuzz/campaign/rewording.hpp"
+#include "fuzz/campaign/variants.hpp"
 
 namespace lorentz::fuzz {
 
@@ -28,43 +26,13 @@ constexpr double kShrinkWork = 1.5e7;
 // limit, and one in kCasesPerNotation in other digits instead.
 constexpr std::uint64_t kWordings = 3, kCasesPerLimit = 4, kCasesPerNotation = 8;
 
-Examiner examiner_in(const Scene& scene, Answerer& answerer, const Plan& plan) {
-  return {answerer, std::make_shared<Place>(scene, plan.truth, plan.claim), plan.sought.ulps};
+std::shared_ptr<Place> place_in(const Scene& scene, const Plan& plan) {
+  return std::make_shared<Place>(scene, plan.truth, plan.claim);
 }
 
-// Does a case fail as another one did, in the same kind and with the same two outcomes?
-class SameFailure {
- public:
-  SameFailure(Answerer& answerer, const Plan& plan, const Examined& like, LimitAt limit)
-      : answerer_(answerer), plan_(plan), like_(like), limit_(limit) {}
-
-  bool operator()(const Scene& scene, const Query& query) {
-    if (!examiner_ || examiner_->scene() != scene) {
-      if (!is_sound(scene) || !is_sane(scene)) return false;
-      examiner_.emplace(examiner_in(scene, answerer_, plan_));
-    }
-    if (flaw_of(query, scene) || !examiner_->place()->has_numbers_for(query)) return false;
-    last_ = examiner_->examine(query, limit_);
-    work_ += last_.work.value_or(0);
-    speed_ = length(query.v);
-    return last_.kind == like_.kind && last_.given.outcome == like_.given.outcome &&
-           last_.exact.outcome == like_.exact.outcome;
-  }
-
-  // Ends shrinking: it took too much work, or the answerer has failed.
-  bool is_over() const { return work_ > kShrinkWork || answerer_.failed(); }
-
-  double flight() const { return last_.exact.time ? *last_.exact.time * speed_ : -1; }
-
- private:
-  Answerer& answerer_;
-  const Plan& plan_;
-  const Examined& like_;
-  const LimitAt limit_;
-  std::optional<Examiner> examiner_;
-  Examined last_;
-  double work_ = 0, speed_ = 0;
-};
+Examiner examiner_in(const Scene& scene, Answerer& answerer, const Plan& plan) {
+  return {answerer, place_in(scene, plan), plan.sought.ulps};
+}
 
 // Makes this case the simplest known one of the finding.
 void take_for_shrunk(Finding& finding, const Place& place, const Query& query, const Examined& examined) {
@@ -165,7 +133,6 @@ void StintRunner::pose(const Stint& stint, Questions& questions) {
   TargetTally& met = questions.result.met;
   SceneContext* context = nullptr;
   for (std::uint64_t index = stint.begin; index < stint.end && !stop_; ++index) {
-    if (index % plan_.shards != plan_.shard) continue;
     const cases::Case base = target.make(plan_.seed, index, plan_.claim.precision);
     if (!plan_.scope.admits(base.scene)) continue;
     if (!context || context->scene() != base.scene)
@@ -291,6 +258,27 @@ Finding StintRunner::finding_of(const Target& target, const Case& one, const std
   return finding;
 }
 
+// Shrinks a case that fails: it must go on failing in the same kind and with the same two outcomes. Ends if
+// that takes too much work, or if the answerer fails.
+Shrunk StintRunner::shrink_case(const ReadCase& found, const Examined& like, LimitAt limit,
+                                const std::function<bool()>& is_late) {
+  std::optional<Examiner> examiner;
+  double work = 0, flight = -1;
+  const StillFails fails = in_places([this](const Scene& scene) { return place_in(scene, plan_); },
+                                     [&](const std::shared_ptr<Place>& place, const Query& query) {
+                                       if (!examiner || examiner->place() != place)
+                                         examiner.emplace(*answerer_, place, plan_.sought.ulps);
+                                       const Examined one = examiner->examine(query, limit);
+                                       work += one.work.value_or(0);
+                                       flight = one.exact.time ? *one.exact.time * length(query.v) : -1;
+                                       return one.kind == like.kind &&
+                                              one.given.outcome == like.given.outcome &&
+                                              one.exact.outcome == like.exact.outcome;
+                                     });
+  const auto is_up = [&] { return stop_ || work > kShrinkWork || answerer_->failed() || is_late(); };
+  return fuzz::shrink(found.scene, found.query, fails, [&] { return flight; }, {kShrinkTries, is_up});
+}
+
 std::optional<Finding> StintRunner::shrink(Finding finding, double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
@@ -300,10 +288,7 @@ std::optional<Finding> StintRunner::shrink(Finding finding, double seconds) {
   const Examined examined = examiner_in(found.scene, *answerer_, plan_).examine(found.query, limit);
   finding.shrinking = Shrinking::done;
   if (!answerer_->failed() && name_of(examined.kind).words == finding.kind) {
-    SameFailure fails(*answerer_, plan_, examined, limit);
-    const auto is_up = [&] { return stop_ || fails.is_over() || is_late(); };
-    const Shrunk shrunk = fuzz::shrink(found.scene, found.query, std::ref(fails),
-                                       [&] { return fails.flight(); }, {kShrinkTries, is_up});
+    const Shrunk shrunk = shrink_case(found, examined, limit, is_late);
     if (is_late()) finding.shrinking = Shrinking::cut_short;
     finding.tries = shrunk.tries;
     if (!stop_ && !answerer_->failed()) {

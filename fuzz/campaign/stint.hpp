@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fuzz/campaign/campaign.hpp"
+#include "fuzz/campaign/shrink.hpp"
 
 namespace lorentz::fuzz {
 
@@ -63,6 +64,8 @@ class StintRunner {
   void take(Questions& questions, const std::map<std::string, std::uint64_t>& known);
   Finding finding_of(const cases::Target& target, const Case& one, const std::string& sort,
                      const Examined& examined);
+  Shrunk shrink_case(const ReadCase& found, const Examined& like, LimitAt limit,
+                     const std::function<bool()>& is_late);
   std::unique_ptr<Answerer> new_answerer() const;
   void replace_broken_answerer();
 

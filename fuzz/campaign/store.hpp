@@ -4,9 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -15,18 +13,19 @@
 
 namespace lorentz::fuzz {
 
-/// All that the findings of a campaign depend on, as text. Two campaigns with the same manifest are one.
+/// All that the findings of a campaign depend on. Two campaigns with the same manifest are one.
 struct CampaignManifest {
-  static constexpr const char* kMerged = "merged";
-
   std::string version, engine;
-  std::string targets;  ///< names, with commas between them
+  std::vector<std::string> targets;
   std::uint64_t seed = 0;
-  std::string options;        ///< the other options
-  std::uint64_t keep = 3;     ///< as in Plan
-  std::string shard = "0/1";  ///< i/N; kMerged for shards that did not all come equally far
+  std::string options;  ///< the other options, in words
+  Claim claim;          ///< by which answers are judged; also in the words
 
   friend bool operator==(const CampaignManifest&, const CampaignManifest&) = default;
+  friend auto members_of(CampaignManifest& self) {
+    return std::tie(self.version, self.engine, self.targets, self.seed, self.options, self.claim.precision,
+                    self.claim.time_tolerance);
+  }
 };
 
 struct Campaign {
@@ -46,12 +45,9 @@ class Store {
  public:
   using Access = runs::Access;
 
-  /// Called once for each finding in the file that cannot be read.
-  using OnLeftOut = std::function<void(const std::string& message)>;
-
   /// The path ":memory:" is a store that ends with this object. A file must have exactly the tables of a
   /// store; its views and triggers never run.
-  Store(const std::string& path, Access access, OnLeftOut on_left_out = {});
+  Store(const std::string& path, Access access);
 
   const std::string& path() const { return database_.path(); }
   std::vector<Campaign> campaigns() const;
@@ -61,10 +57,8 @@ class Store {
 
   /// The tally that was put last, or an empty one.
   TargetTally tally(std::int64_t campaign, std::string_view target) const;
-  /// The findings that can be read and have no flaw (flaw_of); the others are left out.
+  /// Throws FileError also for a finding with a flaw (flaw_of).
   std::vector<Stored> findings() const;
-  /// False if findings() left some out.
-  bool is_whole() const { return left_out_.empty(); }
 
   /// Writes become durable together, by commit().
   void put(std::int64_t campaign, std::string_view target, const TargetTally& tally);
@@ -72,11 +66,7 @@ class Store {
   void commit() { database_.commit(); }
 
  private:
-  void leave_out(const std::string& label, const std::string& why) const;
-
   runs::Database database_;
-  const OnLeftOut on_left_out_;
-  mutable std::set<std::string> left_out_;  // labels
 };
 
 /// A campaign's journal in a store. Commits every half second.
@@ -101,11 +91,6 @@ class StoreJournal final : public Journal {
   std::vector<Finding> findings_;
   JournalClock::time_point last_commit_ = JournalClock::now();
 };
-
-/// Merges the campaigns of shards into an empty store. If the shards are complete and equally far, the result
-/// is what one run would have stored, and can be continued. Throws InputError, naming the stores, if they are
-/// not shards of the same campaigns, or if one is named twice.
-void merge(const std::vector<std::string>& paths, Store& into);
 
 /// The library that keeps the stores, and its version.
 std::string store_libraries();

@@ -18,7 +18,7 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "fuzz/families/family_list.hpp"
+#include "fuzz/families/family.hpp"
 #include "question/cases/scenes.hpp"
 
 namespace lorentz::cases {

@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include <lorentz/scene_check.hpp>
-#include "fuzz/families/family_list.hpp"
 #include "question/cases/drawn_flights.hpp"
 
 namespace lorentz::cases {
@@ -59,20 +58,9 @@ Case Family::make(std::uint64_t seed, std::uint64_t index, NumberFormat precisio
   throw std::logic_error(std::string(name_) + ": no case in " + name_of(precision));
 }
 
-const std::vector<Family>& families() {
-  static const std::vector<Family> all{
-      generic_2d(),     generic_3d(),  near_rational(),    corridor_edge(),    grazing(),
-      large_radius(),   tiny_radius(), long_flight(),      boundary_starts(),  axis_and_diagonal(),
-      ties(),           tricylinder(), published_faults(), crystal_lattices(), superpositions(),
-      ellipsoids(),     never(),       ball_2d(),          ball_3d(),          ellipsoid_alone(),
-      rows_and_layers()};
-  return all;
-}
-
-const Family* family_named(std::string_view name) {
-  for (const Family& family : families())
-    if (family.name() == name) return &family;
-  return nullptr;
+Case Target::make(std::uint64_t seed, std::uint64_t index, NumberFormat precision) const {
+  const std::uint64_t row = index / kCasesPerScene, count = families_.size();
+  return families_[row % count].make(seed, row / count * kCasesPerScene + index % kCasesPerScene, precision);
 }
 
 }  // namespace lorentz::cases

@@ -43,10 +43,31 @@ class Family {
   Maker maker_;
 };
 
-/// The families that golden sets are made of. Campaigns have more (target.hpp).
+/// The families that golden sets are made of. Campaigns have more.
 const std::vector<Family>& families();
 
 /// Null if no family has that name.
 const Family* family_named(std::string_view name);
+
+/// A target of campaigns: a family, or several that take turns, kCasesPerScene cases each. A case depends on
+/// (seed, target, index, precision) and nothing else.
+class Target {
+ public:
+  Target(std::string_view name, std::vector<Family> families) : name_(name), families_(std::move(families)) {}
+
+  std::string_view name() const { return name_; }
+  std::string_view description() const { return families_.front().description(); }
+  Case make(std::uint64_t seed, std::uint64_t index, NumberFormat precision = NumberFormat::binary64) const;
+  const std::vector<Family>& families() const { return families_; }
+
+ private:
+  std::string_view name_;
+  std::vector<Family> families_;
+};
+
+const std::vector<Target>& targets();
+
+/// One of targets(), or generic-2d or generic-3d alone. Null if no target has that name.
+const Target* target_named(std::string_view name);
 
 }  // namespace lorentz::cases

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "fuzz/families/family_list.hpp"
+#include "fuzz/families/family.hpp"
 #include "question/cases/integer_vectors.hpp"
 #include "question/cases/scenes.hpp"
 #include "question/cases/ulps.hpp"

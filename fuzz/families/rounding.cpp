@@ -17,7 +17,7 @@
 // 3 k - d is not a binary64. (Times a little late are in `rounding`.)
 #include <cmath>
 
-#include "fuzz/families/family_list.hpp"
+#include "fuzz/families/family.hpp"
 #include "question/cases/scenes.hpp"
 
 namespace lorentz::cases {

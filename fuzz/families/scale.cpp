@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "fuzz/families/family_list.hpp"
+#include "fuzz/families/family.hpp"
 #include "question/cases/drawn_flights.hpp"
 #include "question/cases/integer_vectors.hpp"
 #include "question/cases/scenes.hpp"

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "fuzz/families/family_list.hpp"
+#include "fuzz/families/family.hpp"
 #include "question/cases/integer_vectors.hpp"
 
 namespace lorentz::cases {

@@ -105,15 +105,13 @@ std::string index_of(const std::string& folder, const std::vector<std::string>& 
   });
 }
 
-void write_index(const std::string& folder, const std::string& index, const std::vector<std::string>& names,
-                 const std::vector<std::string>& others) {
+void write_index(const std::string& folder, const std::vector<std::string>& names) {
   const auto path_of = [&](const std::string& name) { return (fs::path(folder) / name).string(); };
-  write_whole(path_of("index.json"), index);
+  write_whole(path_of("index.json"), index_of(folder, names));
   std::string sums;
   const auto add_sum = [&](const std::string& name) { sums += sum_of(path_of(name)) + "  " + name + '\n'; };
   std::ranges::for_each(names, add_sum);
   add_sum("index.json");
-  std::ranges::for_each(others, add_sum);
   write_whole(path_of("SHA256SUMS"), sums);
 }
 

@@ -1,8 +1,10 @@
-// The index of a folder of golden sets: index.json.
+// What lies beside the golden sets in their folder: index.json, checksums, and the smoke set.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include "judge/golden/record.hpp"
 
 namespace lorentz::golden {
 
@@ -10,8 +12,11 @@ namespace lorentz::golden {
 /// checksum, counts, tags, kinds of scenes, notations. Throws as Reader does.
 std::string index_of(const std::string& folder, const std::vector<std::string>& names);
 
-/// Writes this index.json, and SHA256SUMS of the sets, the index and `others`. Throws FileError.
-void write_index(const std::string& folder, const std::string& index, const std::vector<std::string>& names,
-                 const std::vector<std::string>& others = {});
+/// Writes this index.json, and SHA256SUMS of the sets and the index. Throws FileError.
+void write_index(const std::string& folder, const std::vector<std::string>& names);
+
+/// A set of at most `count` records of these sets in binary64, several of each tag, none of which needs a judge.
+/// `header`: its name, description and generator.
+std::string smoke_of(const std::vector<std::string>& files, std::size_t count, Header header);
 
 }  // namespace lorentz::golden

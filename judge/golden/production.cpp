@@ -1,28 +1,20 @@
 #include "judge/golden/production.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <sstream>
 #include <stop_token>
 #include <thread>
 #include <unordered_set>
 
 #include "judge/golden/maker.hpp"
 #include "judge/golden/seen.hpp"
-#include "src/exchange/json_piece.hpp"
 
 namespace lorentz::golden {
-
-static auto members_of(RecordCounts& self) {
-  return std::tie(self.records, self.walked, self.hits, self.insides, self.nevers, self.errors,
-                  self.needing_judge, self.left_out);
-}
 
 namespace {
 
@@ -85,7 +77,7 @@ Batch make_batch(const Order& order, std::uint64_t number) {
 // Batches made by several threads, handed out in order. Only a few wait at any time.
 class BatchQueue {
  public:
-  BatchQueue(const Order& order, std::uint64_t first) : order_(order), next_(first), wanted_(first) {
+  explicit BatchQueue(const Order& order) : order_(order) {
     for (std::uint64_t i = 0; i < order.jobs; ++i)
       threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
   }
@@ -126,20 +118,12 @@ class BatchQueue {
   }
 
   const Order& order_;
-  std::uint64_t next_, wanted_;
+  std::uint64_t next_ = 0, wanted_ = 0;
   std::map<std::uint64_t, Batch> ready_;
   std::exception_ptr failure_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
   std::vector<std::jthread> threads_;
-};
-
-// The state of a production: everything that it needs to be resumed as if nothing had happened.
-struct ProductionState {
-  std::uint64_t next_batch = 0;
-  RecordCounts counts;
-  std::string scene_line;  // the last one written
-  std::unordered_set<std::uint64_t> ids;
 };
 
 // The number with the sixteen hexadecimal digits of an id.
@@ -168,43 +152,30 @@ void count(RecordCounts& counts, const MadeRecord& made) {
   }
 }
 
-// Makes the missing batches. `write` gets the text of one batch at a time; `state` then includes that batch.
-void produce_rest(const Order& order, ProductionState& state,
-                  const std::function<void(const std::string&)>& write, const OnProgress& progress) {
-  BatchQueue queue(order, state.next_batch);
-  while (state.counts.records + state.counts.left_out < order.count) {
+// Makes all records, and passes on the text of one batch at a time.
+RecordCounts produce_lines(const Order& order, const Write& write, const OnProgress& progress) {
+  BatchQueue queue(order);
+  RecordCounts counts;
+  std::string scene_line;  // the last one written
+  std::unordered_set<std::uint64_t> ids;
+  while (counts.records + counts.left_out < order.count) {
     std::string text;
     for (const Made& made : queue.next()) {
-      if (!made.record) ++state.counts.left_out;
+      if (!made.record) ++counts.left_out;
       if (!made.record) continue;
       const Record& record = made.record->record;
-      if (state.counts.records == order.count || !state.ids.insert(number_of(record.id)).second) continue;
-      if (made.scene_line != state.scene_line) {
-        state.scene_line = made.scene_line;
-        text += state.scene_line + '\n';
+      if (counts.records == order.count || !ids.insert(number_of(record.id)).second) continue;
+      if (made.scene_line != scene_line) {
+        scene_line = made.scene_line;
+        text += scene_line + '\n';
       }
       append_record_line(text, record, made.components);
-      count(state.counts, *made.record);
+      count(counts, *made.record);
     }
-    ++state.next_batch;
     write(text);
-    if (progress) progress(state.counts.records);
+    if (progress) progress(counts.records);
   }
-}
-
-// Reads a piece: the counts up to and including a batch, and the batch's text.
-std::string text_in(const std::string& piece, ProductionState& state) {
-  std::string text;
-  json::read_piece(piece, std::tie(state.counts, text));
-  std::istringstream in(text);
-  constexpr std::string_view kId = "{\"id\":\"";
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with(kId))
-      state.ids.insert(number_of(line.substr(kId.size(), 16)));
-    else
-      state.scene_line = line;
-  ++state.next_batch;
-  return text;
+  return counts;
 }
 
 }  // namespace
@@ -252,48 +223,20 @@ std::string header_line(Order order, std::uint64_t count) {
   return line;
 }
 
-using Write = std::function<void(std::string_view)>;
-
-RecordCounts produce_lines(const Order& order, const Write& write, const OnProgress& progress,
-                           runs::PieceStore* kept) {
-  ProductionState state;
-  if (kept) kept->each([&](const std::string& piece) { write(text_in(piece, state)); });
-  produce_rest(
-      order, state,
-      [&](const std::string& text) {
-        write(text);
-        if (kept) kept->add({json::piece_of(std::tie(state.counts, text))});
-      },
-      progress);
-  return state.counts;
-}
-
 }  // namespace
 
 // For given questions the number of records is known only at the end.
-RecordCounts produce(const Order& order, const Write& write, const OnProgress& progress,
-                     runs::PieceStore* kept) {
+RecordCounts produce(const Order& order, const Write& write, const OnProgress& progress) {
   if (!order.given) {
     write(header_line(order, order.count));
-    return produce_lines(order, write, progress, kept);
+    return produce_lines(order, write, progress);
   }
   std::string all;
   const RecordCounts counts = produce_lines(
-      order, [&](std::string_view text) { all += text; }, progress, kept);
+      order, [&](std::string_view text) { all += text; }, progress);
   write(header_line(order, counts.records));
   write(all);
   return counts;
-}
-
-runs::Plan plan_of(const Order& order) {
-  runs::Plan plan{{"header", header_line(order, order.count)}};
-  if (!order.given) return plan;
-  std::string questions;
-  for (const SetQuestion& one : order.given->questions)
-    questions += scene_line_of(one.scene) + '\n' + one.text + '\n' +
-                 fmt::format("{}", fmt::join(one.tags, " ")) + '\n' + one.source_id + '\n';
-  plan.push_back({"questions", sha256(questions)});
-  return plan;
 }
 
 }  // namespace lorentz::golden

@@ -1,5 +1,4 @@
-// Makes sets: many records on several threads, in an order that does not depend on the threads. Work that was
-// stopped can be continued.
+// Makes sets: many records on several threads, in an order that does not depend on the threads.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +9,6 @@
 #include <vector>
 
 #include "judge/golden/sets.hpp"
-#include "report/runs/piece_store.hpp"
 
 namespace lorentz::golden {
 
@@ -43,20 +41,18 @@ struct RecordCounts {
   std::uint64_t left_out = 0;  ///< given questions whose proof needs more steps than a checker allows
 };
 
+/// Takes a part of a set's text.
+using Write = std::function<void(std::string_view)>;
+
 /// Called from time to time with the number of records made.
 using OnProgress = std::function<void(std::uint64_t)>;
 
 /// The header of the set of an order.
 Header header_of(const Order& order);
 
-/// The plan with which a store of its batches begins.
-runs::Plan plan_of(const Order& order);
-
 /// Makes the set and passes its text to `write`, line by line, from the header on. A set takes constant
 /// memory besides 8 bytes per record (no id comes twice); given questions and their records are all in
-/// memory. `kept` is a store of plan_of(order): batches that it has are not made again, and the others are
-/// added. Throws std::logic_error if the opinions about an answer differ.
-RecordCounts produce(const Order& order, const std::function<void(std::string_view)>& write,
-                     const OnProgress& progress, runs::PieceStore* kept = nullptr);
+/// memory. Throws std::logic_error if the opinions about an answer differ.
+RecordCounts produce(const Order& order, const Write& write, const OnProgress& progress);
 
 }  // namespace lorentz::golden

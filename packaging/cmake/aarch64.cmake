@@ -1,4 +1,4 @@
-# Compiles for aarch64 with Debian's cross compiler and the libraries in LORENTZ_SYSROOT (judge/fitness/determinism makes it).
+# Compiles for aarch64 with Debian's cross compiler and the libraries in LORENTZ_SYSROOT (tests/digests/determinism makes it).
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)

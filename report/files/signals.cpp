@@ -17,7 +17,6 @@ struct Slot {
   char path[PATH_MAX];
 };
 std::array<Slot, 16> slots;
-std::atomic<bool> goes_on = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 void write_line(std::string_view text) {
@@ -28,10 +27,9 @@ void take_leave(int number) {
   for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot)  // a folder's files before the folder
     if (slot->named && unlink(slot->path) != 0) rmdir(slot->path);
   if (number != SIGPIPE) {
-    write_line(number == SIGINT    ? "lorentz: interrupted"
-               : number == SIGTERM ? "lorentz: terminated"
-                                   : "lorentz: hung up");
-    write_line(goes_on ? "; the same command goes on\n" : "\n");
+    write_line(number == SIGINT    ? "lorentz: interrupted\n"
+               : number == SIGTERM ? "lorentz: terminated\n"
+                                   : "lorentz: hung up\n");
   }
   raise(number);  // blocked until the handler returns, then deadly: SA_RESETHAND
 }
@@ -48,10 +46,6 @@ void end_in_order() {
     sigaction(number, &ours, nullptr);
   }
   signal(SIGXFSZ, SIG_IGN);
-}
-
-void goes_on_when_repeated() {
-  goes_on = true;
 }
 
 Unfinished::Unfinished(const std::string& path) : slot_(0) {

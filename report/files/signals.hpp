@@ -11,9 +11,6 @@ namespace lorentz {
 /// an error like a full disk. Signals that the caller ignores stay ignored.
 void end_in_order();
 
-/// Lets the line of an interrupted program say that the same command goes on.
-void goes_on_when_repeated();
-
 /// A file that would look whole but is not, or a folder of such files. It is removed if a signal ends the
 /// program while this object lives.
 class Unfinished {

@@ -6,7 +6,6 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -87,10 +86,6 @@ class Statement {
   Statement& bind(T n) {
     return bound(sqlite3_bind_int64(handle_, ++bound_, static_cast<std::int64_t>(n)));
   }
-  Statement& bind(double x) { return bound(sqlite3_bind_double(handle_, ++bound_, x)); }
-  Statement& bind(const std::optional<double>& x) {
-    return x ? bind(*x) : bound(sqlite3_bind_null(handle_, ++bound_));
-  }
 
   /// True while there are rows.
   bool step() {
@@ -117,14 +112,6 @@ class Statement {
     const std::int64_t n = sqlite3_column_int64(handle_, column_);
     if (n < 0 || static_cast<std::uint64_t>(n) > most) refuse("is out of its range");
     return static_cast<std::uint64_t>(integer());
-  }
-  /// A number not below 0.
-  int small() { return static_cast<int>(count(std::numeric_limits<int>::max())); }
-  double real() { return sqlite3_column_double(handle_, next(SQLITE_FLOAT)); }
-  std::optional<double> real_or_null() {
-    if (sqlite3_column_type(handle_, column_) != SQLITE_NULL) return real();
-    ++column_;
-    return std::nullopt;
   }
 
  private:

@@ -8,7 +8,7 @@
 #include <ctime>
 
 #include "fuzz/campaign/campaign.hpp"
-#include "fuzz/examine/answerers.hpp"
+#include "fuzz/campaign/examiner.hpp"
 
 using namespace lorentz;
 

@@ -12,7 +12,7 @@
 
 #include <lorentz/oracle.hpp>
 #include <lorentz/reduction.hpp>
-#include "fuzz/families/target.hpp"
+#include "fuzz/families/family.hpp"
 
 using namespace lorentz;
 

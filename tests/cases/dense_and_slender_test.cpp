@@ -8,7 +8,7 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/walk.hpp>
-#include "fuzz/families/target.hpp"
+#include "fuzz/families/family.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;

@@ -12,7 +12,7 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
-#include "fuzz/families/target.hpp"
+#include "fuzz/families/family.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"
 

@@ -14,7 +14,6 @@
 #include <thread>
 
 #include <lorentz/scene_check.hpp>
-#include "fuzz/families/target.hpp"
 #include "question/cases/bad_queries.hpp"
 #include "question/cases/drawn_flights.hpp"
 #include "question/cases/integer_vectors.hpp"

@@ -106,28 +106,10 @@ TEST_CASE("Without a subcommand the help is shown, every help has an example", "
     CHECK(folder.lorentz("help " + std::string(bare)).out == help.out);
   }
   CHECK(folder.lorentz("help compair").status == 2);
-  for (const char* command : {"",
-                              "first-hit",
-                              "compare",
-                              "convergents",
-                              "horizon",
-                              "sample",
-                              "demo",
-                              "bench",
-                              "scene",
-                              "scene list",
-                              "scene show",
-                              "scene draw",
-                              "fuzz",
-                              "fuzz list",
-                              "fuzz show",
-                              "fuzz export",
-                              "fuzz merge",
-                              "golden",
-                              "golden make",
-                              "golden check",
-                              "golden verify",
-                              "golden explain",
+  for (const char* command : {"",           "first-hit",   "compare",      "convergents",   "horizon",
+                              "sample",     "demo",        "bench",        "scene",         "scene list",
+                              "scene show", "scene draw",  "fuzz",         "fuzz show",     "fuzz export",
+                              "golden",     "golden make", "golden check", "golden verify", "golden explain",
                               "golden list"}) {
     INFO(command);
     CHECK(contains(folder.lorentz(std::string(command) + " --help").out, "Example"));
@@ -235,7 +217,7 @@ TEST_CASE("A cause is told as what it is", "[cli][command_line]") {
   const std::string program = LORENTZ_PROGRAM;
   for (const auto& [text, what] :
        {std::pair{"{\"a\":1}", "is JSON"}, {"\x93NUMPY\1", "is a binary file"}, {"<testsuites/>", "is XML"}})
-    says(program + " fuzz -e reduction --count 1 --baseline " + folder.write("known", text), 2,
+    says(program + " compare -e reduction --count 1 --baseline " + folder.write("known", text), 2,
          std::string("known ") + what + ", not a list of known failures");
   CHECK(folder.run("LORENTZ_DATA= " + program + " scene show square").status == 0);
   says(program + " scene show " + folder.write("blank.toml", std::string(40 << 20, ' ')), 2,

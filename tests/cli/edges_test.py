@@ -71,16 +71,12 @@ EDGES = {
                          missing="/no/such/file -e oracle"),
     "golden verify": Edge("bad-queries", "--walk", missing="/no/such/file"),
     "golden explain": Edge("9cbb135e set.ndjson", "", ["--svg", "--html"], "9cbb /no/such/file", report=True),
-    "golden export": Edge("ball-2d", missing="/no/such/file"),
-    "golden filter": Edge("--margin-below 4 ties", missing="/no/such/file"),
     "golden list": Edge(),
     "fuzz": Edge("-e published -t leaving --count 8 --keep 1 --mutate 0 --reword 0", "--time 600",
-                 ["--store", "--baseline", "--junit"], status=1),
-    "fuzz list": Edge("--store published.campaign", missing="--store /no/such/file"),
+                 ["--store"], status=1),
     "fuzz show": Edge("1/leaving/6 --store published.campaign", "", ["--svg", "--html"], "1 --store /no/such/file",
                       room=1000, report=True),
     "fuzz export": Edge("--store published.campaign", "", ["-o"], missing="--store /no/such/file"),
-    "fuzz merge": Edge("published.campaign -o merged", "", ["-o"], "/no/such/file -o merged", prints=False),
     "flights": Edge("--count 1e4", "--count 1e10 --csv OUT", ["--csv", "--html", "--store"],
                     "--scene /no/such/file", reports=True),
     "trajectory": Edge("--scene square --radius 1/3 --time 10 start",
@@ -255,7 +251,7 @@ class Test:
             run = self.run(self.words + [option])
             good = run.status == 2 and ": needs a value, FILE; lorentz" in run.err
             self.check(good, f"{option} without a value", run)
-            fresh = option in ("--store", "--baseline") or self.name in ("golden make", "fuzz merge")  # must not be there
+            fresh = option in ("--store", "--baseline")  # must not be there
             self.folder.clear()
             old = old_file(self.name, option)
             if not fresh:
@@ -334,7 +330,7 @@ class Test:
             return
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             self.folder.clear()
-            if "OUT" in self.edge.work and self.name != "golden make":
+            if "OUT" in self.edge.work:
                 (self.folder.path / "OUT").write_text(old_file(self.name, self.edge.work.split()[self.edge.work.split().index("OUT") - 1]))
             process = start(self.words + self.edge.work.split(), self.folder.path)
             wait_for_handler(process, number)
@@ -386,9 +382,7 @@ def prepare(made):
         "many.ndjson": "sample --count 50000",
         "queries.npy": "sample --count 10 --format npy",
         "campaign": f"fuzz {EDGES['fuzz'].quick} --store published.campaign",
-        "shard": f"fuzz {EDGES['fuzz'].quick} --shard 0/2 --store shard-0.campaign",
-        "other": f"fuzz {EDGES['fuzz'].quick} --shard 1/2 --store shard-1.campaign",
-        "findings.ndjson": "fuzz export --store published.campaign",
+        "mine.ndjson": "fuzz export --store published.campaign",
     }.items():
         with open(made / file, "w") as out:
             run = subprocess.run([PROGRAM, *words.split()], cwd=made, stdout=out, stderr=subprocess.PIPE, text=True)

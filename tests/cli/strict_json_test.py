@@ -36,7 +36,6 @@ COMMANDS = {
     "golden list": ([], []),
     "golden check": (["ties", "-e", "published", "--first", "40"], []),
     "fuzz": (CAMPAIGN + ["--store", "store"], []),
-    "fuzz list": (["--store", "store"], []),
     "fuzz show": (["ID", "--store", "store", "--html", "page.html"], ["page.html"]),
     "flights": (["--scene", SCENE, "--count", "1000", "--store", "flights", "--html", "page.html"], ["page.html"]),
     "trajectory": (["starts.ndjson", "--collisions", "5", "--scene", SCENE, "--detail", "-e", "reduction"], []),

@@ -200,7 +200,7 @@ TEST_CASE("Files of another kind are left as they are", "[cli][whole_file]") {
 TEST_CASE("`-` is standard output where that makes sense, and no file", "[cli][whole_file]") {
   const Folder folder;
   for (const std::string words : {"flights --count 10 --csv -", "flights --count 10 --store -",
-                                  "fuzz merge a b -o -", "judge --engine reduction --golden -"}) {
+                                  "judge --engine reduction --golden -"}) {
     const Run run = folder.lorentz(words);
     INFO(words << run.err);
     CHECK(run.status == 2);

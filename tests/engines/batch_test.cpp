@@ -12,7 +12,7 @@
 #include <lorentz/certified_batch.hpp>
 #include <lorentz/collision.hpp>
 #include <lorentz/errors.hpp>
-#include "fuzz/families/target.hpp"
+#include "fuzz/families/family.hpp"
 #include "question/cases/random.hpp"
 #include "tests/engines/reduction_support.hpp"
 #include "tests/support/scenes.hpp"

@@ -13,7 +13,7 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
-#include "fuzz/families/target.hpp"
+#include "fuzz/families/family.hpp"
 #include "tests/engines/reduction_support.hpp"
 
 using namespace lorentz;

@@ -10,8 +10,7 @@
 #include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/reduction.hpp>
-#include "fuzz/families/family_list.hpp"
-#include "fuzz/families/target.hpp"
+#include "fuzz/families/family.hpp"
 #include "question/cases/drawn_flights.hpp"
 #include "tests/support/support.hpp"
 
@@ -29,7 +28,8 @@ bool has(const cases::Case& one, const char* tag) {
 
 // Calls visit(case, exact answer, the scene's oracle) for the first cases of a family.
 template <class Visit>
-void visit_cases(const cases::Family& family, std::uint64_t count, Visit visit) {
+void visit_cases(std::string_view name, std::uint64_t count, Visit visit) {
+  const cases::Target& family = *cases::target_named(name);
   for (std::uint64_t index = 0; index < count; ++index) {
     const cases::Case one = family.make(kSeed, index);
     INFO(family.name() << ' ' << index << ", seed " << kSeed);
@@ -43,7 +43,7 @@ void visit_cases(const cases::Family& family, std::uint64_t count, Visit visit) 
 TEST_CASE("Times of the family early lie beside midway, and are rounded to where they are",
           "[fuzz][campaign_families]") {
   int odd = 0;
-  visit_cases(cases::early(), 600, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
+  visit_cases("early", 600, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
     REQUIRE(exact.outcome == Outcome::hit);
     const Vec &x = one.query.x, &v = one.query.v;
     const int k = v[0] != 0 ? 0 : v[1] != 0 ? 1 : 2;
@@ -60,7 +60,7 @@ TEST_CASE("Times of the family early lie beside midway, and are rounded to where
 TEST_CASE("Flights of the family nearly-parallel end, farther than double-double can tell",
           "[fuzz][campaign_families]") {
   int far = 0, not_known = 0;
-  visit_cases(cases::nearly_parallel(), 400, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
+  visit_cases("nearly-parallel", 400, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
     if (has(one, "parallel")) {
       REQUIRE(exact.outcome == Outcome::never);
       return;
@@ -75,7 +75,7 @@ TEST_CASE("Flights of the family nearly-parallel end, farther than double-double
 
 TEST_CASE("Cases of the family ellipsoid-edges are decided by some ulps", "[fuzz][campaign_families]") {
   int close = 0, inside = 0, surface = 0;
-  visit_cases(cases::ellipsoid_edges(), 400, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
+  visit_cases("ellipsoid-edges", 400, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
     const auto hardest = oracle::Margins(one.scene).hardest_decision(one.query, exact, 0);
     close += hardest && hardest->margin < 64;
     surface += has(one, "surface");
@@ -88,7 +88,7 @@ TEST_CASE("Cases of the family ellipsoid-edges are decided by some ulps", "[fuzz
 
 TEST_CASE("Flights of the family drift last long before they meet a plane", "[fuzz][campaign_families]") {
   int long_flights = 0, by_bits = 0;
-  visit_cases(cases::drift(), 400, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
+  visit_cases("drift", 400, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
     if (!has(one, "by-bits")) return;
     ++by_bits;
     REQUIRE(exact.outcome == Outcome::hit);
@@ -100,21 +100,20 @@ TEST_CASE("Flights of the family drift last long before they meet a plane", "[fu
 
 TEST_CASE("Starts of the family vast-ellipsoids lie in many obstacles", "[fuzz][campaign_families]") {
   int inside = 0;
-  visit_cases(cases::vast_ellipsoids(), 96,
-              [&](const cases::Case& one, const Answer& exact, const Oracle& oracle) {
-                inside += exact.outcome == Outcome::inside;
-                if (exact.outcome != Outcome::inside) return;
-                cases::Case next = one;
-                next.query.from = exact.obstacle;
-                const Answer second = oracle.first_hit(next.query);
-                REQUIRE(second.outcome == Outcome::inside);
-              });
+  visit_cases("vast-ellipsoids", 96, [&](const cases::Case& one, const Answer& exact, const Oracle& oracle) {
+    inside += exact.outcome == Outcome::inside;
+    if (exact.outcome != Outcome::inside) return;
+    cases::Case next = one;
+    next.query.from = exact.obstacle;
+    const Answer second = oracle.first_hit(next.query);
+    REQUIRE(second.outcome == Outcome::inside);
+  });
   CHECK(inside > 90);  // 96 seen
 }
 
 TEST_CASE("Starts of the family nearby are nearer to the obstacle that they enter than its radius",
           "[fuzz][campaign_families]") {
-  visit_cases(cases::nearby(), 400, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
+  visit_cases("nearby", 400, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
     REQUIRE(exact.outcome == Outcome::hit);
     REQUIRE(*exact.time * length(one.query.v) < one.scene.lattices[0].atoms[0].radius);
   });
@@ -123,7 +122,7 @@ TEST_CASE("Starts of the family nearby are nearer to the obstacle that they ente
 TEST_CASE("In the family unequal-radii both obstacles are met, and reduction knows most of it",
           "[fuzz][campaign_families]") {
   int known = 0, first = 0;
-  visit_cases(cases::unequal_radii(), 200, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
+  visit_cases("unequal-radii", 200, [&](const cases::Case& one, const Answer& exact, const Oracle&) {
     known += Reduction(one.scene).fly(one.query).outcome == exact.outcome;
     first += exact.obstacle.atom == 0;
   });
@@ -134,7 +133,7 @@ TEST_CASE("In the family unequal-radii both obstacles are met, and reduction kno
 
 TEST_CASE("In the family dense-rows one of the first rows of a layer is hit", "[fuzz][campaign_families]") {
   int few = 0;
-  visit_cases(cases::dense_rows(), 200, [&](const cases::Case&, const Answer& exact, const Oracle&) {
+  visit_cases("dense-rows", 200, [&](const cases::Case&, const Answer& exact, const Oracle&) {
     few += exact.outcome == Outcome::hit && *exact.time < 8;
   });
   CHECK(few > 150);  // 200 seen
@@ -143,7 +142,7 @@ TEST_CASE("In the family dense-rows one of the first rows of a layer is hit", "[
 TEST_CASE("Starts of the family skin are nearer to the surface than an ulp of its place",
           "[fuzz][campaign_families]") {
   int hits = 0, together = 0, twins = 0;
-  visit_cases(cases::skin(), 1200, [&](const cases::Case& one, const Answer& exact, const Oracle& oracle) {
+  visit_cases("skin", 1200, [&](const cases::Case& one, const Answer& exact, const Oracle& oracle) {
     if (has(one, "twin")) {  // whose obstacle may contain the start
       ++twins;
       Query leaving = one.query;
@@ -220,7 +219,7 @@ TEST_CASE("The first scenes of the family sizes are as widely spread as all of t
   // What a campaign of a minute comes to: each fifth of the range of magnitudes, in each kind of scene.
   std::map<std::string, std::set<int>> met;
   for (std::uint64_t row = 0; row < 96; ++row) {
-    const Scene scene = cases::sizes().make(kSeed, row * cases::kCasesPerScene).scene;
+    const Scene scene = cases::target_named("sizes")->make(kSeed, row * cases::kCasesPerScene).scene;
     const double least = scene.dimension == 2 ? -12 : -7;
     met[kind_of(scene)].insert(static_cast<int>(5 * std::log10(size_of(scene)) / least));
   }

@@ -76,10 +76,9 @@ inline std::string text_of(const fuzz::Store& store) {
   std::string out;
   for (const fuzz::Campaign& campaign : store.campaigns()) {
     const fuzz::CampaignManifest& m = campaign.manifest;
-    out += m.engine + ' ' + m.targets + ' ' + std::to_string(m.seed) + ' ' + m.options + ' ' + m.shard + '\n';
-    for (const cases::Target& target : cases::targets())
-      if (m.targets.find(target.name()) != std::string::npos)
-        out += std::string(target.name()) + ' ' + text_of(store.tally(campaign.id, target.name()));
+    out += m.engine + ' ' + std::to_string(m.seed) + ' ' + m.options + '\n';
+    for (const std::string& target : m.targets)
+      out += target + ' ' + text_of(store.tally(campaign.id, target));
   }
   for (const fuzz::Stored& one : store.findings()) out += text_of(one);
   return out;

@@ -1,4 +1,4 @@
-// Campaigns: the same whatever the number of threads, shards, and interruptions; targets, variants, kinds.
+// Campaigns: the same whatever the number of threads and interruptions; targets, variants, kinds.
 #include "fuzz/campaign/campaign.hpp"
 
 #include <catch2/catch.hpp>
@@ -9,8 +9,8 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
-#include "fuzz/examine/variants.hpp"
-#include "fuzz/families/family_list.hpp"
+#include "fuzz/campaign/variants.hpp"
+#include "fuzz/families/family.hpp"
 #include "question/cases/integer_vectors.hpp"
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/command_line.hpp"
@@ -38,15 +38,8 @@ Plan plan_of(std::initializer_list<const char*> names) {
 void run_in(fuzz::Store& store, const Plan& plan, std::uint64_t count, unsigned jobs,
             const question::MakeAnswerer& answerers = skewed_answerers(),
             double seconds = std::numeric_limits<double>::infinity()) {
-  fuzz::CampaignManifest manifest{"1",
-                                  "skewed",
-                                  "",
-                                  plan.seed,
-                                  "",
-                                  plan.keep,
-                                  std::to_string(plan.shard) + '/' + std::to_string(plan.shards)};
-  for (const cases::Target* target : plan.targets)
-    manifest.targets += (manifest.targets.empty() ? "" : ",") + std::string(target->name());
+  fuzz::CampaignManifest manifest{"1", "skewed", {}, plan.seed, "keep " + std::to_string(plan.keep), {}};
+  for (const cases::Target* target : plan.targets) manifest.targets.emplace_back(target->name());
   const std::int64_t id = store.open_campaign(manifest);
   std::vector<TargetTally> tallies;
   for (const cases::Target* target : plan.targets) tallies.push_back(store.tally(id, target->name()));
@@ -335,36 +328,6 @@ TEST_CASE("What is misread is of one cause, whatever it is", "[fuzz][campaign]")
   CHECK(fuzz::cause_of(other, query, misread) == cause);
   misread.is_misreading = false;
   CHECK(fuzz::cause_of(other, query, misread) != cause);
-}
-
-TEST_CASE("Three shards merged are one run", "[fuzz][campaign]") {
-  INFO("seed " << kSeed);
-  Folder folder;
-  Plan plan = plan_of({"leaving", "boundary"});
-  const std::string once = one_run(plan, 150, 2);
-  std::vector<std::string> paths;
-  plan.shards = 3;
-  for (plan.shard = 0; plan.shard < 3; ++plan.shard) {
-    paths.push_back(folder.file("shard" + std::to_string(plan.shard)));
-    fuzz::Store store(paths.back(), fuzz::Store::Access::write);
-    run_in(store, plan, 150, 1);
-  }
-  fuzz::Store merged(":memory:", fuzz::Store::Access::write);
-  fuzz::merge(paths, merged);
-  CHECK(text_of(merged) == once);
-
-  SECTION("one of them went on: they can be read together, not gone on with") {
-    plan.shard = 1;
-    {
-      fuzz::Store store(paths[1], fuzz::Store::Access::write);
-      run_in(store, plan, 160, 1);
-    }
-    fuzz::Store uneven(":memory:", fuzz::Store::Access::write);
-    fuzz::merge(paths, uneven);
-    CHECK(uneven.campaigns().at(0).manifest.shard == fuzz::CampaignManifest::kMerged);
-    CHECK(uneven.tally(1, "leaving").next == 150);
-    CHECK(uneven.tally(1, "leaving").cases == 153);
-  }
 }
 
 TEST_CASE("A target keeps the first few findings of each sort, and counts all", "[fuzz][campaign]") {

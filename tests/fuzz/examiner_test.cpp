@@ -1,15 +1,14 @@
 // Those who watch others, with partners that err: the examiner of an oracle that contradicts itself, the two
 // ways in which `reduction` and batches are asked, the reader that is read back.
-#include "fuzz/examine/examiner.hpp"
+#include "fuzz/campaign/examiner.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 
 #include <lorentz/exchange.hpp>
-#include "fuzz/examine/answerers.hpp"
-#include "fuzz/families/target.hpp"
-#include "fuzz/rewording/notation.hpp"
+#include "fuzz/campaign/notation.hpp"
+#include "fuzz/families/family.hpp"
 #include "question/both_ways.hpp"
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/support.hpp"

@@ -9,8 +9,8 @@
 #include <lorentz/oracle.hpp>
 #include <lorentz/reduction.hpp>
 #include <lorentz/verdict.hpp>
-#include "fuzz/examine/tie.hpp"
-#include "fuzz/rewording/rewording.hpp"
+#include "fuzz/campaign/rewording.hpp"
+#include "fuzz/campaign/tie.hpp"
 #include "tests/support/support.hpp"
 
 namespace lorentz::test {

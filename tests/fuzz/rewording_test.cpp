@@ -9,10 +9,10 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
-#include "fuzz/examine/time_limit.hpp"
-#include "fuzz/families/target.hpp"
-#include "fuzz/rewording/notation.hpp"
-#include "fuzz/rewording/rewording_steps.hpp"
+#include "fuzz/campaign/notation.hpp"
+#include "fuzz/campaign/rewording_steps.hpp"
+#include "fuzz/campaign/time_limit.hpp"
+#include "fuzz/families/family.hpp"
 #include "judge/golden/reader.hpp"
 #include "question/cases/drawn_flights.hpp"
 

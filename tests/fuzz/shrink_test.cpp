@@ -1,5 +1,5 @@
 // Shrinking: the failure stays, the numbers become readable.
-#include "fuzz/examine/shrink.hpp"
+#include "fuzz/campaign/shrink.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,7 @@
 #include <set>
 
 #include "fuzz/campaign/campaign.hpp"
-#include "fuzz/examine/answerers.hpp"
-#include "fuzz/examine/examiner.hpp"
+#include "fuzz/campaign/examiner.hpp"
 #include "question/cases/integer_vectors.hpp"
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/support.hpp"

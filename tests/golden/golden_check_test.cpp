@@ -330,9 +330,6 @@ TEST_CASE("golden explain: a hit, inside, never, and an invalid query", "[golden
   CHECK(contains(explained("never", "\"outcome\":\"never\""), "Nothing is ever hit"));
   CHECK(contains(explained("bad-queries", "\"tags\":[\"v-zero\"]"), "It is not a valid query: "));
   const std::string id = first_id("grazing", "\"outcome\":\"hit\"");
-  const std::string far = first_id("generic-3d", "\"outcome\":\"hit\"");
-  const std::size_t all = lines(folder.lorentz("golden explain " + far + " generic-3d").out);
-  CHECK(lines(folder.lorentz("golden explain --most 1 " + far + " generic-3d").out) < all);
   const std::string page = folder.file("page.html");
   const Run no_query =
       folder.lorentz("golden explain " + first_id("bad-queries", "v-zero") + " --html " + page);
@@ -354,7 +351,6 @@ TEST_CASE("golden explain: a hit, inside, never, and an invalid query", "[golden
   CHECK(contains(unknown.err, "0123456789abcdef"));
   CHECK(folder.lorentz("golden explain " + id + " ties").status == 2);
   CHECK(folder.lorentz("golden explain").status == 2);
-  CHECK(folder.lorentz("golden explain --most 0 " + id).status == 2);
 }
 
 TEST_CASE("golden: a reader that has enough does not keep it waiting", "[golden][golden_check]") {

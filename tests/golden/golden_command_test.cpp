@@ -1,15 +1,11 @@
 // lorentz golden: make, list, check, verify, explain, as its users call them.
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
-#include <csignal>
 #include <filesystem>
-#include <thread>
 
-#include "report/runs/lock_file.hpp"
 #include "tests/golden/golden_support.hpp"
 
 using namespace lorentz;
@@ -18,16 +14,6 @@ using namespace lorentz::test;
 namespace {
 
 const std::string kCommitted = std::string(LORENTZ_SOURCE_DIR) + "/data/golden/";
-
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields(1);
-  for (const char c : line)
-    if (c == ',')
-      fields.emplace_back();
-    else
-      fields.back() += c;
-  return fields;
-}
 
 // An id and its record in a text of records: the first that holds all these words.
 std::string record_with(const std::string& text, std::initializer_list<const char*> words) {
@@ -97,34 +83,6 @@ TEST_CASE("golden make: the committed sets are what it makes", "[golden][golden_
     CHECK((folder.lorentz(command + " --jobs 2").out == text));
   }
   CHECK(contains(folder.lorentz("golden make --set bad-queries --count 1000").err, "there are 115 records"));
-}
-
-TEST_CASE("golden make: killed in between, the same command goes on", "[golden][golden_command]") {
-  const Folder folder;
-  const std::string set = folder.file("set"), order = "golden make --set generic-3d --count 600 -o " + set;
-  const std::string whole = folder.lorentz("golden make --set generic-3d --count 600 --jobs 2").out;
-  const std::string count = folder.write("count.py", R"(
-import sqlite3, sys
-try:
-    print(sqlite3.connect("file:" + sys.argv[1] + "?mode=ro", uri=True).execute("SELECT count(*) FROM piece").fetchone()[0])
-except sqlite3.Error:
-    print(0)
-)");
-  int killed = 0;
-  for (const char* batches : {"2", "5"}) {
-    // Killed once this number of batches is kept.
-    const std::string command = LORENTZ_PROGRAM " " + order +
-                                " 2>/dev/null & p=$!; for i in $(seq 200); do test \"$(" LORENTZ_PYTHON " " +
-                                count + " " + set + ".part)\" -ge " + batches +
-                                " && break; done; kill -9 $p; wait $p; test $? = 137";
-    killed += std::system(("{ " + command + "; } 2>/dev/null").c_str()) == 0;
-    CHECK(fs::exists(set + ".part"));
-  }
-  CHECK(killed == 2);
-  CHECK(folder.lorentz(order).status == 0);
-  CHECK((folder.read("set") == whole));
-  for (const char* end : {".part", ".part-wal", ".part-shm", ".part.lock"})
-    CHECK_FALSE(fs::exists(set + end));
 }
 
 TEST_CASE("golden make: all sets, and their sums", "[golden][golden_command][long]") {
@@ -275,18 +233,13 @@ TEST_CASE("golden verify and check.py find one wrong record planted in a copy of
   unsetenv("LORENTZ_DATA");
 }
 
-TEST_CASE("golden make: into regular files only, one run at a time", "[golden][golden_command]") {
+TEST_CASE("golden make: into regular files only", "[golden][golden_command]") {
   const Folder folder;
   REQUIRE(mkfifo(folder.file("pipe").c_str(), 0600) == 0);
   const Run pipe = folder.lorentz("golden make --set ties --count 3 -o " + folder.file("pipe"));
   CHECK(pipe.status == 3);
   CHECK(contains(pipe.err, "is not a regular file"));
   CHECK(std::filesystem::is_fifo(folder.file("pipe")));
-  auto part = std::make_unique<runs::LockFile>(folder.file("set.part"), true, "busy");
-  const Run second = folder.lorentz("golden make --set ties --count 3 -o " + folder.file("set"));
-  CHECK(second.status == 3);
-  CHECK(contains(second.err, "set.part: another process is writing this store"));
-  part.reset();
   CHECK(folder.lorentz("golden make --set ties --count 3 -o " + folder.file("set")).status == 0);
   CHECK(lines(folder.read("set")) == 5);
 }
@@ -301,62 +254,4 @@ TEST_CASE("golden make overwrites golden sets, and nothing else", "[golden][gold
   CHECK(folder.read("notes.txt") == "not to be lost\n");
   for (int twice = 0; twice < 2; ++twice) CHECK(folder.lorentz(make + folder.file("set")).status == 0);
   CHECK(folder.lorentz(make + folder.write("empty", "")).status == 0);
-}
-
-TEST_CASE("Golden: sets of single obstacles as tables, and as a header of C", "[golden]") {
-  const Folder folder;
-  const Run csv = folder.lorentz("golden export ball-2d");
-  INFO(csv.err);
-  REQUIRE((csv.status == 0 && lines(csv.out) == 641));
-  CHECK(csv.out.starts_with("id,tags,dimension,c1,c2,c3,radius,a11,"));
-  // Each line has as many columns, and a hit's point is on the ball, where its normal says.
-  int hits = 0;
-  for (std::size_t at = csv.out.find('\n') + 1; at < csv.out.size(); at = csv.out.find('\n', at) + 1) {
-    const auto fields = fields_of(csv.out.substr(at, csv.out.find('\n', at) - at));
-    REQUIRE(fields.size() == 32);
-    if (fields[23] != "hit") continue;
-    ++hits;
-    const auto number = [&](std::size_t column) { return std::stod(fields[column]); };
-    const double radius = number(6);
-    for (std::size_t i = 0; i < 2; ++i) {
-      INFO(fields[0]);
-      CHECK(std::fabs(number(25 + i) - number(3 + i) - radius * number(28 + i)) <=
-            0x1p-51 * (radius + std::fabs(number(3 + i))));
-    }
-  }
-  CHECK(hits > 200);
-  const auto queries = folder.write(
-      "q",
-      R"({"scene":{"dimension":3,"lattices":[{"vectors":[],"atoms":[{"position":[1,0,0],"radius":0.5}]}]}})"
-      "\n"
-      R"({"id":1,"x":[-1,0,0],"v":[0.5,0,0]})"
-      "\n"
-      R"({"id":2,"x":[-1,0,0],"v":[-1,0,0]})");
-  const auto set = folder.write("set", folder.lorentz("first-hit --prove --records " + queries).out);
-  const std::string both = folder.lorentz("golden export " + set).out;
-  CHECK(contains(both, ",given,3,1,0,0,0.5,,,,,,,,,,-1,0,0,0.5,0,0,0,hit,3,0.5,0,0,-1,0,0,"));
-  CHECK(contains(both, ",given,3,1,0,0,0.5,,,,,,,,,,-1,0,0,-1,0,0,0,never,,,,,,,,"));
-  const auto header = folder.write("cases.h", folder.lorentz("golden export --format c " + set).out);
-  const auto program = folder.write("main.c", "#include \"" + header + R"("
-#include <stdio.h>
-int main(void) {
-  const struct lorentz_case *one = lorentz_cases;
-  printf("%d %g %c %g %g %d\n", one->dimension, one->asked[3], one->outcome, one->told[0], one->told[4],
-         isnan(lorentz_cases[1].told[0]));
-  return sizeof lorentz_cases / sizeof *one == 2 ? 0 : 1;
-})");
-  const Run compiled = folder.run("cc -Wall -Wextra -Werror -o " + folder.file("cases") + " " + program +
-                                  " && " + folder.file("cases"));
-  INFO(compiled.err);
-  CHECK((compiled.status == 0 && compiled.out == "3 0.5 h 3 -1 1\n"));
-  // The texts of a set may be anything.
-  std::string odd = folder.read("set");
-  for (std::size_t at = 0; (at = odd.find("\"given\"", at)) != std::string::npos; at += 5)
-    odd.replace(at, 7, R"("a,\"b\\*/")");
-  const auto odd_set = folder.write("odd", odd);
-  CHECK(contains(folder.lorentz("golden export " + odd_set).out, R"(,"a,""b\*/",3,)"));
-  folder.write("cases.h", folder.lorentz("golden export --format c " + odd_set).out);
-  CHECK(folder.run("cc -Wall -Wextra -Werror -o " + folder.file("odd_cases") + " " + program).status == 0);
-  const Run crystal = folder.lorentz("golden export ties");
-  CHECK((crystal.status == 2 && crystal.out.empty() && contains(crystal.err, "single obstacle")));
 }

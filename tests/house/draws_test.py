@@ -6,7 +6,7 @@ usage: draws_test.py ROOT"""
 import pathlib, re, sys, unittest
 
 ROOT = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2]
-FOLDERS = ["cases", "starts", "fuzz", "golden", "question", "statistics", "fitness"]
+FOLDERS = ["question", "fuzz", "judge/golden", "statistics", "tests/digests"]
 SOURCES = r"(?:random_?|drawn_?|source\.random|source\.scene)"
 DRAWS = re.compile(rf"\b{SOURCES}\.(?!scene\b)[a-z_]+\(|\b[a-z_]+\((?:[^()]*,\s*)?(?:{SOURCES}|source)\s*[,)]")
 NO_CALLS = {"if", "for", "while", "switch", "return", "sizeof"}

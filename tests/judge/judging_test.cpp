@@ -1,6 +1,6 @@
 // More than one of a thing: threads of a campaign, parts of a source, examinations that are added up, flaws
 // of one engine.
-#include "judge/judging.hpp"
+#include "judge/judge_report.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -10,10 +10,10 @@
 #include <thread>
 
 #include <lorentz/geometry.hpp>
-#include "fuzz/examine/shrink.hpp"
-#include "fuzz/families/target.hpp"
+#include "fuzz/campaign/shrink.hpp"
+#include "fuzz/families/family.hpp"
 #include "judge/golden/find_sets.hpp"
-#include "judge/questions.hpp"
+#include "judge/plan.hpp"
 #include "judge/simplest.hpp"
 #include "question/engines.hpp"
 #include "question/starts/free_starts.hpp"
@@ -127,7 +127,7 @@ std::string text_of(const report::Calls& calls) {
 
 TEST_CASE("Each case of a campaign is one part's, whatever their number", "[judge][questions]") {
   const auto first_of = [](unsigned part, unsigned parts, std::size_t number) {
-    const Source source = campaign(kSeed, {fuzz::Scope::Scenes::unit, 2}, Fairness::of_time, part, parts);
+    const Source source = campaign(kSeed, {fuzz::Scope::Scenes::unit, 2}, true, part, parts);
     std::set<std::string> where;
     for (std::size_t i = 0; i < number; ++i)
       if (const auto question = source()) where.insert(question->where);
@@ -152,7 +152,7 @@ TEST_CASE("Each case of a campaign is one part's, whatever their number", "[judg
 
 TEST_CASE("Where scenes are counted, families take turns in one order, whatever each takes",
           "[judge][questions]") {
-  const Source source = campaign(kSeed, {}, Fairness::of_scenes);
+  const Source source = campaign(kSeed, {}, false);
   std::vector<std::string> turns;  // the family of each scene, in the order in which they come
   std::map<std::string, int> met;
   std::size_t again = 0;
@@ -188,7 +188,7 @@ TEST_CASE("An engine in binary32 is asked what consists of such numbers", "[judg
     CHECK(asked(drawn(places, kind, kSeed, 50), 50) == 50);
   for (const std::string& file : golden::committed_sets())
     if (file.ends_with("ball-3d.ndjson")) CHECK(asked(golden_set(file, claim), 1000) == 17);
-  CHECK(asked(campaign(kSeed, {}, Fairness::of_scenes, 0, 1, claim), 500) == 500);
+  CHECK(asked(campaign(kSeed, {}, false, 0, 1, claim), 500) == 500);
 }
 
 TEST_CASE("Two threads of a judge's campaign ask different questions, and all of them count",

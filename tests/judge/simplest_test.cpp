@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "fuzz/examine/shrink.hpp"
+#include "fuzz/campaign/shrink.hpp"
 #include "question/starts/free_starts.hpp"
 
 using namespace lorentz;

@@ -1,0 +1,125 @@
+#include "fuzz/campaign/examiner.hpp"
+
+#include <algorithm>
+
+#include <lorentz/scene_check.hpp>
+#include "fuzz/campaign/tie.hpp"
+#include "question/cases/drawn_flights.hpp"
+#include "question/examine.hpp"
+#include "src/problem/same_answer.hpp"
+
+namespace lorentz::fuzz {
+
+using namespace cases;
+
+question::MakeAnswerer answerer_maker(const question::EngineInfo& engine,
+                                      const question::AnswererOptions& options) {
+  return [engine, options](const std::function<bool()>& enough) {
+    question::AnswererOptions its = options;
+    its.enough = enough;
+    its.in_campaign = true;
+    return engine.answerer(its);
+  };
+}
+
+std::vector<Reply> replies_to(const question::Source& source, Answerer& answerer) {
+  std::vector<Reply> replies;
+  std::vector<std::pair<std::size_t, question::Question>> not_asked;
+  question::ask_all(source, answerer, [&](const question::Question& question, Reply& reply) {
+    if (!reply.was_asked()) not_asked.emplace_back(replies.size(), question);
+    replies.push_back(std::move(reply));
+  });
+  for (const auto& [i, question] : not_asked) {
+    if (answerer.is_hopeless()) break;
+    answerer.try_again();
+    question::ask_all(question::all_of({&question, 1}), answerer,
+                      [&, i = i](const question::Question&, Reply& reply) { replies[i] = std::move(reply); });
+    if (!replies[i].was_asked()) break;  // the time is over
+  }
+  return replies;
+}
+
+bool Sought::is_finding(Kind kind) const {
+  if (kind == Kind::wrong_time) return times;
+  if (kind == Kind::undecided) return undecided;
+  return kind == Kind::wrong || kind == Kind::slow || kind == Kind::error;
+}
+
+// The exact answer to the question in its own words. Nothing if it contradicts the answer that was carried
+// over, that is, if it is neither the same nor differs only by a choice that the words make.
+std::optional<Answer> Examiner::settled(const Question& question) const {
+  Answer exact_here = place_->exact(question.query);
+  if (same_answer(exact_here, question.exact) ||
+      is_tie(scene(), place_->judge(), question.query, exact_here, question.exact))
+    return exact_here;
+  return std::nullopt;
+}
+
+Examined Examiner::examine(const Query& query, LimitAt limit) {
+  Question question{.place = place_, .query = query, .exact = place_->exact(query)};
+  question.max_time = limit_of(limit, question.exact);
+  std::vector<Reply> replies = replies_to(question::all_of({&question, 1}), answerer_);
+  return judge(question, replies.at(0));
+}
+
+Examined Examiner::judge(const Question& question, Reply& reply, bool is_carried) {
+  const Outcome said = reply.answer.outcome;
+  if (!is_carried || said == Outcome::undecided || said == Outcome::error ||
+      same_answer(reply.answer, question.exact))
+    return judge_exact(question, reply);
+  Question own = question;
+  if (auto exact_here = settled(question)) {
+    own.exact = std::move(*exact_here);
+    return judge_exact(own, reply);
+  }
+  return {.kind = Kind::error, .given = question.exact, .exact = place_->exact(question.query)};
+}
+
+Examined Examiner::judge_exact(const Question& question, Reply& reply) {
+  // By Verdict. Right answers may still be slow, or their times wrong.
+  constexpr Kind kKindOf[] = {Kind::agree,       Kind::agree, Kind::wrong, Kind::undecided,
+                              Kind::unsupported, Kind::error, Kind::error};
+  static_assert(std::size(kKindOf) == static_cast<std::size_t>(oracle::Verdict::missing) + 1);
+  const oracle::Judgement judgement =
+      question::judgement_of(question, reply.answer, ulps_, question::AtLimit::exact);
+  const bool says = reply.answer.outcome != Outcome::undecided && reply.answer.outcome != Outcome::error;
+  Examined one;
+  one.departs = judgement.departs;
+  one.work = reply.work;
+  one.stage = reply.stage;
+  one.exact = says && question.has_limit() && is_later(question) ? Answer::later() : question.exact;
+  one.given = std::move(reply.answer);
+  one.kind = kKindOf[static_cast<int>(judgement.verdict)];
+  if (one.kind == Kind::agree)
+    one.kind = one.work && is_slow(*one.work) ? Kind::slow
+               : judgement.wrong_time         ? Kind::wrong_time
+                                              : Kind::agree;
+  return one;
+}
+
+// The median depends on the scene alone, so that it does not matter what else is examined. It is computed
+// only if there is much work.
+bool Examiner::is_slow(double work) {
+  if (work < kLeastWork) return false;
+  if (!slow_from_) {
+    std::vector<Question> drawn;
+    for (int i = 0; i < kDrawnFlights; ++i) {
+      Random random(0, "drawn flights", static_cast<std::uint64_t>(i));
+      const Vec x = point_in_cell(random, scene()), v = random.direction(scene().dimension);
+      drawn.push_back({.place = place_, .query = {x, v, {}}});
+    }
+    std::vector<double> works;
+    for (const Reply& reply : replies_to(question::all_of(drawn), answerer_))
+      if (reply.work) works.push_back(*reply.work);
+    if (works.size() < kDrawnFlights) works.resize(kDrawnFlights, works.empty() ? work : works.back());
+    std::nth_element(works.begin(), works.begin() + kDrawnFlights / 2, works.end());
+    slow_from_ = kSlowFactor * works[kDrawnFlights / 2];
+  }
+  return work > *slow_from_;
+}
+
+bool is_sound(const Scene& scene) {
+  return !flaw_of(scene) && !oracle::dependence_in(scene);
+}
+
+}  // namespace lorentz::fuzz

@@ -1,0 +1,85 @@
+// How a campaign asks an engine and judges its replies: what it counts, and what it calls a finding.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fuzz/campaign/time_limit.hpp"
+#include "question/counts.hpp"
+#include "question/engines.hpp"
+#include "question/question.hpp"
+
+namespace lorentz::fuzz {
+
+/// The judgement of a reply: one of agree (also ill-posed), wrong, wrong_time, undecided, slow, unsupported, error (also
+/// missing).
+using Kind = question::Count;
+
+/// An answer is slow if it takes more than kSlowFactor times the median work of kDrawnFlights drawn flights
+/// in the scene, and at least kLeastWork.
+inline constexpr double kSlowFactor = 100, kLeastWork = 500;
+inline constexpr int kDrawnFlights = 33;
+
+/// Which kinds are findings.
+struct Sought {
+  bool times = false;                  ///< wrong_time
+  bool undecided = true;               ///< undecided
+  double ulps = oracle::kDefaultUlps;  ///< the tolerance; at 0 an answer is exact or wrong
+  bool is_finding(Kind kind) const;
+};
+
+using question::Answerer;
+using question::Place;
+using question::Question;
+using question::Reply;
+using question::Truth;
+
+/// Makes the answerers that a campaign examines.
+question::MakeAnswerer answerer_maker(const question::EngineInfo& engine,
+                                      const question::AnswererOptions& options = {});
+
+/// The replies to all questions of the source, in order. If another program was given up on the way, the rest
+/// is asked again, one question at a time: a query is not in error because it was not asked.
+std::vector<Reply> replies_to(const question::Source& source, Answerer& answerer);
+
+struct Examined {
+  Kind kind = Kind::agree;
+  Answer given, exact;
+  double departs = 0;  ///< as in oracle::Judgement
+  std::optional<double> work = {};
+  std::optional<Stage> stage = {};
+  bool is_misreading = false;  ///< an error of the reader: the engine was not asked
+};
+
+/// A place, and the answerer that is asked there.
+class Examiner {
+ public:
+  Examiner(Answerer& answerer, std::shared_ptr<Place> place, double ulps)
+      : answerer_(answerer), place_(std::move(place)), ulps_(ulps) {}
+
+  const std::shared_ptr<Place>& place() const { return place_; }
+  const Scene& scene() const { return place_->scene(); }
+
+  /// Judges the reply to a question in this place, while no replies are due. `is_carried`: the exact answer
+  /// comes from the question in other words; if the reply differs from it, the truth is computed anew.
+  Examined judge(const Question& question, Reply& reply, bool is_carried = false);
+
+  /// Asks one query, which must have no flaw, while no replies are due.
+  Examined examine(const Query& query, LimitAt limit = LimitAt::none);
+
+ private:
+  std::optional<Answer> settled(const Question& question) const;
+  Examined judge_exact(const Question& question, Reply& reply);
+  bool is_slow(double work);
+
+  Answerer& answerer_;
+  std::shared_ptr<Place> place_;
+  double ulps_;
+  std::optional<double> slow_from_ = {};
+};
+
+/// True if the scene has no flaw, including flaws that only exact arithmetic finds.
+bool is_sound(const Scene& scene);
+
+}  // namespace lorentz::fuzz
