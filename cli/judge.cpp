@@ -44,29 +44,18 @@ judge::OnJudged recorder(const ExaminationOptions& options, FailureLedger& ledge
   };
 }
 
-// Shows which part of the planned time has passed.
-std::function<void(const std::string&)> clock_of(double seconds) {
+// Shows which part of the planned time has passed; or the current row, if questions are counted.
+std::function<void(const std::string&)> shown(const JudgeOrder& order) {
   constexpr double kTicks = 10;  // per second
-  const auto bar = std::make_shared<Progress>("judging (tenths of a second)",
-                                              static_cast<std::size_t>(kTicks * seconds), 1);
+  const bool is_counted = order.questions.has_value();
+  const auto bar = std::make_shared<Progress>(
+      is_counted ? "judging (rows)" : "judging (tenths of a second)",
+      is_counted ? judge::number_of_rows(order) : static_cast<std::size_t>(kTicks * order.seconds()), 1);
   const auto start = std::chrono::steady_clock::now();
-  return [=](const std::string& row) {
+  return [=, last = std::string(), begun = std::size_t{0}](const std::string& row) mutable {
+    if (row != last) ++begun, last = row;
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-    bar->at(static_cast<std::size_t>(kTicks * passed.count()), [&] { return row; });
-  };
-}
-
-// Shows the current row.
-std::function<void(const std::string&)> rows_shown(const JudgeOrder& order) {
-  struct RowBar {
-    explicit RowBar(std::size_t rows) : bar("judging (rows)", rows, 1) {}
-    Progress bar;
-    std::string last = {};
-    std::size_t begun = 0;
-  };
-  return [rows = std::make_shared<RowBar>(judge::number_of_rows(order))](const std::string& row) {
-    if (row != rows->last) ++rows->begun, rows->last = row;
-    rows->bar.at(rows->begun - 1, [&] { return row; });
+    bar->at(is_counted ? begun - 1 : static_cast<std::size_t>(kTicks * passed.count()), [&] { return row; });
   };
 }
 
@@ -122,7 +111,7 @@ int act(const ExaminationOptions& options) {
   FailureLedger ledger(options.files);
   order.on_judged = recorder(options, ledger);
   const Interrupt interrupt;
-  order.on_progress = order.questions ? rows_shown(order) : clock_of(order.seconds());
+  order.on_progress = shown(order);
   const JudgeReport report = judge::judged(order, Interrupt::came());
   order.on_progress = {};  // removes the bar before anything is printed
   print(options.json ? report.json() : report.text());

@@ -53,9 +53,6 @@ class FailureLedger {
   /// The number of failures of a run with these counts; with a baseline, of new ones only.
   std::size_t failures(const question::Counts& counts, bool times, bool strict) const;
 
-  bool has_baseline() const { return known_.has_value(); }
-  std::size_t new_failures() const { return number_of_new_; }
-
   /// Reports known, new and stale failures on stderr, and writes the files.
   void finish(const std::string& engine);
 
