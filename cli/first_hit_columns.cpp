@@ -18,7 +18,7 @@ constexpr long kMost = 20;  // complaints of one kind
 class Complaints {
  public:
   void operator()(const std::string& name, const QueryRows& queries, const AnswerRows& answers) {
-    for (const AnswerRows::Reason& reason : answers.reasons) {
+    for (const RowFlaw& reason : answers.reasons) {
       const std::string text = place(name, queries, reason.row) + ": " + reason.message;
       if (reason.unsupported ? ++beyond_ == 1 : ++bad_ <= kMost) say("{}", text);
     }
@@ -78,7 +78,7 @@ class Npy {
   }
 
  private:
-  std::unique_ptr<NpyQueryReader> reader_;
+  std::unique_ptr<ColumnReader> reader_;
   std::string& out_;
 };
 

@@ -33,7 +33,7 @@ std::vector<std::string> tags_in_line(const GivenQuery& given, const std::string
     document.open(given.line);
     json::each_member(document.object(), [&](std::string_view key, json::Value value) {
       if (key != "tags") return skip(value);
-      json::each_element(value.array(), [&](json::Value tag) { tags.emplace_back(tag.text()); });
+      json::each_element(value, [&](json::Value tag) { tags.emplace_back(tag.text()); });
     });
   } catch (const json::Error&) {
     throw InputError(fmt::format("{}: query {}: tags: expected a list of texts", name, given.id));

@@ -66,7 +66,7 @@ question::EngineInfo checked(const std::string& name, int jobs) {
 // Throws the error of the first bad row from reason `begin` on.
 void refuse_first(const AnswerRows& answers, std::size_t begin) {
   if (begin == answers.reasons.size()) return;
-  const AnswerRows::Reason& reason = answers.reasons[begin];
+  const RowFlaw& reason = answers.reasons[begin];
   const std::string text = "row " + std::to_string(reason.row) + ": " + reason.message;
   if (reason.unsupported) throw UnsupportedError(text);
   throw InputError(text);

@@ -19,8 +19,8 @@ py::array outcome(const py::object& self) {
 py::array cell_columns(const py::object& self) {
   const auto& answers = self.cast<const AnswerRows&>();
   constexpr auto kBytes = static_cast<py::ssize_t>(sizeof(std::int64_t));
-  return view(answers.cell[0], {static_cast<py::ssize_t>(answers.count), answers.dimension}, self,
-              {kBytes, kBytes * static_cast<py::ssize_t>(answers.cell.rows())});
+  return view(answers.cell(0), {static_cast<py::ssize_t>(answers.count), answers.dimension}, self,
+              {kBytes, kBytes * static_cast<py::ssize_t>(answers.outcome.size())});
 }
 
 py::dict large_cells(const AnswerRows& answers) {
@@ -32,7 +32,7 @@ py::dict large_cells(const AnswerRows& answers) {
 
 py::dict reasons(const AnswerRows& answers) {
   py::dict all;
-  for (const AnswerRows::Reason& reason : answers.reasons)
+  for (const RowFlaw& reason : answers.reasons)
     all[py::int_(reason.row)] = py::make_tuple(reason.message, reason.unsupported);
   return all;
 }
@@ -46,7 +46,7 @@ py::dict addresses(const AnswerRows& answers) {
   all["time_is_rounded"] = number(answers.time_is_rounded.get());
   all["lattice"] = number(answers.lattice.data());
   all["atom"] = number(answers.atom.data());
-  all["cell"] = number(answers.cell[0]);
+  all["cell"] = number(answers.cell(0));
   all["time"] = number(answers.time.data());
   return all;
 }

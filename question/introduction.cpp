@@ -24,11 +24,13 @@ bool read_first(std::string_view line, std::string_view key, const Read& read) {
   try {
     json::Document document;
     document.open(line);
-    json::Object object = document.object();
-    json::Object inside = object[std::string(key).c_str()].object();
-    json::each_member(inside, read);
+    json::each_member(document.object(), [&](std::string_view name, json::Value value) {
+      name == key ? json::each_member(value, read) : skip(value);
+    });
     return true;
   } catch (const json::Error& error) {
+    throw InputError(fmt::format("{}: {}", key, error.what()));
+  } catch (const NotJson& error) {
     throw InputError(fmt::format("{}: {}", key, error.what()));
   }
 }
@@ -47,7 +49,7 @@ double not_negative(json::Value value, const char* what) {
 
 std::vector<int> dimensions_in(json::Value value) {
   std::vector<int> dimensions;
-  json::each_element(value.array(), [&](json::Value one) {
+  json::each_element(value, [&](json::Value one) {
     const std::int64_t dimension = one.integer();
     if (dimension != 2 && dimension != 3) throw InputError("dimensions are 2 and 3");
     dimensions.push_back(static_cast<int>(dimension));

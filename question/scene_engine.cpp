@@ -92,7 +92,7 @@ class RowsAnswered {
     for (int k = 0; k < answers_.dimension; ++k) {
       asked.x[k] = std::span(queries_.x[k]).first(count), asked.v[k] = std::span(queries_.v[k]).first(count);
       if (!queries_.from_lattice.empty()) asked.from_cell[k] = std::span(queries_.from_cell[k]).first(count);
-      told.cell[k] = {answers_.cell[k] + first_, count};
+      told.cell[k] = {answers_.cell(k) + first_, count};
     }
     if (!limits_.empty()) asked.max_time = std::span(limits_).first(count);
     if (!queries_.from_lattice.empty()) {

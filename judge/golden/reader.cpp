@@ -43,7 +43,7 @@ Header read_header(json::Value value) {
                                                        {"generator", &header.generator},
                                                        {"version", &header.version}};
   std::set<std::string> missing{"format", "count", "tags"};
-  json::each_member(value.object(), [&](std::string_view name, json::Value member) {
+  json::each_member(value, [&](std::string_view name, json::Value member) {
     const std::string key(name);
     missing.erase(key);
     if (const auto text = texts.find(name); text != texts.end()) {
@@ -57,7 +57,7 @@ Header read_header(json::Value value) {
     } else if (key == "count") {
       header.count = static_cast<std::uint64_t>(read_count(member, key));
     } else if (key == "tags") {
-      json::each_member(member.object(), [&](std::string_view tag, json::Value note) {
+      json::each_member(member, [&](std::string_view tag, json::Value note) {
         header.tags.emplace_back(tag, read_text(note, "tags"));
       });
     } else {
@@ -71,10 +71,10 @@ Header read_header(json::Value value) {
 // The integers of a basis, row by row.
 std::vector<std::vector<Integer>> read_basis(json::Value value) {
   std::vector<std::vector<Integer>> rows;
-  json::each_element(value.array(), [&](json::Value row) {
+  json::each_element(value, [&](json::Value row) {
     if (rows.size() == 3) throw InputError("basis: has more than 3 vectors");
     rows.emplace_back();
-    json::each_element(row.array(), [&](json::Value component) {
+    json::each_element(row, [&](json::Value component) {
       if (rows.back().size() == 3) throw InputError("basis: has more than 3 components");
       rows.back().push_back(read_integer(component, "basis"));
     });
@@ -114,7 +114,7 @@ oracle::Window read_window(json::Value value, const Components& count, bool is_r
   std::vector<std::vector<Integer>> basis;
   std::set<std::string> missing{"lattice", "atom", "basis"};
   if (!is_row) missing.insert({"from", "to"});
-  json::each_member(value.object(), [&](std::string_view name, json::Value member) {
+  json::each_member(value, [&](std::string_view name, json::Value member) {
     const std::string key(name);
     missing.erase(key);
     if (key == "lattice")
@@ -138,15 +138,15 @@ oracle::Window read_window(json::Value value, const Components& count, bool is_r
 oracle::Certificate read_certificate(json::Value value, const Components& count) {
   oracle::Certificate certificate;
   bool has_windows = false, has_rows = false;
-  json::each_member(value.object(), [&](std::string_view key, json::Value pieces) {
+  json::each_member(value, [&](std::string_view key, json::Value pieces) {
     has_windows |= key == "windows";
     has_rows |= key == "rows";
     if (key == "windows") {
-      json::each_element(pieces.array(), [&](json::Value piece) {
+      json::each_element(pieces, [&](json::Value piece) {
         certificate.windows.push_back(read_window(piece, count, false));
       });
     } else if (key == "rows") {
-      json::each_element(pieces.array(), [&](json::Value piece) {
+      json::each_element(pieces, [&](json::Value piece) {
         oracle::Window row = read_window(piece, count, true);
         certificate.rows.push_back({row.lattice, row.atom, std::move(row.basis)});
       });
@@ -273,7 +273,7 @@ struct Reader::Impl {
   }
 
   // Reads `expect`; or, if `ulps` is not null, an acceptable answer.
-  Answer read_answer_in(json::Object object, double* ulps) {
+  Answer read_answer_in(json::Value object, double* ulps) {
     const char* key = ulps ? "acceptable" : "expect";
     std::set<std::string> keys;
     Id id;
@@ -288,13 +288,13 @@ struct Reader::Impl {
     return answer;
   }
 
-  void read_expectation(json::Object object, Answer& expect) {
+  void read_expectation(json::Value object, Answer& expect) {
     Answer answer = read_answer_in(object, nullptr);
     answer.time_decimal = std::move(expect.time_decimal);  // a key of the record, wherever it stands
     expect = std::move(answer);
   }
 
-  void read_acceptable(json::Object object, Record& record) {
+  void read_acceptable(json::Value object, Record& record) {
     oracle::ExcusedAnswer& excused = record.acceptable.emplace_back();
     excused.answer = read_answer_in(object, &excused.ulps);
   }
@@ -303,9 +303,9 @@ struct Reader::Impl {
     if (key == "id") {
       record.id = read_text(value, key);
     } else if (key == "tags") {
-      json::each_element(value.array(), [&](json::Value tag) { record.tags.push_back(read_text(tag, key)); });
+      json::each_element(value, [&](json::Value tag) { record.tags.push_back(read_text(tag, key)); });
     } else if (key == "expect") {
-      read_expectation(value.object(), record.expect);
+      read_expectation(value, record.expect);
     } else if (key == "time_decimal") {
       record.expect.time_decimal = read_text(value, key);
       if (record.expect.time_decimal.empty()) throw InputError(key + ": is empty");
@@ -316,7 +316,7 @@ struct Reader::Impl {
     } else if (key == "time_change") {
       record.time_change = read_number_or_infinity(value, key);
     } else if (key == "acceptable") {
-      json::each_element(value.array(), [&](json::Value one) { read_acceptable(one.object(), record); });
+      json::each_element(value, [&](json::Value one) { read_acceptable(one, record); });
     } else if (key == "comment") {
       record.comment = read_text(value, key);
     } else if (key == "source_id") {

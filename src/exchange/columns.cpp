@@ -30,7 +30,7 @@ void AnswerRows::resize(std::size_t rows, int dimensions) {
     outcome.resize(rows), stage.resize(rows), lattice.resize(rows), atom.resize(rows), time.resize(rows);
     time_is_rounded = std::make_unique<bool[]>(rows);
   }
-  cell.resize(outcome.size(), dimensions);
+  cells.resize(outcome.size() * static_cast<std::size_t>(dimensions));
   count = rows, dimension = dimensions;
   large_cells.clear(), reasons.clear();
 }
@@ -39,7 +39,7 @@ void AnswerRows::set_plain(std::size_t i, Outcome plain) {
   outcome[i] = plain;
   time_is_rounded[i] = false;
   lattice[i] = atom[i] = 0;
-  for (int k = 0; k < dimension; ++k) cell[k][i] = 0;
+  for (int k = 0; k < dimension; ++k) cell(k)[i] = 0;
   time[i] = std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -57,7 +57,7 @@ void AnswerRows::set(std::size_t i, const Answer& answer, std::uint8_t of_stage,
   lattice[i] = answer.obstacle.lattice, atom[i] = answer.obstacle.atom;
   bool fits = true;
   for (int k = 0; k < dimension; ++k) {
-    cell[k][i] = answer.obstacle.cell[k].fits_int64() ? answer.obstacle.cell[k].int64() : 0;
+    cell(k)[i] = answer.obstacle.cell[k].fits_int64() ? answer.obstacle.cell[k].int64() : 0;
     fits &= answer.obstacle.cell[k].fits_int64();
   }
   if (!fits) large_cells.emplace_back(i, answer.obstacle.cell);

@@ -17,14 +17,15 @@
 
 namespace lorentz {
 
+/// A row that is not a valid query, or an answer that is an `error`, and why.
+struct RowFlaw {
+  std::size_t row;
+  std::string message;
+  bool unsupported = false;  ///< no fault of the query
+};
+
 /// Queries of one scene, with one column per component. In 2D the third columns of vectors are empty.
 struct QueryRows {
-  /// A row that is not a valid query, and why. Its values in the columns have no meaning.
-  struct Flaw {
-    std::size_t row;
-    std::string message;
-  };
-
   std::size_t count = 0;
   std::array<std::vector<double>, 3> x, v;
   std::vector<double> max_time;  ///< empty: no query has a limit
@@ -38,7 +39,7 @@ struct QueryRows {
 
   std::vector<std::string> id;  ///< as text; empty: there are no ids
 
-  std::vector<Flaw> flaws;         ///< in the order of the rows
+  std::vector<RowFlaw> flaws;      ///< in the order of the rows; the values of these have no meaning
   std::uint64_t first = 0;         ///< the number of the first row in the file, from 0
   std::vector<std::size_t> lines;  ///< the line of each row, if the file has lines
 
@@ -47,31 +48,9 @@ struct QueryRows {
   Query query(std::size_t i, int dimension) const;
 };
 
-/// The cells of answers: one column per coordinate, one after the other, like an array in Fortran order.
-class CellColumns {
- public:
-  void resize(std::size_t rows, int dimension) {
-    rows_ = rows;
-    all_.resize(rows * static_cast<std::size_t>(dimension));
-  }
-  std::int64_t* operator[](int k) { return all_.data() + static_cast<std::size_t>(k) * rows_; }
-  const std::int64_t* operator[](int k) const { return all_.data() + static_cast<std::size_t>(k) * rows_; }
-  std::size_t rows() const { return rows_; }  ///< the distance from column to column
-
- private:
-  std::size_t rows_ = 0;
-  std::vector<std::int64_t> all_;
-};
-
 /// Answers in columns that are as long as those of the queries. Values that an outcome does not have are 0; a
 /// time that it does not have is NaN.
 struct AnswerRows {
-  /// Why a row is an `error`.
-  struct Reason {
-    std::size_t row;
-    std::string message;
-    bool unsupported;  ///< no fault of the query
-  };
   /// Values of `stage` besides those of lorentz::Stage.
   static constexpr std::uint8_t kExactStage = 3, kNoStage = 255;
 
@@ -81,14 +60,19 @@ struct AnswerRows {
   std::vector<std::uint8_t> stage;
   std::unique_ptr<bool[]> time_is_rounded;
   std::vector<std::int32_t> lattice, atom;
-  CellColumns cell;  ///< as many columns as dimensions
+  std::vector<std::int64_t> cells;  ///< a column per dimension, one after the other, as in Fortran
   std::vector<double> time;
 
   std::vector<std::pair<std::size_t, Cell>> large_cells;  ///< those that do not fit 64 bits, by row
-  std::vector<Reason> reasons;
+  std::vector<RowFlaw> reasons;
 
   /// Makes room for `rows` rows, whose columns have no meaning yet. Removes large cells and reasons.
   void resize(std::size_t rows, int dimensions);
+  /// The column of coordinate k.
+  std::int64_t* cell(int k) { return cells.data() + static_cast<std::size_t>(k) * outcome.size(); }
+  const std::int64_t* cell(int k) const {
+    return cells.data() + static_cast<std::size_t>(k) * outcome.size();
+  }
   /// Sets a row to an outcome without an obstacle or a time.
   void set_plain(std::size_t i, Outcome plain);
   void set_error(std::size_t i, std::string message, bool unsupported);
@@ -112,6 +96,11 @@ class ColumnReader {
 
   /// The input's name in messages.
   virtual const std::string& name() const = 0;
+
+  virtual std::uint64_t promised() const { return 0; }  ///< the number of rows, if the input begins with it
+  virtual bool has_more() {
+    return false;
+  }  ///< if bytes follow the last row that was promised; waits for them
 
  protected:
   std::function<void()> before_waiting_ = [] {};

@@ -12,13 +12,6 @@ void append_int(std::string& out, std::int64_t n) {
   out.append(text, std::to_chars(text, text + sizeof text, n).ptr);
 }
 
-// Puts the text in quotes if a reader would otherwise split or trim it.
-void append_text(std::string& out, const std::string& text) {
-  const bool plain = text.find_first_of(",\"\r\n") == text.npos && !text.starts_with(' ') &&
-                     !text.ends_with(' ') && !text.starts_with('\t') && !text.ends_with('\t');
-  out += plain ? text : csv_quoted(text);
-}
-
 void append_obstacle_cells(std::string& out, const AnswerRows& answers, std::size_t i, const Cell* large,
                            const Components& components) {
   append_int(out, answers.lattice[i]);
@@ -30,7 +23,7 @@ void append_obstacle_cells(std::string& out, const AnswerRows& answers, std::siz
     if (large)
       out += (*large)[k].decimal();
     else
-      append_int(out, answers.cell[k][i]);
+      append_int(out, answers.cell(k)[i]);
   }
   out += ',';
 }
@@ -90,7 +83,7 @@ void append_csv_answers(std::string& out, const QueryRows& queries, const Answer
   std::size_t next_large = 0;
   for (std::size_t i = 0; i < answers.count; ++i) {
     if (with_ids) {
-      append_text(out, queries.id[i]);
+      out += csv_field(queries.id[i]);
       out += ',';
     }
     const Outcome outcome = answers.outcome[i];

@@ -138,7 +138,7 @@ class NpyArray {
   std::size_t row_bytes_ = 0, rows_ = 0;
 };
 
-class NpyQueries final : public NpyQueryReader {
+class NpyQueries final : public ColumnReader {
  public:
   NpyQueries(const std::string& path, int dimension)
       : array_(path, dimension, forms_of_queries(dimension),
@@ -228,7 +228,7 @@ char* room(std::string& out, const NpyForm& form, std::size_t count) {
 
 }  // namespace
 
-std::unique_ptr<NpyQueryReader> read_npy_queries(const std::string& path, int dimension) {
+std::unique_ptr<ColumnReader> read_npy_queries(const std::string& path, int dimension) {
   return std::make_unique<NpyQueries>(path, dimension);
 }
 
@@ -261,7 +261,7 @@ void append_npy_answers(std::string& out, const AnswerRows& answers) {
   for (std::size_t i = 0; i < answers.count; ++i) {
     put(place, static_cast<std::uint8_t>(answers.outcome[i])), put(place, answers.stage[i]);
     put(place, answers.time_is_rounded[i]), put(place, answers.lattice[i]), put(place, answers.atom[i]);
-    for (int k = 0; k < answers.dimension; ++k) put(place, answers.cell[k][i]);
+    for (int k = 0; k < answers.dimension; ++k) put(place, answers.cell(k)[i]);
     put(place, answers.time[i]);
   }
 }

@@ -5,16 +5,10 @@
 
 namespace lorentz {
 
-/// Reads queries: an array of numbers with one row per query, or an array of fields x, v, ..
-class NpyQueryReader : public ColumnReader {
- public:
-  virtual std::uint64_t promised() const = 0;  ///< the number of rows, by the header
-  virtual bool has_more() = 0;                 ///< True if bytes follow the last row. Waits for them.
-};
-
-/// Opens the file, or standard input for "-", and reads its header. Throws FileError, or InputError if it is
-/// not an array of queries in this number of dimensions.
-std::unique_ptr<NpyQueryReader> read_npy_queries(const std::string& path, int dimension);
+/// Reads queries: an array of numbers with one row per query, or an array of fields x, v, .. Opens the file, or
+/// standard input for "-", and reads its header. Throws FileError, or InputError if it is not an array of queries
+/// in this number of dimensions.
+std::unique_ptr<ColumnReader> read_npy_queries(const std::string& path, int dimension);
 
 /// The same for answers, as append_npy_answers writes them; `stage` and `time_is_rounded` may be missing.
 std::unique_ptr<AnswerReader> read_npy_answers(const std::string& path, int dimension);

@@ -154,14 +154,11 @@ std::int64_t CsvTable::integer(std::size_t column) const {
   return static_cast<std::int64_t>(*real);
 }
 
-std::string csv_quoted(std::string_view text) {
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == text.npos && trimmed(text) == text) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
   return quoted + '"';
-}
-
-std::string csv_field(const std::string& text) {
-  return text.find_first_of(",\"\n") == text.npos ? text : csv_quoted(text);
 }
 
 }  // namespace lorentz

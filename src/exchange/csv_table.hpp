@@ -8,10 +8,7 @@
 
 namespace lorentz {
 
-/// The text in quotes.
-std::string csv_quoted(std::string_view text);
-
-/// The text as a field: in quotes if it has commas, quotes or line ends.
+/// The text as a field: in quotes if a reader would otherwise split or trim it.
 std::string csv_field(const std::string& text);
 
 class CsvTable {

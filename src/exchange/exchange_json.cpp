@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <new>
-#include <type_traits>
 
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_number.hpp"
@@ -28,26 +26,21 @@ std::string_view token_of(ondemand::value& value) {
 
 namespace json {
 
-// Access to the simdjson object that a handle holds.
+// Access to what a value points to.
 struct Inside {
-  template <class Inner, class Outer>
-  static Inner& of(Outer& outer) {
-    return *std::launder(reinterpret_cast<Inner*>(outer.inside_.data()));
-  }
-  template <class Outer, class Inner>
-  static Outer in(const Inner& inner) {
-    static_assert(sizeof(Inner) <= sizeof(Handle) && alignof(Inner) <= alignof(Handle));
-    static_assert(std::is_trivially_copyable_v<Inner> && std::is_trivially_destructible_v<Inner>);
-    Outer outer;
-    new (outer.inside_.data()) Inner(inner);
-    return outer;
+  static ondemand::value& of(Value value) { return *static_cast<ondemand::value*>(value.inside_); }
+  static Value in(ondemand::value& value) { return {&value, false}; }
+  static Value in(ondemand::document& document) { return {&document, true}; }
+  static simdjson::simdjson_result<ondemand::object> object_in(Value value) {
+    if (value.is_document_) return static_cast<ondemand::document*>(value.inside_)->get_object();
+    return of(value).get_object();
   }
 };
 
 namespace {
 
-ondemand::value& inside(Value& value) {
-  return Inside::of<ondemand::value>(value);
+ondemand::value& inside(Value value) {
+  return Inside::of(value);
 }
 
 template <class T>
@@ -102,44 +95,34 @@ class Keys {
 
 }  // namespace
 
-Value Object::operator[](const char* key) {
-  return Inside::in<Value>(known(Inside::of<ondemand::object>(*this)[key]));
+Type Value::type() const {
+  return is_document_ ? Type::object : known_type(inside(*this).type());
 }
-std::string_view Object::text() {
-  return known(Inside::of<ondemand::object>(*this).raw_json());
-}
-
-Type Value::type() {
-  return known_type(inside(*this).type());
-}
-bool Value::is_null() {
+bool Value::is_null() const {
   return known(inside(*this).is_null());
 }
-Array Value::array() {
-  return Inside::in<Array>(known(inside(*this).get_array()));
-}
-Object Value::object() {
-  return Inside::in<Object>(known(inside(*this).get_object()));
-}
-std::string_view Value::text() {
+std::string_view Value::text() const {
   return known(inside(*this).get_string());
 }
-std::string Value::raw() {
-  if (type() == Type::object) return std::string(object().text());
+std::string Value::raw() const {
+  if (type() == Type::object) {
+    auto object = known(Inside::object_in(*this));
+    return std::string(known(object.raw_json()));
+  }
   if (type() == Type::array) {
     std::string text;
-    each_element(array(), [&](Value element) { text += (text.empty() ? "[" : ",") + element.raw(); });
+    each_element(*this, [&](Value element) { text += (text.empty() ? "[" : ",") + element.raw(); });
     return text.empty() ? "[]" : text + ']';
   }
   return std::string(token_of(inside(*this)));
 }
-std::uint64_t Value::natural() {
+std::uint64_t Value::natural() const {
   return known(inside(*this).get_uint64());
 }
-std::int64_t Value::integer() {
+std::int64_t Value::integer() const {
   return known(inside(*this).get_int64());
 }
-bool Value::boolean() {
+bool Value::boolean() const {
   return known(inside(*this).get_bool());
 }
 
@@ -147,6 +130,7 @@ struct Document::Impl {
   simdjson::padded_string copy;
   ondemand::parser parser;
   ondemand::document document;
+  ondemand::value value;  // of the document
 };
 
 Document::Document() : impl_(std::make_unique<Impl>()) {}
@@ -162,11 +146,12 @@ void Document::open(std::string_view text, std::size_t allocated) {
 Type Document::type() {
   return known_type(impl_->document.type());
 }
-Object Document::object() {
-  return Inside::in<Object>(known(impl_->document.get_object()));
+Value Document::object() {
+  return Inside::in(impl_->document);
 }
 Value Document::value() {
-  return Inside::in<Value>(known(impl_->document.get_value()));
+  impl_->value = known(impl_->document.get_value());
+  return Inside::in(impl_->value);
 }
 bool Document::ended() {
   return impl_->document.current_location().error() == simdjson::OUT_OF_BOUNDS;
@@ -186,21 +171,26 @@ std::string library_version() {
   return text;
 }
 
-void visit_members(Object object, const void* read, OnMember call) {
+void visit_members(Value object, const void* read,
+                   void (*call)(const void* read, std::string_view key, Value value)) {
   Keys keys;
   std::optional<std::string_view> twice;
-  for (auto result : Inside::of<ondemand::object>(object)) {
+  auto members = known(Inside::object_in(object));
+  for (auto result : members) {
     ondemand::field field = known(std::move(result));
     const std::string_view key = known(field.unescaped_key());
     if (!keys.add(key) && !twice) twice = key;
-    call(read, key, Inside::in<Value>(field.value()));
+    call(read, key, Inside::in(field.value()));
   }
   if (twice) throw KeyTwice(*twice);
 }
 
-void visit_elements(Array array, const void* read, OnElement call) {
-  for (auto result : Inside::of<ondemand::array>(array))
-    call(read, Inside::in<Value>(known(std::move(result))));
+void visit_elements(Value array, const void* read, void (*call)(const void* read, Value value)) {
+  auto elements = known(inside(array).get_array());
+  for (auto result : elements) {
+    ondemand::value element = known(std::move(result));
+    call(read, Inside::in(element));
+  }
 }
 
 }  // namespace json
@@ -240,11 +230,11 @@ void skip(json::Value value, int depth) {
   switch (value.type()) {
     case json::Type::array:
       check_depth(depth + 1);
-      each_element(value.array(), [&](json::Value element) { skip(element, depth + 1); });
+      each_element(value, [&](json::Value element) { skip(element, depth + 1); });
       break;
     case json::Type::object:
       check_depth(depth + 1);
-      each_member(value.object(), [&](std::string_view, json::Value member) { skip(member, depth + 1); });
+      each_member(value, [&](std::string_view, json::Value member) { skip(member, depth + 1); });
       break;
     case json::Type::number:
       (void)number_text(json::inside(value));
@@ -328,7 +318,7 @@ SceneNode read_node(json::Value value, const std::string& place, int depth) {
     case json::Type::array: {
       check_depth(depth + 1);
       SceneNode::Array array;
-      each_element(value.array(), [&](json::Value element) {
+      each_element(value, [&](json::Value element) {
         array.push_back(read_node(element, place + "[" + std::to_string(array.size()) + "]", depth + 1));
       });
       return {std::move(array)};
@@ -336,7 +326,7 @@ SceneNode read_node(json::Value value, const std::string& place, int depth) {
     case json::Type::object: {
       check_depth(depth + 1);
       SceneNode::Object object;
-      each_member(value.object(), [&](std::string_view key, json::Value member) {
+      each_member(value, [&](std::string_view key, json::Value member) {
         object.push_back({std::string(key), read_node(member, place + "." + std::string(key), depth + 1)});
       });
       return {std::move(object)};

@@ -2,7 +2,6 @@
 // uses. Private to the libraries that read these formats.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -39,33 +38,24 @@ struct Error : std::runtime_error {
 
 enum class Type { array, object, number, string, boolean, null };
 
-/// A value of a simdjson On-Demand document, which must still exist. It is small, and copied like a pointer.
-class Handle {
- protected:
+/// A value of a document, for the call that gets it. All but type() and is_null() throw Error if the value is of
+/// another type; each may be called once.
+class Value {
+ public:
+  Type type() const;
+  bool is_null() const;
+  std::string_view text() const;  ///< of a string, unescaped; valid as long as the document
+  std::string raw() const;        ///< of any type, as it stands in the document except for spaces in arrays
+  std::uint64_t natural() const;
+  std::int64_t integer() const;
+  bool boolean() const;
+
+ private:
   friend struct Inside;
-  alignas(void*) std::array<std::byte, 3 * sizeof(void*)> inside_{};
-};
+  Value(void* inside, bool is_document) : inside_(inside), is_document_(is_document) {}
 
-class Array : public Handle {};
-
-class Object : public Handle {
- public:
-  class Value operator[](const char* key);  ///< in any position; throws Error if it is missing
-  std::string_view text();                  ///< as it stands in the document
-};
-
-/// All but type() and is_null() throw Error if the value is of another type; each may be called once.
-class Value : public Handle {
- public:
-  Type type();
-  bool is_null();
-  Array array();
-  Object object();
-  std::string_view text();  ///< of a string, unescaped; valid as long as the document
-  std::string raw();        ///< of any type, as it stands in the document except for spaces in arrays
-  std::uint64_t natural();
-  std::int64_t integer();
-  bool boolean();
+  void* inside_;  // simdjson's value; or its document, whose value is an object
+  bool is_document_;
 };
 
 /// A text, and how far it was read.
@@ -79,8 +69,8 @@ class Document {
   void open(std::string_view text);
   void open(std::string_view text, std::size_t allocated);
   Type type();
-  Object object();
-  /// The document's value, an array or an object.
+  /// The document's value: an object, which is seen to be closed; or an array or an object.
+  Value object();
   Value value();
   /// True if nothing but white space follows the value that was read.
   bool ended();
@@ -95,23 +85,22 @@ class Document {
 /// The version of simdjson, like "3.0.1".
 std::string library_version();
 
-using OnMember = void (*)(const void* read, std::string_view key, Value value);
-void visit_members(Object object, const void* read, OnMember call);
-using OnElement = void (*)(const void* read, Value value);
-void visit_elements(Array array, const void* read, OnElement call);
+void visit_members(Value object, const void* read,
+                   void (*call)(const void* read, std::string_view key, Value value));
+void visit_elements(Value array, const void* read, void (*call)(const void* read, Value value));
 
-/// Calls read(key, value) for each member, in order; then throws KeyTwice if a key came twice. All readers of
-/// objects go through here.
+/// Calls read(key, value) for each member of an object, in order; then throws KeyTwice if a key came twice. All
+/// readers of objects go through here.
 template <class Read>
-void each_member(Object object, const Read& read) {
+void each_member(Value object, const Read& read) {
   visit_members(object, &read, [](const void* read, std::string_view key, Value value) {
     (*static_cast<const Read*>(read))(key, value);
   });
 }
 
-/// Calls read(value) for each element.
+/// Calls read(value) for each element of an array.
 template <class Read>
-void each_element(Array array, const Read& read) {
+void each_element(Value array, const Read& read) {
   visit_elements(array, &read,
                  [](const void* read, Value value) { (*static_cast<const Read*>(read))(value); });
 }
@@ -144,7 +133,7 @@ Integer read_integer(json::Value value, const char* key);
 /// Reads an answer's members into a fresh answer. `components` becomes the number of coordinates of its cell.
 /// `keys`, if given, gets all keys, and `ulps` the number under that key. Throws InputError. False for a
 /// `golden` header.
-bool read_answer(json::Object object, std::string& id, Answer& answer, std::size_t& components,
+bool read_answer(json::Value object, std::string& id, Answer& answer, std::size_t& components,
                  const OnUnknownKey& on_unknown_key = {}, std::set<std::string>* keys = nullptr,
                  double* ulps = nullptr);
 

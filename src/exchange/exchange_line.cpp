@@ -4,17 +4,17 @@
 
 namespace lorentz {
 
-json::Object JsonLine::open(const LineReader::Line& line) {
+json::Value ExchangeReader::Impl::open(const LineReader::Line& line) {
   if (line.too_long)
     throw InputError("line longer than " + std::to_string(LineReader::kMaxLine >> 20) + " MiB");
-  document_.open(line.text, line.text.size() + LineReader::kPadding);
-  if (document_.type() != json::Type::object)
+  document.open(line.text, line.text.size() + LineReader::kPadding);
+  if (document.type() != json::Type::object)
     throw InputError("not JSON as it should be: a line is one object, {...}");
-  return document_.object();
+  return document.object();
 }
 
-void JsonLine::close() {
-  if (!document_.ended()) throw NotJson("more than one value in the line");
+void ExchangeReader::Impl::close() {
+  if (!document.ended()) throw NotJson("more than one value in the line");
 }
 
 Id read_id(json::Value value) {
@@ -42,7 +42,7 @@ int read_index(json::Value value, const std::string& place) {
 std::size_t read_cell(json::Value value, Cell& cell) {
   if (value.type() != json::Type::array) throw InputError("cell: needs an array of integers");
   std::size_t count = 0;
-  json::each_element(value.array(), [&](json::Value element) {
+  json::each_element(value, [&](json::Value element) {
     Integer n = read_integer(element, "cell");
     if (count < cell.size()) cell[count] = std::move(n);
     ++count;
@@ -55,7 +55,7 @@ ObstacleRead read_from(json::Value value, const OnUnknownKey& on_unknown_key) {
   if (value.type() != json::Type::object)
     throw InputError("from: needs an object with lattice, atom and cell");
   ObstacleRead from;
-  json::each_member(value.object(), [&](std::string_view key, json::Value member) {
+  json::each_member(value, [&](std::string_view key, json::Value member) {
     if (from.read(key, member, "from.")) return;
     if (on_unknown_key) on_unknown_key("from." + std::string(key));
     skip(member, 2);

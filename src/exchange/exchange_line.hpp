@@ -6,20 +6,6 @@
 
 namespace lorentz {
 
-/// A line as JSON.
-class JsonLine {
- public:
-  /// The line's object. Throws InputError or simdjson's error if the line is not an object; every line of a
-  /// stream is one.
-  json::Object open(const LineReader::Line& line);
-
-  /// Throws NotJson if something follows the object in the line.
-  void close();
-
- private:
-  json::Document document_;
-};
-
 Id read_id(json::Value value);
 
 /// An obstacle, and which of its parts were read.
@@ -70,8 +56,14 @@ void check_cell(const ObstacleRead& from, const AScene& scene) {
 void check_dimension(const char* what, std::size_t count, int dimension);
 
 struct ExchangeReader::Impl {
-  JsonLine json_line;
+  json::Document document;
   OnUnknownKey on_unknown_key;
+
+  /// The line's object. Throws InputError or simdjson's error if the line is not an object; every line of a
+  /// stream is one.
+  json::Value open(const LineReader::Line& line);
+  /// Throws NotJson if something follows the object in the line.
+  void close();
 
   /// Reads all members of the line's object by read(key, value). An error in one member does not end the
   /// reading, because the id may follow; `flaw` becomes the first error. An id that comes twice becomes
@@ -82,7 +74,7 @@ struct ExchangeReader::Impl {
       if (flaw.empty()) flaw = error.what();
     };
     try {
-      json::each_member(json_line.open(line), [&](std::string_view key, json::Value value) {
+      json::each_member(open(line), [&](std::string_view key, json::Value value) {
         try {
           read(key, value);
         } catch (const InputError& error) {
@@ -93,7 +85,7 @@ struct ExchangeReader::Impl {
       if (error.key == "id") id = "null";
       complain(error);
     }
-    json_line.close();
+    close();
   }
 
   /// Reads a line that holds a scene, or else a query or a start. Fields, derived from LineFields, reads its

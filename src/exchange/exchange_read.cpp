@@ -103,7 +103,7 @@ void read_answer_field(std::string_view key, json::Value value, Id& id, Answer& 
 
 }  // namespace
 
-bool read_answer(json::Object object, Id& id, Answer& answer, std::size_t& components,
+bool read_answer(json::Value object, Id& id, Answer& answer, std::size_t& components,
                  const OnUnknownKey& on_unknown_key, std::set<std::string>* keys, double* ulps) {
   AnswerFields has;
   json::each_member(object, [&](std::string_view key, json::Value value) {
@@ -129,9 +129,8 @@ bool ExchangeReader::read_answer_line(const LineReader::Line& line, Id& id, Answ
   id = "null";
   components = 0;
   try {
-    const bool is_answer =
-        read_answer(impl_->json_line.open(line), id, answer, components, impl_->on_unknown_key);
-    impl_->json_line.close();
+    const bool is_answer = read_answer(impl_->open(line), id, answer, components, impl_->on_unknown_key);
+    impl_->close();
     return is_answer;
   } catch (const json::Error& error) {
     throw InputError(not_json(line, error.what()));

@@ -86,7 +86,7 @@ void add_times(json::Members& object, const Answer& answer, int dimension) {
   const bool is_hit = answer.outcome == Outcome::hit;
   const std::optional<Detail>& detail = answer.detail;
   if (is_hit && answer.time) object.add("time", *answer.time);
-  if (!answer.time_decimal.empty()) object.add("time_decimal", json::PlainText{answer.time_decimal});
+  if (!answer.time_decimal.empty()) object.add("time_decimal", answer.time_decimal);
   if (is_hit && detail)
     object.add("point", components(detail->point, dimension), "normal",
                components(detail->normal, dimension));
@@ -118,7 +118,7 @@ void add_query(json::Members& object, const Query& query, const Components& coun
 }
 
 void add_answer(json::Members& object, const Answer& answer, const Components& count) {
-  object.add("outcome", json::PlainText{name_of(answer.outcome)});
+  object.add("outcome", name_of(answer.outcome));
   if (answer.outcome == Outcome::hit || answer.outcome == Outcome::inside) {
     add_obstacle(object, answer.obstacle, count);
     add_times(object, answer, count.of_vectors());

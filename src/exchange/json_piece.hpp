@@ -42,7 +42,7 @@ struct ElementOf<Range> {
 template <class T>
 void append_piece(std::string& out, const T& value) {
   if constexpr (std::floating_point<T>) {
-    append(out, Digits{std::bit_cast<std::uint64_t>(value)});
+    out += std::to_string(std::bit_cast<std::uint64_t>(value));
   } else if constexpr (std::integral<T> && !std::same_as<T, bool>) {
     out += std::to_string(value);
   } else if constexpr (std::is_enum_v<T>) {
@@ -80,7 +80,7 @@ void read_piece(Value value, T& out) {
     if (!value.is_null()) read_piece(value, out.emplace());
   } else if constexpr (requires { out.insert(out.end(), *out.begin()); }) {
     out.clear();
-    each_element(value.array(), [&](Value element) {
+    each_element(value, [&](Value element) {
       typename ElementOf<T>::Type one;
       read_piece(element, one);
       out.insert(out.end(), std::move(one));
@@ -88,7 +88,7 @@ void read_piece(Value value, T& out) {
   } else {
     std::size_t next = 0;
     auto&& members = members_of(out);
-    each_element(value.array(), [&](Value element) {
+    each_element(value, [&](Value element) {
       std::size_t i = 0;
       std::apply([&](auto&... member) { ((i++ == next ? read_piece(element, member) : void()), ...); },
                  members);

@@ -22,16 +22,6 @@ struct Raw {
   std::string_view text;
 };
 
-/// A text in which nothing has to be escaped.
-struct PlainText {
-  std::string_view text;
-};
-
-/// A whole number as digits, whatever its size.
-struct Digits {
-  std::uint64_t number;
-};
-
 /// null for an infinity and a NaN.
 inline std::optional<double> finite(std::optional<double> value) {
   return value && std::isfinite(*value) ? value : std::nullopt;
@@ -55,19 +45,15 @@ void append_whole(std::string& out, T value) {
   if (quoted) out += '"';
 }
 
-/// Appends a value: a Raw, a PlainText, Digits, a truth value, a number, a text, an optional (null if empty),
+/// Appends a value: a Raw, a truth value, a number, a text, an optional (null if empty),
 /// a function that adds the members of an object or appends a text, a range of such values, or anything that
 /// has an append_json(out, value) of its own.
 template <class T>
 void append(std::string& out, const T& value) {
   if constexpr (std::same_as<T, Raw>) {
     out += value.text;
-  } else if constexpr (std::same_as<T, PlainText>) {
-    ((out += '"') += value.text) += '"';
   } else if constexpr (std::same_as<T, bool>) {
     out += value ? "true" : "false";
-  } else if constexpr (std::same_as<T, Digits>) {
-    out += std::to_string(value.number);
   } else if constexpr (std::integral<T>) {
     append_whole(out, value);
   } else if constexpr (std::floating_point<T>) {

@@ -382,7 +382,7 @@ TEST_CASE("Answers whose cells a column does not hold are refused once, each wit
     CHECK(answers.reasons[1].row == 2);
     CHECK(contains(answers.reasons[1].message, "(3, 1180591620717411303424)"));
     CHECK((answers.outcome[0] == Outcome::error && answers.outcome[2] == Outcome::error));
-    CHECK((answers.outcome[1] == Outcome::hit && answers.time[1] == 2.5 && answers.cell[1][1] == 2));
+    CHECK((answers.outcome[1] == Outcome::hit && answers.time[1] == 2.5 && answers.cell(1)[1] == 2));
   }
   answers.set(0, Answer::inside({0, 0, {large, 1}}), 0, false);
   answers.resize(3, 2);
