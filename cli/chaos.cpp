@@ -54,9 +54,10 @@ void with_work(const ChaosOptions& options, const std::string& kind, const runs:
   {
     Progress progress("flying, part", chaos::kGroups, 1);
     chaos::Work work{jobs, &Interrupt::came(), [&](std::uint64_t done) { progress.at(done); }};
-    if (store.is_file())
-      work.kept = {[&](const runs::ReadPiece& read) { store.each(read); },
-                   [&](const std::string& piece) { store.add({piece}); }};
+    if (store.is_file()) {
+      work.each_kept = [&](const auto& read) { store.each(read); };
+      work.keep = [&](const std::string& piece) { store.add({piece}); };
+    }
     run(work);
   }
   say("{:.2f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
@@ -66,7 +67,7 @@ void with_work(const ChaosOptions& options, const std::string& kind, const runs:
 }
 
 std::optional<ScanFinding> found_at(const ScanPlace& place, const LyapunovOptions& options) {
-  const chaos::LyapunovPlan plan{place.scene, options.seed, options.collisions, options.spectrum};
+  const chaos::LyapunovPlan plan{place.scene, options.seed, options.collisions, options.spectrum, place.name};
   const runs::Plan words{{"collisions", std::to_string(plan.collisions)},
                          {"spectrum", plan.whole_spectrum ? "whole" : "above zero"},
                          {"seed", std::to_string(plan.seed)},
@@ -78,13 +79,16 @@ std::optional<ScanFinding> found_at(const ScanPlace& place, const LyapunovOption
     say("no part was done: there is nothing to report");
     return std::nullopt;
   }
-  const chaos::LyapunovReport report(place.name, plan, std::move(found));
-  return ScanFinding{options.json ? report.json() : report.table(), report.csv(), report.found.is_whole};
+  return ScanFinding{options.json ? found.json() : found.table(), found.csv(), found.is_whole};
 }
 
 std::optional<ScanFinding> found_at(const ScanPlace& place, const DiffusionOptions& options) {
-  const chaos::DiffusionPlan plan{place.scene, starts::ensemble_named(options.from, "--from"), options.seed,
-                                  options.count, options.time.value_or(100)};
+  const chaos::DiffusionPlan plan{place.scene,
+                                  starts::ensemble_named(options.from, "--from"),
+                                  options.seed,
+                                  options.count,
+                                  options.time.value_or(100),
+                                  place.name};
   const runs::Plan words{{"count", std::to_string(plan.count)},
                          {"time", fmt::format("{}", plan.time)},
                          {"starts", options.from},
@@ -93,13 +97,12 @@ std::optional<ScanFinding> found_at(const ScanPlace& place, const DiffusionOptio
   chaos::Diffusion found;
   with_work(options, "diffusion", words,
             [&](const chaos::Work& work) { found = chaos::diffusion_of(plan, work); });
-  const chaos::DiffusionReport report(place.name, plan, std::move(found));
-  if (!report.has_content()) {
+  if (!found.has_content()) {
     say("{}: there is nothing to report",
-        report.found.is_whole ? "no particle got beyond its first obstacle" : "no part was done");
+        found.is_whole ? "no particle got beyond its first obstacle" : "no part was done");
     return std::nullopt;
   }
-  return ScanFinding{options.json ? report.json() : report.table(), report.csv(), report.found.is_whole};
+  return ScanFinding{options.json ? found.json() : found.table(), found.csv(), found.is_whole};
 }
 
 template <class Options>

@@ -33,7 +33,7 @@ Values values_of(const Option& option) {
   if (type == "ENGINE")
     for (const std::string& name : question::own_names()) add(name, "an engine");
   if (type == "SCENE")
-    for (const CatalogueEntry& entry : catalogue()) add(entry.name, "a scene of the catalogue");
+    for (const auto& [name, file] : catalogue()) add(name, "a scene of the catalogue");
   if (type == "SET")
     for (const golden::Set& set : golden::sets())
       if (set.is_committed) add(set.name, set.description);

@@ -31,7 +31,7 @@ constexpr std::uint64_t kMostFlights = std::uint64_t{1} << 52;
 
 struct FlightsOptions {
   std::string engine = "batch", from = "uniform", shard = "0/1";
-  std::uint64_t count = 1'000'000, seed = starts::kDefaultSeed, jobs = 1, cells = flights::kCellsOfBox;
+  std::uint64_t count = 1'000'000, seed = starts::kDefaultSeed, jobs = 1;
   std::optional<double> seconds;
   std::optional<std::string> store, csv, html;
   bool json = false;
@@ -49,7 +49,6 @@ FlightsPlan plan_of(const FlightsOptions& options, const Scene& scene) {
   plan.from = starts::ensemble_named(options.from, "--from");
   plan.seed = options.seed;
   plan.count = options.count;
-  plan.cells = options.cells;
   return plan;
 }
 
@@ -206,8 +205,6 @@ Command flights_command() {
           {"--time", Positive{&options->seconds}, "SECONDS", "stop after SECONDS (each scene and radius)"},
           {"--seed", Whole{&options->seed}, "N", "of the starts"},
           {"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads; the result is the same"},
-          {"--cells", Whole{&options->cells, 1, std::uint64_t{1} << 40}, "N",
-           "cells of the box in which the starts of superposed lattices lie"},
           {"--store", &options->store, "FILE", "where counts are kept every few seconds, and gone on from",
            kOutput},
           {"--add", &options->parts, "FILE",

@@ -46,17 +46,17 @@ int list(const SceneOptions& options) {
   table.with_prose();
   std::vector<std::string> json;
   bool bad = false;
-  const std::vector<CatalogueEntry> entries = catalogue();
-  if (entries.empty()) throw FileError("no catalogue of scenes; looked for in " + data_places("scenes"));
-  for (const CatalogueEntry& entry : entries) {
+  const std::map<std::string, std::string> scenes = catalogue();
+  if (scenes.empty()) throw FileError("no catalogue of scenes; looked for in " + data_places("scenes"));
+  for (const auto& [name, file] : scenes) {
     try {
-      const Scene scene = read_scene(entry.file, std::nullopt);
-      const std::string what = description_in(entry.file);
-      table.add({entry.name, std::to_string(scene.dimension), std::to_string(scene.lattices.size()),
+      const Scene scene = read_scene(file, std::nullopt);
+      const std::string what = description_in(file);
+      table.add({name, std::to_string(scene.dimension), std::to_string(scene.lattices.size()),
                  std::to_string(atoms_in(scene)), what});
       json.push_back(json::text_of([&](json::Members& one) {
-        one.add("name", entry.name, "dimension", scene.dimension, "lattices", scene.lattices.size(), "atoms",
-                atoms_in(scene), "description", what, "file", entry.file);
+        one.add("name", name, "dimension", scene.dimension, "lattices", scene.lattices.size(), "atoms",
+                atoms_in(scene), "description", what, "file", file);
       }));
     } catch (const InputError& error) {
       say("{}", error.what());

@@ -93,11 +93,11 @@ std::string FlownScene::text() const {
 
 report::FreePathCurve FlownScene::curve(const std::string& engine) const {
   report::FreePathCurve curve{scene_, engine, radius_, "surface", "", {}};
-  const flights::Laws laws = flights::laws_of(read_scene(scene_, radius_), flights::Ensemble::surface);
-  if (!laws.laws.empty()) curve.law = fmt::format("{}, {}", laws.laws[0].name, laws.laws[0].when);
+  const auto law = flights::law_of(read_scene(scene_, radius_), flights::Ensemble::surface);
+  if (law) curve.law = fmt::format("{}, {}", law->name, law->when);
   curve.points = points();
-  if (!laws.laws.empty())
-    for (PathPoint& point : curve.points) point.theory = laws.laws[0].survival(point.t);
+  if (law)
+    for (PathPoint& point : curve.points) point.theory = law->survival(point.t);
   return curve;
 }
 

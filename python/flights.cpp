@@ -34,11 +34,11 @@ py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::strin
                         numpy_array(found.beyond));
 }
 
-// For each law: its name, and its survival at these times.
+// The name of the known law, if there is one, and its survival at these times.
 py::list laws_of(const PyScene& scene, const std::string& start, const py::array_t<double>& times) {
   py::list list;
-  for (const flights::Law& law : flights::laws_of(scene.scene(), starts::ensemble_named(start, "start")).laws)
-    list.append(py::make_tuple(law.name, py::vectorize(law.survival)(times)));
+  if (const auto law = flights::law_of(scene.scene(), starts::ensemble_named(start, "start")))
+    list.append(py::make_tuple(law->name, py::vectorize(law->survival)(times)));
   return list;
 }
 

@@ -45,7 +45,7 @@ py::dict scene_dict(const PyScene& scene) {
 
 py::list catalogue_names() {
   py::list names;
-  for (const CatalogueEntry& entry : catalogue()) names.append(entry.name);
+  for (const auto& [name, file] : catalogue()) names.append(name);
   return names;
 }
 

@@ -13,9 +13,7 @@ std::string lyapunov(const PyScene& scene, std::uint64_t collisions, bool spectr
                      unsigned jobs) {
   const chaos::LyapunovPlan plan{scene.crystal("means of trajectories are taken"), seed, collisions,
                                  spectrum};
-  return found_by([&](std::atomic<bool>& stop) {
-    return chaos::LyapunovReport("", plan, chaos::lyapunov_of(plan, {jobs, &stop})).json();
-  });
+  return found_by([&](std::atomic<bool>& stop) { return chaos::lyapunov_of(plan, {jobs, &stop}).json(); });
 }
 
 // The report of `lorentz diffusion --json`.
@@ -24,9 +22,9 @@ std::string diffusion(const PyScene& scene, std::uint64_t count, double time, co
   const chaos::DiffusionPlan plan{scene.crystal("means of trajectories are taken"),
                                   starts::ensemble_named(start, "start"), seed, count, time};
   return found_by([&](std::atomic<bool>& stop) {
-    const chaos::DiffusionReport report("", plan, chaos::diffusion_of(plan, {jobs, &stop}));
-    if (!report.has_content()) throw InputError("scene: no particle got beyond its first obstacle");
-    return report.json();
+    const chaos::Diffusion found = chaos::diffusion_of(plan, {jobs, &stop});
+    if (!found.has_content()) throw InputError("scene: no particle got beyond its first obstacle");
+    return found.json();
   });
 }
 

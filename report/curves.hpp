@@ -1,11 +1,9 @@
-// The curves of a report: free paths, and how long trajectories stay right.
+// The curve of free paths in a report.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "report/share.hpp"
 
 namespace lorentz::report {
 
@@ -24,20 +22,7 @@ struct FreePathCurve {
   std::vector<CurvePoint> points;
 };
 
-/// The share of trajectories with at least this number of right collisions.
-struct SurvivalCurve {
-  struct CurvePoint {
-    std::size_t collisions = 0;
-    double share = 0;
-    Share bounds = {};
-  };
-  std::string scene, engine;
-  std::optional<double> radius;
-  std::vector<CurvePoint> points;
-};
-
-/// An object; the keys are the members' names, but `low` and `high` stand for `bounds`.
+/// An object; the keys are the members' names.
 void append_json(std::string& out, const FreePathCurve& curve);
-void append_json(std::string& out, const SurvivalCurve& curve);
 
 }  // namespace lorentz::report

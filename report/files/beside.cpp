@@ -78,12 +78,12 @@ std::string place_of(const std::string& path) {
   return place.string();
 }
 
-Beside::Beside(const std::string& place, Kind kind) {
+Beside::Beside(const std::string& place, bool is_folder) {
   clean_up(place);
   do {
     path_ = new_path(place);
     unfinished_.emplace(path_);
-    if (!open(kind) && errno != EEXIST) {
+    if (!open(is_folder) && errno != EEXIST) {
       const int why = errno;
       unfinished_.reset();
       throw write_error(place, why);
@@ -91,9 +91,9 @@ Beside::Beside(const std::string& place, Kind kind) {
   } while (descriptor_ < 0 || !is_held());
 }
 
-bool Beside::open(Kind kind) {
+bool Beside::open(bool is_folder) {
   constexpr int kAlways = O_NOFOLLOW | O_CLOEXEC;
-  if (kind == Kind::file)
+  if (!is_folder)
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | kAlways, 0666);
   else if (::mkdir(path_.c_str(), 0700) == 0)
     descriptor_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | kAlways);

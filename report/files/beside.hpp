@@ -15,11 +15,9 @@ std::string place_of(const std::string& path);
 
 class Beside {
  public:
-  enum class Kind { file, folder };
-
   /// PLACE.HEX.new, with sixteen random hexadecimal digits. A file has the permissions of any new file; a
   /// folder is accessible to this user only. Throws FileError.
-  Beside(const std::string& place, Kind kind);
+  explicit Beside(const std::string& place, bool is_folder = false);
   /// Removes it with all its contents, unless it was renamed.
   ~Beside();
   Beside(const Beside&) = delete;
@@ -29,7 +27,7 @@ class Beside {
   int descriptor() const { return descriptor_; }  ///< of a file, open for writing
 
  private:
-  bool open(Kind kind);
+  bool open(bool is_folder);
   bool is_held();
 
   std::string path_;

@@ -16,19 +16,22 @@ namespace lorentz {
 
 namespace fs = std::filesystem;
 
-std::vector<CatalogueEntry> catalogue() {
-  std::vector<CatalogueEntry> entries;
-  for (const std::string& file : data_files("scenes", ".toml"))
-    entries.push_back({fs::path(file).stem(), file});
-  return entries;
+std::map<std::string, std::string> catalogue() {
+  std::map<std::string, std::string> scenes;
+  for (const std::string& file : data_files("scenes", ".toml")) scenes[fs::path(file).stem()] = file;
+  return scenes;
+}
+
+static std::vector<std::string> names_in_catalogue() {
+  std::vector<std::string> names;
+  for (const auto& [name, file] : catalogue()) names.push_back(name);
+  return names;
 }
 
 const std::string& queries_file(const std::string& file) {
   std::error_code error;
   if (file == "-" || fs::exists(file, error) || error) return file;
-  std::vector<std::string> names;
-  for (const CatalogueEntry& entry : catalogue()) names.push_back(entry.name);
-  if (const std::string scene = nearest_name(file, names); !scene.empty())
+  if (const std::string scene = nearest_name(file, names_in_catalogue()); !scene.empty())
     throw FileError(fmt::format("{}: no such file (a scene is given by --scene {})", file, scene));
   return file;
 }
@@ -38,11 +41,9 @@ std::string find_scene(const std::string& name_or_file) {
   const bool is_name = name_or_file.find('/') == std::string::npos;
   const fs::file_status status = fs::status(name_or_file, error);
   if (fs::exists(status) && !(is_name && fs::is_directory(status))) return name_or_file;
-  std::vector<std::string> names;
-  for (const CatalogueEntry& entry : catalogue()) {
-    if (is_name && entry.name == name_or_file) return entry.file;
-    names.push_back(entry.name);
-  }
+  const auto scenes = catalogue();
+  if (const auto found = scenes.find(name_or_file); found != scenes.end()) return found->second;
+  const std::vector<std::string> names = names_in_catalogue();
   const std::string shown = shortened(name_or_file, 200);
   if (fs::is_directory(status)) throw FileError(shown + ": is a directory; a scene is a file");
   if (names.empty())

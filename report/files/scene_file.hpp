@@ -1,9 +1,9 @@
 // Scenes on the command line, and the checks that every scene passes before it is used.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <lorentz/claim.hpp>
 #include <lorentz/rational.hpp>
@@ -11,13 +11,8 @@
 
 namespace lorentz {
 
-/// A scene of the catalogue.
-struct CatalogueEntry {
-  std::string name, file;
-};
-
-/// The catalogue, by name.
-std::vector<CatalogueEntry> catalogue();
+/// The scenes of the catalogue, and their files.
+std::map<std::string, std::string> catalogue();
 
 /// The file of a scene of the catalogue, or the file itself. Throws FileError, listing the catalogue.
 std::string find_scene(const std::string& name_or_file);

@@ -23,7 +23,7 @@ WholeFile::WholeFile(const std::string& path) : path_(path) {
     file_ = std::fopen(path.c_str(), "wb");
   } else {
     place_ = place_of(path);
-    beside_.emplace(place_, Beside::Kind::file);
+    beside_.emplace(place_);
     if (fs::exists(there)) ::fchmod(beside_->descriptor(), static_cast<mode_t>(there.permissions()));
     file_ = ::fdopen(::dup(beside_->descriptor()), "wb");
   }

@@ -13,12 +13,6 @@
 namespace lorentz::runs {
 namespace {
 
-// How SQLite must open a file.
-struct Opening {
-  std::string name;
-  int flags;
-};
-
 // A path in the form that SQLite accepts in a URI.
 std::string uri_of(const std::string& path) {
   std::string uri = "file:";
@@ -32,22 +26,22 @@ std::string uri_of(const std::string& path) {
 
 // SQLite reads a plain file, or one with a write-ahead log, without writing. A file that should have a log
 // but lacks it (a copy of the file alone) must be opened as immutable.
-Opening reading(const std::string& path) {
+Connection reading(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(path + ": " + std::strerror(errno));
   char header[20] = {};
   file.read(header, sizeof header);
   struct stat ahead {};
   const bool is_plain = header[19] != 2;
-  if (is_plain || ::stat((path + "-wal").c_str(), &ahead) == 0) return {path, SQLITE_OPEN_READONLY};
-  return {uri_of(path) + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI};
+  if (is_plain || ::stat((path + "-wal").c_str(), &ahead) == 0) return {path, path, SQLITE_OPEN_READONLY};
+  return {path, uri_of(path) + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI};
 }
 
-Opening opening(const std::string& path, bool is_file, Access access) {
+Connection opened(const std::string& path, bool is_file, Access access) {
   if (is_file && std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))
     throw FileError(path + ": is not a regular file; name one to keep the run in");
   if (is_file && access != Access::write) return reading(path);
-  return {path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE};
+  return {path, path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE};
 }
 
 std::int64_t number_of(const Connection& connection, const char* sql) {
@@ -82,7 +76,7 @@ Database::Database(const std::string& path, Access access, const FileKind& kind)
       is_file_(path != kMemory),
       lock_(is_file_ && access != Access::read ? std::make_unique<LockFile>(path, writes_, kind.busy)
                                                : nullptr),
-      connection_(path, opening(path, is_file_, access).name, opening(path, is_file_, access).flags) {
+      connection_(opened(path, is_file_, access)) {
   set_up(kind);
 }
 

@@ -9,28 +9,13 @@
 #include <filesystem>
 
 #include <lorentz/errors.hpp>
+#include "report/files/beside.hpp"
 #include "src/problem/write_error.hpp"
 
 namespace lorentz::runs {
 
-namespace {
-
-// Also follows a link to a file that does not exist yet.
-std::string without_links(const std::string& file) {
-  namespace fs = std::filesystem;
-  constexpr int kMostLinks = 40;
-  std::error_code error;
-  fs::path place = file;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(place, error); ++i)
-    place = place.parent_path() / fs::read_symlink(place, error);
-  place = fs::weakly_canonical(place, error);
-  return error ? file : place.string();
-}
-
-}  // namespace
-
 LockFile::LockFile(const std::string& file, bool writes, const std::string& busy)
-    : path_(without_links(file) + ".lock"), writes_(writes) {
+    : path_(std::filesystem::weakly_canonical(place_of(file)).string() + ".lock"), writes_(writes) {
   do {
     close();
     const int flags = (writes_ ? O_RDWR | O_CREAT : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW;

@@ -7,6 +7,7 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/trajectory_batch.hpp>
 #include "question/starts/free_starts.hpp"
+#include "statistics/chaos/theory.hpp"
 
 namespace lorentz::chaos {
 namespace {
@@ -52,10 +53,11 @@ void add(const Way& way, Sums& sums) {
 }
 
 // Flies the particles [first, last) to the time T. If the work is stopped earlier, the sums are unusable.
-void fly(const DiffusionPlan& plan, const Batch& engine, const starts::FreeStarts& starts, GroupShare share,
-         const std::vector<double>& times, const Work& work, Sums& sums) {
+void fly(const DiffusionPlan& plan, const Batch& engine, const starts::FreeStarts& starts,
+         std::uint64_t first, std::uint64_t last, const std::vector<double>& times, const Work& work,
+         Sums& sums) {
   Particles particles(engine, plan.scene);
-  for (std::uint64_t i = share.first; i < share.last; ++i) particles.add(starts[i]);
+  for (std::uint64_t i = first; i < last; ++i) particles.add(starts[i]);
   std::vector<Way> ways(particles.size());
   for (std::size_t i = 0; i < ways.size(); ++i) ways[i].first_velocity = particles[i].velocity;
   const auto visit = [&](std::size_t i, const Particle& particle, const Collision& collision) {
@@ -143,10 +145,9 @@ Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work) {
   const std::vector<double> times = times_of(plan.time);
   const auto all = for_each_group(work, [&](std::uint64_t group) {
     Sums sums{std::vector<double>(kDiffusionValues)};
-    GroupShare share = share_of(group, plan.count);
-    for (; share.first < share.last && !work.is_stopped(); share.first += kTogether)
-      fly(plan, engine, starts, {share.first, std::min(share.first + kTogether, share.last)}, times, work,
-          sums);
+    const std::uint64_t end = first_of(group + 1, plan.count);
+    for (std::uint64_t i = first_of(group, plan.count); i < end && !work.is_stopped(); i += kTogether)
+      fly(plan, engine, starts, i, std::min(i + kTogether, end), times, work, sums);
     return sums;
   });
   std::vector<Sums> good;
@@ -156,6 +157,10 @@ Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work) {
   for (const auto& sums : all)
     if (sums && sums->particles == 0) result.stopped += sums->stopped;
   result.is_whole = std::find(all.begin(), all.end(), std::nullopt) == all.end();
+  result.plan = plan;
+  result.random_walk = machta_zwanzig(plan.scene);
+  result.mean_free_path = flights::mean_free_path_of(plan.scene).value;
+  result.tail = flights::tail_of_long_paths(plan.scene, flights::Ensemble::uniform);
   return result;
 }
 

@@ -18,6 +18,7 @@ struct DiffusionPlan {
   std::uint64_t seed = 0;
   std::uint64_t count = 100'000;  ///< particles
   double time = 100;              ///< T, in units in which the speed is 1
+  std::string scene_name = {};    ///< as given by the user
 };
 
 /// The times at which displacements are measured: T / 2^k and T / 2^(k + 1/2), down to T / 2^8, increasing.
@@ -30,33 +31,23 @@ struct Displacement {
   Estimate from_velocity;  ///< 2 <v(0) . integral of x>: equal to it for uniform starts
 };
 
+/// The result, with theory for comparison.
 struct Diffusion {
+  DiffusionPlan plan;
   std::vector<Displacement> displacements;
   Estimate coefficient;         ///< (MSD(T) - MSD(T/2)) / (d T): the diffusion coefficient, if it exists
   Estimate logarithmic;         ///< the slope of MSD / t in ln t from T / 16 to T: 2 C if MSD ~ 2 C t ln t
   std::uint64_t particles = 0;  ///< counted
   std::uint64_t collisions = 0;
-  std::uint64_t stopped = 0;  ///< particles that ended before T; they are not counted
-  bool is_whole = true;       ///< false: the work was stopped
-};
-
-/// The result does not depend on the number of jobs. Throws InputError as lyapunov_of does.
-Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work = {});
-
-/// The report, with theory for comparison.
-struct DiffusionReport {
-  DiffusionReport(std::string scene_name, DiffusionPlan its_plan, Diffusion what_was_found);
-
-  std::string scene;  ///< its name as given by the user
-  DiffusionPlan plan;
-  Diffusion found;
+  std::uint64_t stopped = 0;          ///< particles that ended before T; they are not counted
+  bool is_whole = true;               ///< false: the work was stopped
   std::optional<double> random_walk;  ///< Machta and Zwanzig's coefficient
   std::optional<double> mean_free_path;
   flights::Tail tail;  ///< of free paths from uniform starts, t -> infinity
 
   /// False if no particle got beyond its first obstacle, or no group was finished. When particles ended early
   /// and no collision is counted, the remaining particles are those that hit nothing.
-  bool has_content() const { return found.particles > 0 && !(found.collisions == 0 && found.stopped > 0); }
+  bool has_content() const { return particles > 0 && !(collisions == 0 && stopped > 0); }
 
   std::string table() const;
   std::string csv() const;   ///< one line per displacement
@@ -72,5 +63,8 @@ struct DiffusionReport {
   std::string lines_of_coefficient() const;
   std::string lines_of_theory() const;
 };
+
+/// The result does not depend on the number of jobs. Throws InputError as lyapunov_of does.
+Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work = {});
 
 }  // namespace lorentz::chaos

@@ -28,9 +28,10 @@ namespace {
 
 using AllSums = std::vector<std::optional<Sums>>;
 
-AllSums kept_in(const KeptGroups& kept) {
+AllSums kept_by(const Work& work) {
   AllSums all(kGroups);
-  kept.each([&](const std::string& text) {
+  if (!work.each_kept) return all;
+  work.each_kept([&](const std::string& text) {
     std::uint64_t group = 0;
     Sums sums = sums_in(text, group);
     all.at(group) = std::move(sums);
@@ -41,7 +42,7 @@ AllSums kept_in(const KeptGroups& kept) {
 }  // namespace
 
 AllSums for_each_group(const Work& work, const std::function<Sums(std::uint64_t)>& act) {
-  AllSums all = work.kept ? kept_in(*work.kept) : AllSums(kGroups);
+  AllSums all = kept_by(work);
   std::uint64_t next = 0, finished = 0;
   for (const auto& sums : all) finished += sums.has_value();
   std::exception_ptr failure;
@@ -56,7 +57,7 @@ AllSums for_each_group(const Work& work, const std::function<Sums(std::uint64_t)
   const auto hand_in = [&](std::uint64_t group, Sums sums) {
     const std::lock_guard lock(mutex);
     if (work.is_stopped()) return;  // the group may be incomplete
-    if (work.kept) work.kept->add(text_of(group, sums));
+    if (work.keep) work.keep(text_of(group, sums));
     all[group] = std::move(sums);
     if (work.on_progress) work.on_progress(++finished);
   };
@@ -77,10 +78,8 @@ AllSums for_each_group(const Work& work, const std::function<Sums(std::uint64_t)
   return all;
 }
 
-GroupShare share_of(std::uint64_t group, std::uint64_t count) {
-  const std::uint64_t part = count / kGroups, rest = count % kGroups;
-  const std::uint64_t first = group * part + std::min(group, rest);
-  return {first, first + part + (group < rest ? 1 : 0)};
+std::uint64_t first_of(std::uint64_t group, std::uint64_t count) {
+  return group * (count / kGroups) + std::min(group, count % kGroups);
 }
 
 std::string remark_on_end(bool is_whole) {

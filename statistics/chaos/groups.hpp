@@ -27,18 +27,15 @@ struct Sums {
 std::string text_of(std::uint64_t group, const Sums& sums);
 Sums sums_in(std::string_view text, std::uint64_t& group);
 
-/// Groups that are stored from one run to the next, as written by text_of().
-struct KeptGroups {
-  std::function<void(const std::function<void(const std::string&)>& read)> each;  ///< reads all stored groups
-  std::function<void(const std::string&)> add;  ///< called by one thread at a time
-};
-
 /// How a run is executed. None of these options changes the result.
 struct Work {
   unsigned jobs = 1;
   const std::atomic<bool>* stop = nullptr;              ///< stop when this becomes true
   std::function<void(std::uint64_t)> on_progress = {};  ///< number of finished groups; one thread at a time
-  std::optional<KeptGroups> kept = {};
+  /// Groups that are stored from one run to the next, as written by text_of(): reads all, and adds one (by one
+  /// thread at a time). Empty: nothing is stored.
+  std::function<void(const std::function<void(const std::string&)>& read)> each_kept = {};
+  std::function<void(const std::string&)> keep = {};
 
   bool is_stopped() const { return stop && *stop; }
 };
@@ -51,11 +48,8 @@ std::vector<std::optional<Sums>> for_each_group(const Work& work,
 /// The remark for an incomplete result; empty if it is complete.
 std::string remark_on_end(bool is_whole);
 
-/// The items [first, last) of `count` that belong to a group.
-struct GroupShare {
-  std::uint64_t first, last;
-};
-GroupShare share_of(std::uint64_t group, std::uint64_t count);
+/// The first of the items of `count` that belong to a group; they end where those of the next begin.
+std::uint64_t first_of(std::uint64_t group, std::uint64_t count);
 
 /// A number and its standard error.
 struct Estimate {

@@ -7,6 +7,7 @@
 #include <lorentz/trajectory_batch.hpp>
 #include "question/starts/free_starts.hpp"
 #include "statistics/chaos/tangents.hpp"
+#include "statistics/chaos/theory.hpp"
 
 namespace lorentz::chaos {
 namespace {
@@ -14,45 +15,30 @@ namespace {
 // The values of a group: the growth of each tangent vector, and the total time of flight.
 constexpr std::size_t kFlight = Tangents::kMost, kLyapunovValues = kFlight + 1;
 
-class Group {
- public:
-  Group(const LyapunovPlan& plan, const Batch& engine, const Work& work)
-      : plan_(plan),
-        engine_(engine),
-        work_(work),
-        curvatures_(plan.scene),
-        each_((plan.collisions + kGroups * kParticles - 1) / (kGroups * kParticles)) {}
-
-  Sums run(const starts::FreeStarts& starts, std::uint64_t number) const {
-    Particles particles(engine_, plan_.scene);
-    for (std::uint64_t i = number * kParticles; i < (number + 1) * kParticles; ++i) particles.add(starts[i]);
-    const int half = plan_.scene.dimension - 1, count = plan_.whole_spectrum ? 2 * half : half;
-    std::vector<Tangents> tangents;
-    for (std::size_t i = 0; i < particles.size(); ++i)
-      tangents.emplace_back(particles[i].velocity, plan_.scene.dimension, count);
-    Sums sums{std::vector<double>(kLyapunovValues)};
-    const auto visit = [&](std::size_t i, const Particle& particle, const Collision& collision) {
-      std::array<double, Tangents::kMost> growth{};
-      tangents[i].pass(particle, collision, curvatures_, growth);
-      if (particle.collisions <= kUncounted) return true;
-      for (int k = 0; k < Tangents::kMost; ++k) sums.values[k] += growth[k];
-      sums.values[kFlight] += collision.flight;
-      ++sums.collisions;
-      return true;
-    };
-    for (std::uint64_t n = 0; n < kUncounted + each_ && !work_.is_stopped(); ++n)
-      particles.advance(HUGE_VAL, visit);
-    sums.stopped = particles.size() - particles.going();
-    return sums;
-  }
-
- private:
-  const LyapunovPlan& plan_;
-  const Batch& engine_;
-  const Work& work_;
-  const Curvatures curvatures_;
-  const std::uint64_t each_;
-};
+Sums sums_of(const LyapunovPlan& plan, const Batch& engine, const starts::FreeStarts& starts,
+             const Curvatures& curvatures, const Work& work, std::uint64_t group) {
+  Particles particles(engine, plan.scene);
+  for (std::uint64_t i = group * kParticles; i < (group + 1) * kParticles; ++i) particles.add(starts[i]);
+  const int half = plan.scene.dimension - 1, count = plan.whole_spectrum ? 2 * half : half;
+  std::vector<Tangents> tangents;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    tangents.emplace_back(particles[i].velocity, plan.scene.dimension, count);
+  Sums sums{std::vector<double>(kLyapunovValues)};
+  const auto visit = [&](std::size_t i, const Particle& particle, const Collision& collision) {
+    std::array<double, Tangents::kMost> growth{};
+    tangents[i].pass(particle, collision, curvatures, growth);
+    if (particle.collisions <= kUncounted) return true;
+    for (int k = 0; k < Tangents::kMost; ++k) sums.values[k] += growth[k];
+    sums.values[kFlight] += collision.flight;
+    ++sums.collisions;
+    return true;
+  };
+  const std::uint64_t each = (plan.collisions + kGroups * kParticles - 1) / (kGroups * kParticles);
+  for (std::uint64_t n = 0; n < kUncounted + each && !work.is_stopped(); ++n)
+    particles.advance(HUGE_VAL, visit);
+  sums.stopped = particles.size() - particles.going();
+  return sums;
+}
 
 // Estimates of all exponents, of their sum, and of the sum of the first `half`.
 Lyapunov told(const std::vector<Sums>& groups, int exponents, int half) {
@@ -86,8 +72,9 @@ Lyapunov lyapunov_of(const LyapunovPlan& plan, const Work& work) {
     throw InputError("trajectories of many particles are flown by the engine batch, which " + *why);
   const Batch engine(plan.scene);
   const starts::FreeStarts starts(plan.scene, starts::Kind::surface, plan.seed);
-  const Group group(plan, engine, work);
-  const auto all = for_each_group(work, [&](std::uint64_t number) { return group.run(starts, number); });
+  const Curvatures curvatures(plan.scene);
+  const auto all = for_each_group(
+      work, [&](std::uint64_t group) { return sums_of(plan, engine, starts, curvatures, work, group); });
   std::vector<Sums> good;
   for (const auto& sums : all)
     if (sums && sums->collisions > 0) good.push_back(*sums);
@@ -98,6 +85,9 @@ Lyapunov lyapunov_of(const LyapunovPlan& plan, const Work& work) {
         "the exponents below zero are lost to rounding: a collision parts neighbours by a factor of 10^8 or "
         "more, and what shrinks by as much is smaller than the last digit of what grows");
   result.is_whole = std::find(all.begin(), all.end(), std::nullopt) == all.end();
+  result.plan = plan;
+  result.exact = flights::mean_free_path_of(plan.scene);
+  result.limit = half == 1 ? exponent_of_small_discs(plan.scene) : exponents_of_small_balls(plan.scene);
   return result;
 }
 

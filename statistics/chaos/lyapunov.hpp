@@ -17,6 +17,7 @@ struct LyapunovPlan {
   std::uint64_t seed = 0;
   std::uint64_t collisions = 1'000'000;  ///< counted, about this many: at least kGroups kParticles
   bool whole_spectrum = false;           ///< compute the negative exponents, too
+  std::string scene_name = {};           ///< as given by the user
 };
 
 /// Particles in a group; each makes an equal share of the group's collisions.
@@ -25,8 +26,10 @@ inline constexpr std::uint64_t kParticles = 64;
 /// Collisions of each particle before counting begins. In them the tangent vectors find their directions.
 inline constexpr std::uint64_t kUncounted = 64;
 
-/// Exponents in nats, the largest first. Errors come from the scatter of independent groups of particles.
+/// Exponents in nats, the largest first, with theory for comparison. Errors come from the scatter of independent
+/// groups of particles.
 struct Lyapunov {
+  LyapunovPlan plan;
   std::vector<Estimate> map;   ///< per collision
   std::vector<Estimate> flow;  ///< per unit of time, from the measured flights
   Estimate sum;                ///< of the exponents in `map`
@@ -36,6 +39,15 @@ struct Lyapunov {
   std::uint64_t collisions = 0;  ///< counted
   std::uint64_t stopped = 0;     ///< particles that ended (undecided, or in a corner); their part counts
   bool is_whole = true;          ///< false: the work was stopped
+  flights::MeanFreePath exact;
+  std::optional<double> limit;  ///< as r -> 0: the first exponent (2D), the sum of the positive ones (3D)
+
+  /// Exponent k per unit of time, from the exact mean free path where it is known.
+  Estimate flow_of(std::size_t k) const;
+
+  std::string table() const;
+  std::string csv() const;   ///< one row per exponent
+  std::string json() const;  ///< one object on one line
 };
 
 /// Starts are drawn on the obstacles by the cosine law, the invariant measure of the collision map, so that
@@ -44,23 +56,5 @@ struct Lyapunov {
 /// Also throws for a whole spectrum if exponents are above about 18 (r below 2e-4 in 2D), because rounding
 /// then destroys the negative ones.
 Lyapunov lyapunov_of(const LyapunovPlan& plan, const Work& work = {});
-
-/// The report, with theory for comparison.
-struct LyapunovReport {
-  LyapunovReport(std::string scene_name, LyapunovPlan its_plan, Lyapunov what_was_found);
-
-  std::string scene;  ///< its name as given by the user
-  LyapunovPlan plan;
-  Lyapunov found;
-  flights::MeanFreePath exact;
-  std::optional<double> limit;  ///< as r -> 0: the first exponent (2D), the sum of the positive ones (3D)
-
-  /// Exponent k per unit of time, from the exact mean free path where it is known.
-  Estimate flow(std::size_t k) const;
-
-  std::string table() const;
-  std::string csv() const;   ///< one row per exponent
-  std::string json() const;  ///< one object on one line
-};
 
 }  // namespace lorentz::chaos

@@ -2,11 +2,12 @@
 // from this state in JSON, and the shards of one run are added up from it.
 #pragma once
 
+#include <boost/icl/closed_interval.hpp>
+#include <boost/icl/interval_set.hpp>
+
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -40,34 +41,11 @@ struct FlightsPlan {
 /// of these obstacles. Answers do not depend on it.
 int unit_exponent(const Scene& scene);
 
-/// A set of numbers, stored as ranges with gaps between them. Lookup and insertion take O(log n) for n
-/// ranges.
-class Ranges {
- public:
-  /// Inserts the numbers first to last. Throws std::invalid_argument and changes nothing if last < first or
-  /// if the set already has one of them.
-  void insert(std::uint64_t first, std::uint64_t last);
-  void insert(std::uint64_t number) { insert(number, number); }
-  /// Throws std::invalid_argument and changes nothing if the sets have a number in common.
-  void add(const Ranges& other);
-  bool contains(std::uint64_t number) const { return meets(number, number); }
-  std::uint64_t size() const;
-
-  /// Maps the first number of each range to its last.
-  const std::map<std::uint64_t, std::uint64_t>& all() const { return ranges_; }
-
-  bool operator==(const Ranges&) const = default;
-  friend auto members_of(Ranges& self) { return std::tie(self.ranges_); }
-
- private:
-  bool meets(std::uint64_t first, std::uint64_t last) const;
-  void check_apart(std::uint64_t first, std::uint64_t last) const;
-
-  std::map<std::uint64_t, std::uint64_t> ranges_;
-};
+/// A set of numbers of blocks.
+using Blocks = boost::icl::interval_set<std::uint64_t, std::less, boost::icl::closed_interval<std::uint64_t>>;
 
 struct Account {
-  Ranges done;  ///< the numbers of the finished blocks
+  Blocks done;  ///< the finished ones
   FlightTally tally;
 
   /// The account at the beginning of a run of this plan.

@@ -15,27 +15,24 @@ FlightsFindings::FlightsFindings(const FlightsReport& report)
   std::uint64_t longer = total;
   for (std::size_t i = 0; i < edges.size(); ++i) beyond.push_back(longer -= counts[i]);
   if (total == 0) return;
-  Laws laws = laws_of(report.plan.scene, report.plan.from);
-  no_law = laws.none;
+  law = law_of(report.plan.scene, report.plan.from, &no_law);
   exponent = tail_exponent(edges, counts);
-  for (Law& law : laws.laws) {
-    const auto more = [&law](double t) { return std::min(1.0, 1.02 * law.survival(t)); };
-    const ChiSquared fit = fit_of(law.survival, law.smooth_from), off = fit_of(more, law.smooth_from);
-    const auto local = exponent ? local_exponent(edges, exponent->from, law.survival) : std::nullopt;
-    fits.push_back({std::move(law), fit, off, local});
-  }
+  if (!law) return;
+  fit = fit_of(law->survival);
+  fit_of_more = fit_of([this](double t) { return std::min(1.0, 1.02 * law->survival(t)); });
+  if (exponent) exponent_of_law = local_exponent(edges, exponent->from, law->survival);
 }
 
 std::optional<TailConstant> FlightsFindings::measured_constant_of(const Tail& tail) const {
   if (!tail.exponent || !tail.approach || !mean.value || total == 0) return std::nullopt;
-  const SlowTail slow{*tail.exponent - 1, *tail.approach};
-  return tail_constant(edges, counts, total, slow, tail_begins(slow.power, total) * *mean.value);
+  const double power = *tail.exponent - 1;
+  return tail_constant(edges, counts, total, power, *tail.approach, tail_begins(power, total) * *mean.value);
 }
 
-// All paths shorter than `from` are one bin.
-ChiSquared FlightsFindings::fit_of(const std::function<double(double)>& survival, double from) const {
+// All paths that show the lattice itself are one bin.
+ChiSquared FlightsFindings::fit_of(const std::function<double(double)>& survival) const {
   std::size_t first = 0;
-  while (first + 1 < edges.size() && edges[first] < from) ++first;
+  while (first + 1 < edges.size() && edges[first] < law->smooth_from) ++first;
   std::vector<std::uint64_t> merged(counts.begin() + static_cast<std::ptrdiff_t>(first), counts.end());
   for (std::size_t i = 0; i < first; ++i) merged.front() += counts[i];
   return chi_squared(std::span(edges).subspan(first), merged, total, survival);

@@ -12,7 +12,7 @@ namespace {
 
 namespace mpi = boost::mpi;
 
-enum FlightsMessage { kSoFar = 1, kLast };
+constexpr int kSoFar = 1, kLast = 2;  // messages
 
 // The interval between polls. A wait inside MPI would keep a processor busy.
 constexpr std::chrono::milliseconds kLook{2};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <lorentz/exchange.hpp>
 #include "report/curves.hpp"
@@ -58,16 +59,15 @@ std::string line_of_measured_constant(const Tail& tail, const FlightsFindings& f
 std::string lines_of_theory(const FlightsFindings& found) {
   std::string text;
   if (!found.no_law.empty()) text += fmt::format("no law is known: {}\n", found.no_law);
-  for (const FlightsFindings::Fit& fit : found.fits) {
-    const double from = fit.law.smooth_from;
-    text += fmt::format("law: {} ({}{})\n", fit.law.name, fit.law.when,
+  if (found.law) {
+    const double from = found.law->smooth_from;
+    text += fmt::format("law: {} ({}{})\n", found.law->name, found.law->when,
                         from > 0 ? fmt::format("; tested beyond t = {:g}", from) : "");
-    text += fit.as_it_is.p_value ? fmt::format(
-                                       "  chi squared {:.1f}, {} degrees: {}; of 1.02 times its "
-                                       "survival: {}\n",
-                                       fit.as_it_is.statistic, fit.as_it_is.degrees,
-                                       text_of(fit.as_it_is, from), text_of(fit.two_percent_more, from))
-                                 : fmt::format("  {}\n", text_of(fit.as_it_is, from));
+    text += found.fit.p_value
+                ? fmt::format("  chi squared {:.1f}, {} degrees: {}; of 1.02 times its survival: {}\n",
+                              found.fit.statistic, found.fit.degrees, text_of(found.fit, from),
+                              text_of(found.fit_of_more, from))
+                : fmt::format("  {}\n", text_of(found.fit, from));
   }
   if (found.exponent)
     text += fmt::format(
@@ -76,8 +76,7 @@ std::string lines_of_theory(const FlightsFindings& found) {
         found.exponent->high);
   else
     text += "tail: too few long flights for an exponent\n";
-  for (const FlightsFindings::Fit& fit : found.fits)
-    if (fit.local_exponent) text += fmt::format("  the law there: like t^-{:.3f}\n", *fit.local_exponent);
+  if (found.exponent_of_law) text += fmt::format("  the law there: like t^-{:.3f}\n", *found.exponent_of_law);
   for (const Tail& tail : found.tails) {
     text += fmt::format("  theory, {}:", tail.when);
     if (tail.exponent) text += fmt::format(" t^-{:g}", *tail.exponent);
@@ -92,7 +91,7 @@ std::string lines_of_theory(const FlightsFindings& found) {
 // The survival at powers of two, with one standard error.
 std::string table_of_survival(const FlightsFindings& found) {
   std::vector<std::string> header{"t", "P(tau > t)", "+-"};
-  for (const FlightsFindings::Fit& fit : found.fits) header.push_back(fit.law.name);
+  if (found.law) header.push_back(found.law->name);
   report::Table table(header);
   const auto n = static_cast<double>(found.total);
   for (std::size_t i = 0; i < found.edges.size(); i += Bins::kAnOctave) {
@@ -100,8 +99,7 @@ std::string table_of_survival(const FlightsFindings& found) {
     if (found.beyond[i] < 10 || p > 0.999) continue;
     std::vector<std::string> row{fmt::format("{:.6g}", found.edges[i]), fmt::format("{:.3e}", p),
                                  fmt::format("{:.1e}", std::sqrt(p * (1 - p) / n))};
-    for (const FlightsFindings::Fit& fit : found.fits)
-      row.push_back(fmt::format("{:.3e}", fit.law.survival(found.edges[i])));
+    if (found.law) row.push_back(fmt::format("{:.3e}", found.law->survival(found.edges[i])));
     table.add(row);
   }
   return table.text();
@@ -134,11 +132,10 @@ std::string line_of_mean_free_path(const FlightsFindings& found) {
 }
 
 void add_theory(json::Members& object, const FlightsFindings& found) {
-  using Fit = FlightsFindings::Fit;
-  const auto fit = [](json::Members& one, const Fit& f) {
-    one.add("name", f.law.name, "when", f.law.when, "statistic", finite(f.as_it_is.statistic), "degrees",
-            f.as_it_is.degrees, "p_value", finite(f.as_it_is.p_value), "p_value_of_1.02",
-            finite(f.two_percent_more.p_value), "tail_exponent", finite(f.local_exponent));
+  const auto fit = [&](json::Members& one, const Law& law) {
+    one.add("name", law.name, "when", law.when, "statistic", finite(found.fit.statistic), "degrees",
+            found.fit.degrees, "p_value", finite(found.fit.p_value), "p_value_of_1.02",
+            finite(found.fit_of_more.p_value), "tail_exponent", finite(found.exponent_of_law));
   };
   const auto tail = [&](json::Members& one, const Tail& t) {
     one.add("when", t.when, "exponent", finite(t.exponent), "constant", finite(t.constant), "remark",
@@ -147,7 +144,8 @@ void add_theory(json::Members& object, const FlightsFindings& found) {
       one.add("measured", measured->value, "measured_error", measured->error, "measured_from", measured->from,
               "measured_count", measured->count);
   };
-  object.add("tails", json::objects(found.tails, tail), "theory", json::objects(found.fits, fit), "no_theory",
+  object.add("tails", json::objects(found.tails, tail), "theory",
+             json::objects(std::span(found.law ? &*found.law : nullptr, found.law ? 1 : 0), fit), "no_theory",
              found.no_law);
 }
 
@@ -213,12 +211,6 @@ namespace {
 
 using LawNames = std::vector<std::string>;
 
-const Law* law_called(const std::string& name, const FlightsFindings& found) {
-  for (const FlightsFindings::Fit& fit : found.fits)
-    if (fit.law.name == name) return &fit.law;
-  return nullptr;
-}
-
 // The rows of one histogram: bin i is from edges[i] to edges[i + 1]. The last edge is infinite, so that its bin
 // has no density.
 void append_rows(std::string& text, const std::string& bins, const FlightsFindings& found,
@@ -238,10 +230,11 @@ void append_rows(std::string& text, const std::string& bins, const FlightsFindin
     text +=
         fmt::format(",{},{},{}", c / n / width, std::sqrt(c) / n / width, static_cast<double>(longer) / n);
     for (const std::string& name : laws) {
-      const Law* law = law_called(name, found);
-      text +=
-          law ? fmt::format(",{},{}", (law->survival(low) - law->survival(high)) / width, law->survival(high))
-              : ",,";
+      const bool is_its = found.law && found.law->name == name;
+      const auto longer_than = [&](double t) { return found.law->survival(t); };
+      text += is_its
+                  ? fmt::format(",{},{}", (longer_than(low) - longer_than(high)) / width, longer_than(high))
+                  : ",,";
     }
     text += '\n';
   }
@@ -260,8 +253,8 @@ std::vector<double> edges_of(int first, int last, const Edge& edge) {
 LawNames law_names(const std::vector<FlightsFindings>& findings) {
   LawNames names;
   for (const FlightsFindings& found : findings)
-    for (const FlightsFindings::Fit& fit : found.fits)
-      if (std::find(names.begin(), names.end(), fit.law.name) == names.end()) names.push_back(fit.law.name);
+    if (found.law && std::find(names.begin(), names.end(), found.law->name) == names.end())
+      names.push_back(found.law->name);
   return names;
 }
 
@@ -284,14 +277,13 @@ report::FreePathCurve curve_of(const FlightsReport& report, const FlightsFinding
   constexpr double kNearlyAll = 0.995;
   report::FreePathCurve curve{
       report.scene_name, report.plan.engine, radius_of(report), name_of(report.plan.from), "", {}};
-  const Law* law = found.fits.empty() ? nullptr : &found.fits[0].law;
-  if (law) curve.law = law->name + ", " + law->when;
+  if (found.law) curve.law = found.law->name + ", " + found.law->when;
   const auto total = static_cast<double>(found.total);
   for (std::size_t i = 0; i < found.edges.size(); i += kStep) {
     const double share = static_cast<double>(found.beyond[i]) / total;
     if (found.beyond[i] == 0 || share > kNearlyAll) continue;
     report::FreePathCurve::CurvePoint point{found.edges[i], share, {}, {}};
-    if (law) point.theory = law->survival(point.t);
+    if (found.law) point.theory = found.law->survival(point.t);
     curve.points.push_back(point);
   }
   return curve;

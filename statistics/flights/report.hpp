@@ -30,18 +30,14 @@ struct FlightsReport {
 struct FlightsFindings {
   explicit FlightsFindings(const FlightsReport& report);
 
-  struct Fit {
-    Law law;
-    ChiSquared as_it_is, two_percent_more;  ///< the second shows the power of the test
-    std::optional<double> local_exponent;   ///< of its density, from where that of the flights begins
-  };
-
   std::vector<double> edges;                  ///< edges of the logarithmic bins
   std::vector<std::uint64_t> counts, beyond;  ///< beyond[i]: longer than edges[i], or endless
   std::uint64_t total = 0;
-  std::vector<Fit> fits;
-  std::string no_law;       ///< why no law is known
-  std::vector<Tail> tails;  ///< the tail of long paths is the last
+  std::optional<Law> law;
+  std::string no_law;           ///< why no law is known
+  ChiSquared fit, fit_of_more;  ///< of the law; of 1.02 times its survival, for the power of the test
+  std::optional<double> exponent_of_law;  ///< of its density, from where `exponent` begins
+  std::vector<Tail> tails;                ///< the tail of long paths is the last
   std::optional<TailExponent> exponent;
   MeanFreePath mean;  ///< between collisions
 
@@ -49,7 +45,7 @@ struct FlightsFindings {
   std::optional<TailConstant> measured_constant_of(const Tail& tail) const;
 
  private:
-  ChiSquared fit_of(const std::function<double(double)>& survival, double from) const;
+  ChiSquared fit_of(const std::function<double(double)>& survival) const;
 };
 
 /// The bins, with the expectation of theory. With several scenes, rows begin with scene and radius; with one

@@ -111,7 +111,7 @@ class BlockLedger {
   void hand_in(std::uint64_t block, const FlightTally& tally) {
     const std::lock_guard lock(mutex_);
     account_.tally.add(tally);
-    account_.done.insert(block);
+    account_.done += block;
   }
   // Nothing is left to do for any thread.
   void fail() {
@@ -125,7 +125,7 @@ class BlockLedger {
 
  private:
   bool is_done(std::uint64_t block) const {
-    return account_.done.contains(block) || bounds_.done.contains(block);
+    return contains(account_.done, block) || contains(bounds_.done, block);
   }
   bool is_enough() const {
     return (bounds_.stop && *bounds_.stop) || (bounds_.seconds > 0 && Clock::now() >= end_);

@@ -12,7 +12,7 @@ struct FlightBounds {
   unsigned jobs = 1;
   double seconds = 0;                       ///< stop after this time; 0: when all is flown
   std::uint64_t shard = 0, shards = 1;      ///< only the blocks `shard` modulo `shards`
-  Ranges done = {};                         ///< blocks to skip, besides those of the account
+  Blocks done = {};                         ///< blocks to skip, besides those of the account
   const std::atomic<bool>* stop = nullptr;  ///< stop when this becomes true
 };
 

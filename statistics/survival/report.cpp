@@ -1,12 +1,13 @@
 // The results of many trajectories as text, JSON, CSV, pictures and pages.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
-#include "report/curves.hpp"
 #include "report/manifest.hpp"
 #include "report/scene_name.hpp"
+#include "report/share.hpp"
 #include "src/exchange/json_writer.hpp"
 #include "statistics/survival/survival.hpp"
 
@@ -79,22 +80,27 @@ std::string Survival::csv() const {
 
 std::string Survival::page_json(const std::string& command) const {
   const std::size_t count = starts();
-  std::vector<report::SurvivalCurve> curves;
   std::string line = fmt::format("{} starts; right collisions, the mean:", count);
   for (const Arithmetic& one : arithmetics) {
-    report::SurvivalCurve curve{plan.scene_name, one.name(plan.engine.name), plan.radius, {}};
-    for (std::uint64_t k = 1; k <= last_of(one); ++k) {
-      const double share = one.share(k);
-      const auto right = static_cast<std::size_t>(std::llround(share * static_cast<double>(count)));
-      curve.points.push_back({k, share, report::share_of(right, count)});
-    }
     line += fmt::format("{} {:.3g} in {}", &one == &arithmetics[0] ? "" : ",", one.mean(),
                         one.name(plan.engine.name));
-    curves.push_back(std::move(curve));
   }
+  const auto point = [&](json::Members& object, double share, std::uint64_t k) {
+    const auto right = static_cast<std::size_t>(std::llround(share * static_cast<double>(count)));
+    const report::Share bounds = report::share_of(right, count);
+    object.add("collisions", k, "share", share, "low", bounds.low, "high", bounds.high);
+  };
+  const auto curve = [&](json::Members& object, const Arithmetic& one) {
+    std::vector<std::uint64_t> all(last_of(one));
+    std::iota(all.begin(), all.end(), 1);
+    object.add("scene", plan.scene_name, "engine", one.name(plan.engine.name), "radius", plan.radius,
+               "points",
+               json::objects(all, [&](json::Members& its, std::uint64_t k) { point(its, one.share(k), k); }));
+  };
   return json::line_of([&](json::Members& page) {
     page.add("format", 1, "kind", "survival", "title", "How long trajectories stay right: " + plan.scene_name,
-             "line", line, "manifest", report::manifest_of(plan.seed, command), "survival", curves);
+             "line", line, "manifest", report::manifest_of(plan.seed, command), "survival",
+             json::objects(arithmetics, curve));
   });
 }
 

@@ -8,34 +8,20 @@ namespace {
 
 using oracle::CertifiedCollision;
 
-// Follows one start in one arithmetic, as long as it is right.
-class Runner {
- public:
-  Runner(const Arithmetic& arithmetic, const question::EngineInfo& engine, const RationalScene& scene,
-         const Start& start) {
-    if (arithmetic.bits == 53 || arithmetic.bits == 106)
-      rival_ = std::make_unique<Rival>(
-          engine, arithmetic.bits == 53 ? Precision::binary64 : Precision::double_double, scene, start);
-    else
-      rounded_ = std::make_unique<oracle::RoundedItinerary>(scene, start, arithmetic.bits);
-  }
+using IsRight = std::function<bool(const CertifiedCollision& truth)>;
 
-  /// Returns false from the first wrong obstacle on.
-  bool meet(const CertifiedCollision& truth) {
-    if (!is_right_) return false;
-    if (rival_) rival_->meet(truth);
-    is_right_ = rival_ ? !rival_->diverged() : rounded_->next() == truth.obstacle;
-    right_ += is_right_;
-    return is_right_;
-  }
-  std::uint64_t right() const { return right_; }
-
- private:
-  std::unique_ptr<Rival> rival_;
-  std::unique_ptr<oracle::RoundedItinerary> rounded_;
-  bool is_right_ = true;
-  std::uint64_t right_ = 0;
-};
+// A trajectory in one arithmetic: true while it hits what the certified one hits.
+IsRight flown_in(long bits, const question::EngineInfo& engine, const RationalScene& scene,
+                 const Start& start) {
+  if (bits != 53 && bits != 106)
+    return [rounded = std::make_shared<oracle::RoundedItinerary>(scene, start, bits)](
+               const CertifiedCollision& truth) { return rounded->next() == truth.obstacle; };
+  const Precision precision = bits == 53 ? Precision::binary64 : Precision::double_double;
+  return [rival = std::make_shared<Rival>(engine, precision, scene, start)](const CertifiedCollision& truth) {
+    rival->meet(truth);
+    return !rival->diverged();
+  };
+}
 
 Start start_of(const Query& query) {
   Start start;
@@ -46,20 +32,25 @@ Start start_of(const Query& query) {
 
 void follow(const RationalScene& scene, const Start& start, const std::atomic<bool>& stop,
             Survival& survival) {
-  std::vector<Runner> runners;
+  std::vector<IsRight> flights;
   for (const Arithmetic& one : survival.arithmetics)
-    runners.emplace_back(one, survival.plan.engine, scene, start);
+    flights.push_back(flown_in(one.bits, survival.plan.engine, scene, start));
+  std::vector<std::uint64_t> right(flights.size());
   oracle::Journey journey;
   journey.collisions = survival.plan.collisions;
   journey.stop = &stop;
   oracle::Itinerary(scene).follow(start, journey, [&](const CertifiedCollision& truth) {
     bool any = false;
-    for (Runner& runner : runners) any |= runner.meet(truth);
+    for (std::size_t i = 0; i < flights.size(); ++i) {
+      if (!flights[i]) continue;
+      if (!flights[i](truth)) flights[i] = {};  // wrong from here on
+      right[i] += bool{flights[i]};
+      any |= bool{flights[i]};
+    }
     return any;
   });
   if (stop) return;  // the last start is incomplete
-  for (std::size_t i = 0; i < runners.size(); ++i)
-    survival.arithmetics[i].right.push_back(runners[i].right());
+  for (std::size_t i = 0; i < right.size(); ++i) survival.arithmetics[i].right.push_back(right[i]);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ void reduce(Vec& a, Vec& b) {
 
 // A corridor along the primitive vector g has the width area / |g| - 2 r. C = sum of |g| width^2 / (pi free
 // area), where g and -g count once.
-std::optional<CorridorSum> corridor_tail_constant(const Lattice& lattice) {
+std::optional<double> corridor_tail_constant(const Lattice& lattice, bool* of_limit) {
   const double area = cell_volume(lattice, 2), r = lattice.atoms[0].radius, longest = area / (2 * r),
                free = area - volume_of(lattice.atoms[0], 2);
   Vec a = lattice.vectors[0], b = lattice.vectors[1];
@@ -38,7 +38,8 @@ std::optional<CorridorSum> corridor_tail_constant(const Lattice& lattice) {
   const double a2 = dot(a, a), along = dot(a, b) / a2, row = area / std::sqrt(a2);
   if (std::numbers::pi / 2 * longest / (2 * r) > kMostPoints) {
     if (longest < kManyRows * row) return std::nullopt;
-    return CorridorSum{area / (std::numbers::pi * std::numbers::pi * r), true};
+    if (of_limit) *of_limit = true;
+    return area / (std::numbers::pi * std::numbers::pi * r);
   }
   double total = 0;
   for (std::int64_t n = 0; static_cast<double>(n) * row < longest; ++n) {
@@ -53,7 +54,7 @@ std::optional<CorridorSum> corridor_tail_constant(const Lattice& lattice) {
       if (width > 0) total += length * width * width;
     }
   }
-  return CorridorSum{total / (std::numbers::pi * free), false};
+  return total / (std::numbers::pi * free);
 }
 
 }  // namespace lorentz::flights

@@ -61,16 +61,14 @@ double smooth_from(const Scene& scene, Ensemble ensemble) {
 
 }  // namespace
 
-Laws laws_of(const Scene& scene, Ensemble ensemble) {
-  Laws result;
-  if (!is_crystal(scene)) return result.none = "for crystals only", result;
-  const auto small = small_obstacles_of(scene, result.none);
-  if (small)
-    result.laws.push_back(
-        {name_of(*small), small->discs ? "r -> 0" : "small obstacles",
-         [small = *small, ensemble](double t) { return survival_among_small(small, ensemble, t); },
-         1 / small->mean_rate(), smooth_from(scene, ensemble)});
-  return result;
+std::optional<Law> law_of(const Scene& scene, Ensemble ensemble, std::string* why_not) {
+  std::string why = "for crystals only";
+  const auto small = is_crystal(scene) ? small_obstacles_of(scene, why) : std::nullopt;
+  if (!small && why_not) *why_not = why;
+  if (!small) return std::nullopt;
+  return Law{name_of(*small), small->discs ? "r -> 0" : "small obstacles",
+             [small = *small, ensemble](double t) { return survival_among_small(small, ensemble, t); },
+             1 / small->mean_rate(), smooth_from(scene, ensemble)};
 }
 
 }  // namespace lorentz::flights

@@ -21,13 +21,8 @@ struct Law {
   double smooth_from = 0;                  ///< shorter paths show the lattice itself: they are one bin
 };
 
-/// The known laws for a scene, or the reason why no law is known.
-struct Laws {
-  std::vector<Law> laws;
-  std::string none;  ///< the reason why no law is known; else empty
-};
-
-Laws laws_of(const Scene& scene, Ensemble ensemble);
+/// The known law for a scene. If none is known, `why_not` (if given) becomes the reason.
+std::optional<Law> law_of(const Scene& scene, Ensemble ensemble, std::string* why_not = nullptr);
 
 /// The asymptotic behaviour P(tau > t) ~ constant * t^-(exponent - 1).
 struct Tail {

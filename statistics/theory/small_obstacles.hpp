@@ -31,16 +31,11 @@ struct SmallObstacles {
 /// Empty if the scene is not of that kind; `why_not` is then the reason.
 std::optional<SmallObstacles> small_obstacles_of(const Scene& scene, std::string& why_not);
 
-/// The tail constant of one 2D lattice of discs, as a sum in binary64. The exact search lists every corridor,
-/// which is slow for 10^5 corridors.
-struct CorridorSum {
-  double value = 0;       ///< C in P(a path from a uniform start > t) ~ C / t; 0 without a corridor
-  bool of_limit = false;  ///< true: not the sum over corridors, which would be millions, but its limit
-                          ///< r -> 0, which then differs by less than 1e-5
-};
-
-/// For a lattice with one disc that does not overlap its translates. Empty if there are millions of corridors
-/// but the limit is not close. This happens in a slender cell.
-std::optional<CorridorSum> corridor_tail_constant(const Lattice& lattice);
+/// C in P(a path from a uniform start > t) ~ C / t, 0 without a corridor: for a 2D lattice with one disc that does
+/// not overlap its translates, as a sum in binary64. (The exact search lists every corridor, which is slow for
+/// 10^5.) `of_limit` (if given) becomes true if it is not the sum over corridors, which would be millions, but its
+/// limit r -> 0, which then differs by less than 1e-5. Empty if there are millions, but the limit is not close. This
+/// happens in a slender cell.
+std::optional<double> corridor_tail_constant(const Lattice& lattice, bool* of_limit = nullptr);
 
 }  // namespace lorentz::flights

@@ -23,11 +23,12 @@ struct TailBin {
 };
 
 // The bin from `from` to `to`, or without end.
-TailBin bin_of(const SlowTail& tail, double total, double from, std::optional<double> to, double count) {
-  const auto term = [&](double power) {
-    return total * (std::pow(from, -power) - (to ? std::pow(*to, -power) : 0));
+TailBin bin_of(double power, double approach, double total, double from, std::optional<double> to,
+               double count) {
+  const auto term = [&](double its) {
+    return total * (std::pow(from, -its) - (to ? std::pow(*to, -its) : 0));
   };
-  return {term(tail.power), term(tail.power + tail.approach), count};
+  return {term(power), term(power + approach), count};
 }
 
 struct TailFit {
@@ -53,7 +54,7 @@ TailFit weighted_fit(const std::vector<TailBin>& rows, const std::optional<TailF
 
 std::optional<TailConstant> tail_constant(std::span<const double> edges,
                                           std::span<const std::uint64_t> counts, std::uint64_t total,
-                                          const SlowTail& tail, double from) {
+                                          double power, double approach, double from) {
   check_bins(edges, counts);
   std::size_t first = 0;
   while (first < edges.size() && edges[first] < from) ++first;
@@ -61,8 +62,8 @@ std::optional<TailConstant> tail_constant(std::span<const double> edges,
   TailConstant result;
   for (std::size_t i = first; i < edges.size(); ++i) {
     const auto to = i + 1 < edges.size() ? std::optional(edges[i + 1]) : std::nullopt;
-    bins.push_back(
-        bin_of(tail, static_cast<double>(total), edges[i], to, static_cast<double>(counts[i + 1])));
+    bins.push_back(bin_of(power, approach, static_cast<double>(total), edges[i], to,
+                          static_cast<double>(counts[i + 1])));
     result.count += counts[i + 1];
   }
   const auto all = merged(bins, [](const TailBin& bin) { return bin.count >= kLeastCount; });

@@ -132,11 +132,12 @@ std::optional<Tail> tail_of_small_discs(const Scene& scene, Ensemble ensemble) {
   const Atom* disc = only_ball(scene, 2);
   if (!disc || disc->radius > kSmall * std::sqrt(cell_volume(scene.lattices[0], 2))) return std::nullopt;
   if (!mean_free_path_of(scene).value) return std::nullopt;  // the sum is for discs that don't overlap
-  const auto sum = corridor_tail_constant(scene.lattices[0]);
-  return tail_of_channels(scene, ensemble, sum ? std::optional(sum->value) : std::nullopt,
-                          !sum            ? "of the corridors; too many to be added up"
-                          : sum->of_limit ? "of the limit law: there are too many corridors to be added up"
-                                          : "of the corridors");
+  bool of_limit = false;
+  const auto sum = corridor_tail_constant(scene.lattices[0], &of_limit);
+  return tail_of_channels(scene, ensemble, sum,
+                          !sum       ? "of the corridors; too many to be added up"
+                          : of_limit ? "of the limit law: there are too many corridors to be added up"
+                                     : "of the corridors");
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ TEST_CASE("What killed processes left is taken away by the next, and nothing els
   const pid_t child = ::fork();
   if (child == 0) {
     WholeFile file(path);
-    Beside store(path, Beside::Kind::folder);
+    Beside store(path, true);
     std::ofstream(store.path() + "/store") << "half";
     ::raise(SIGKILL);
   }
@@ -148,7 +148,7 @@ TEST_CASE("What killed processes left is taken away by the next, and nothing els
   for (const std::string& name : others) folder.write(name, "mine\n");
   std::filesystem::create_symlink(path, folder.file("f.00000000000000aa.new"));
   {
-    const Beside alive(folder.file("h"), Beside::Kind::file);
+    const Beside alive(folder.file("h"));
     // At a place that this process has not written to yet. (A process looks once.)
     const std::string other = folder.write("h.00000000000000bb.new", "left by another\n");
     const Run run =

@@ -40,32 +40,6 @@ TEST_CASE("A time is counted in the bin between whose edges it lies", "[flights]
   }
 }
 
-TEST_CASE("Ranges of blocks", "[flights]") {
-  Ranges ranges;
-  for (const std::uint64_t block : {5, 1, 3, 2, 9}) ranges.insert(block);
-  using All = std::map<std::uint64_t, std::uint64_t>;
-  CHECK(ranges.all() == All{{1, 3}, {5, 5}, {9, 9}});
-  CHECK(ranges.size() == 5);
-  CHECK(ranges.contains(3));
-  CHECK_FALSE(ranges.contains(4));
-  CHECK_THROWS_AS(ranges.insert(2), std::invalid_argument);
-  Ranges others;
-  others.insert(20, 30);
-  others.insert(6, 8);
-  Ranges both = ranges;
-  both.add(others);
-  CHECK(both.all() == All{{1, 3}, {5, 9}, {20, 30}});
-  CHECK_THROWS_AS(both.add(others), std::invalid_argument);
-  for (const auto& [first, last] : All{{30, 31}, {8, 20}, {0, ~std::uint64_t{0}}, {3, 2}})
-    CHECK_THROWS_AS(both.insert(first, last), std::invalid_argument);
-  CHECK(both.all() == All{{1, 3}, {5, 9}, {20, 30}});
-  both.insert(4);
-  both.insert(31, ~std::uint64_t{0});
-  CHECK(both.all() == All{{1, 9}, {20, ~std::uint64_t{0}}});
-  CHECK(both.contains(~std::uint64_t{0}));
-  CHECK_FALSE(both.contains(0));
-}
-
 namespace {
 
 Account drawn_account(std::uint64_t seed, int flights) {
@@ -74,7 +48,7 @@ Account drawn_account(std::uint64_t seed, int flights) {
   account.tally = FlightTally(-3);
   for (int i = 0; i < flights; ++i) account.tally.count_hit(random.octave(-50, 70));
   account.tally.never = seed, account.tally.undecided = 2 * seed, account.tally.inside = 3;
-  account.done.insert(10 * seed, 10 * seed + 4);
+  account.done += Blocks::interval_type(10 * seed, 10 * seed + 4);
   return account;
 }
 
@@ -89,19 +63,6 @@ TEST_CASE("An account is read as it was written", "[flights]") {
   const std::string text = drawn_account(7, 3).text();
   for (std::size_t cut = 0; cut + 2 < text.size(); cut += 7)
     CHECK_THROWS_AS(Account::of(text.substr(0, cut)), InputError);
-}
-
-// What takes n^2 steps takes minutes here, what takes n log n takes none.
-TEST_CASE("Ranges: every second of a million blocks, and then the others from the end", "[flights]") {
-  constexpr std::uint64_t kBlocks = 1'000'000;
-  Ranges ranges;
-  for (std::uint64_t block = 0; block < kBlocks; block += 2) ranges.insert(block);
-  CHECK(ranges.all().size() == kBlocks / 2);
-  Ranges sum = ranges, others;
-  for (std::uint64_t block = kBlocks; block-- > 0;)
-    if (!ranges.contains(block)) others.insert(block);
-  sum.add(others);
-  CHECK(sum.all() == std::map<std::uint64_t, std::uint64_t>{{0, kBlocks - 1}});
 }
 
 TEST_CASE("Accounts of one plan add up, in any order", "[flights]") {

@@ -92,7 +92,7 @@ std::vector<NamedLaw> all_laws() {
   for (const auto& [name, scene] : scenes)
     for (const auto ensemble : {Ensemble::uniform, Ensemble::surface})
       laws.push_back({name + (ensemble == Ensemble::uniform ? ", uniform" : ", surface"),
-                      laws_of(scene, ensemble).laws.at(0)});
+                      law_of(scene, ensemble).value()});
   return laws;
 }
 
@@ -192,7 +192,7 @@ TEST_CASE("Flights: means, survivals and p-values of 1000 seeds", "[flights][cov
   const Scene finite = test::one_atom(2, {Vec{2 + w, 0, 0}, {(2 + w) / 2, (2 + w) * std::sqrt(0.75), 0}}, 1);
   const double exact = mean_free_path_of(finite).value.value();
   const Scene small = unit_scene(2, 1e-5);
-  const Law law = laws_of(small, Ensemble::uniform).laws.at(0);
+  const Law law = law_of(small, Ensemble::uniform).value();
   int means = 0;
   std::map<double, std::vector<double>> survivals;  // by time, each seed's
   std::vector<int> tenths(10);

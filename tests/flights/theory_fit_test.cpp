@@ -241,7 +241,7 @@ TEST_CASE("Tail constant: extrapolated, and its error is one", "[flights][fit]")
         counts[i + 1] =
             static_cast<std::uint64_t>(std::max(0.0, std::round(expected + normal * std::sqrt(expected))));
       }
-      const auto found = tail_constant(edges, counts, kPaths, {power, 2.0 / 3}, 100);
+      const auto found = tail_constant(edges, counts, kPaths, power, 2.0 / 3, 100);
       REQUIRE(found);
       CHECK(found->from == 104);
       const double off = (found->value - 5) / found->error;
@@ -260,15 +260,15 @@ TEST_CASE("Tail constant: exactly of exact counts, nothing where there is too li
   const std::vector<double> edges{1, 2, 4, 8, 16};
   // 2^12 paths with P(path > t) = 1/t: no second term.
   const Counts counts{0, 2048, 1024, 512, 256, 256};
-  const auto found = tail_constant(edges, counts, 4096, {1, 1}, 1);
+  const auto found = tail_constant(edges, counts, 4096, 1, 1, 1);
   REQUIRE(found);
   CHECK(found->value == Approx(1).epsilon(1e-12));
   CHECK(found->count == 4096);
   // Twice as many flights of which half are shorter: half the constant.
-  CHECK(tail_constant(edges, counts, 8192, {1, 1}, 1)->value == Approx(0.5).epsilon(1e-12));
-  CHECK(tail_constant(edges, counts, 4096, {1, 1}, 1.5)->count == 2048);
-  CHECK_FALSE(tail_constant(edges, counts, 4096, {1, 1}, 3));
-  CHECK_FALSE(tail_constant(edges, counts, 4096, {1, 1}, 100));
-  CHECK_FALSE(tail_constant(edges, Counts{0, 40, 30, 20, 4, 0}, 94, {1, 1}, 1));
-  CHECK_THROWS_AS(tail_constant(edges, Counts{1, 2}, 3, {1, 1}, 1), std::invalid_argument);
+  CHECK(tail_constant(edges, counts, 8192, 1, 1, 1)->value == Approx(0.5).epsilon(1e-12));
+  CHECK(tail_constant(edges, counts, 4096, 1, 1, 1.5)->count == 2048);
+  CHECK_FALSE(tail_constant(edges, counts, 4096, 1, 1, 3));
+  CHECK_FALSE(tail_constant(edges, counts, 4096, 1, 1, 100));
+  CHECK_FALSE(tail_constant(edges, Counts{0, 40, 30, 20, 4, 0}, 94, 1, 1, 1));
+  CHECK_THROWS_AS(tail_constant(edges, Counts{1, 2}, 3, 1, 1, 1), std::invalid_argument);
 }

@@ -62,7 +62,7 @@ Query surface_start(const Scene& scene, cases::Random& random) {
 
 ChiSquared flown(const Scene& scene, Ensemble ensemble, const std::string& name) {
   const oracle::Certified engine(scene);
-  const Law law = laws_of(scene, ensemble).laws.at(0);
+  const Law law = law_of(scene, ensemble).value();
   std::vector<double> edges;
   for (int k = -6; k < 5; ++k)
     for (int j = 0; j < 8; ++j) edges.push_back(law.scale * std::ldexp(1 + j / 8.0, k));
