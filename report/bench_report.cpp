@@ -65,15 +65,17 @@ std::optional<PowerFit> power_fit(const std::vector<std::pair<double, double>>& 
   return fit;
 }
 
-std::vector<BenchFit> bench_fits(const std::vector<Cell>& cells) {
+std::vector<PowerFit> bench_fits(const std::vector<Cell>& cells) {
   std::map<std::tuple<std::string, std::string, std::string>, std::vector<std::pair<double, double>>> points;
   for (const Cell& cell : cells)
     if (!cell.skipped && cell.radius && *cell.radius <= kSmall && cell.speed && cell.speed->ns_median > 0)
       points[{cell.scene, cell.engine, cell.difficulty}].emplace_back(*cell.radius, cell.speed->ns_median);
-  std::vector<BenchFit> fits;
+  std::vector<PowerFit> fits;
   for (const auto& [key, values] : points)
-    if (const auto fit = power_fit(values))
-      fits.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), *fit});
+    if (const auto fit = power_fit(values)) {
+      fits.push_back(*fit);
+      std::tie(fits.back().scene, fits.back().engine, fits.back().difficulty) = key;
+    }
   return fits;
 }
 
@@ -104,13 +106,13 @@ std::string table_of(const std::vector<Cell>& cells) {
   return table.text();
 }
 
-std::string fits_text(const std::vector<BenchFit>& fits) {
+std::string fits_text(const std::vector<PowerFit>& fits) {
   if (fits.empty()) return "";
   Table table({"ns as r to the power", "engine", "power", "95 %", "r from", "r to"});
-  for (const auto& [scene, engine, difficulty, fit] : fits)
-    table.add({fmt::format("{}, {}", scene, difficulty), engine, fmt::format("{:.3f}", fit.exponent),
-               fmt::format("{:.3f} to {:.3f}", fit.low, fit.high), fmt::format("{:.3g}", fit.from),
-               fmt::format("{:.3g}", fit.to)});
+  for (const PowerFit& fit : fits)
+    table.add({fmt::format("{}, {}", fit.scene, fit.difficulty), fit.engine,
+               fmt::format("{:.3f}", fit.exponent), fmt::format("{:.3f} to {:.3f}", fit.low, fit.high),
+               fmt::format("{:.3g}", fit.from), fmt::format("{:.3g}", fit.to)});
   return table.text() + '\n';
 }
 
@@ -234,10 +236,9 @@ std::string bench_csv(const std::vector<Cell>& cells) {
 std::string bench_json(const std::vector<Cell>& cells, const std::string& manifest, const Claim& claim) {
   constexpr const char* kNewLine = "\n";
   const auto fits = bench_fits(cells);
-  const auto fit = [](json::Members& one, const BenchFit& its) {
-    one.add("scene", its.scene, "engine", its.engine, "difficulty", its.difficulty, "exponent",
-            its.fit.exponent, "low", its.fit.low, "high", its.fit.high, "from", its.fit.from, "to",
-            its.fit.to);
+  const auto fit = [](json::Members& one, const PowerFit& its) {
+    one.add("scene", its.scene, "engine", its.engine, "difficulty", its.difficulty, "exponent", its.exponent,
+            "low", its.low, "high", its.high, "from", its.from, "to", its.to);
   };
   return json::line_of([&](json::Members& page) {
     page.add("format", 1, "kind", "bench", "title", "Speed against error", "manifest", json::Raw{manifest});

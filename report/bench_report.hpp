@@ -16,6 +16,7 @@ struct PowerFit {
   double exponent = 0;
   double low = 0, high = 0;  ///< 95 % interval by Student's t, for points that scatter about the power law
   double from = 0, to = 0;   ///< the smallest and the largest x
+  std::string scene = {}, engine = {}, difficulty = {};  ///< whose it is
 };
 
 /// The exponent of y ~ x^exponent. Points are pairs (x, y), both finite and above zero; throws
@@ -23,15 +24,10 @@ struct PowerFit {
 /// are equal.
 std::optional<PowerFit> power_fit(const std::vector<std::pair<double, double>>& points);
 
-/// The median time of an engine as a power of the radius, in one scene and at one difficulty.
-struct BenchFit {
-  std::string scene, engine, difficulty;
-  PowerFit fit;
-};
-
-/// Fits for all that were measured at three or more radii up to 0.01. At larger radii the obstacles, not the
+/// The median time of each engine as a power of the radius, in one scene and at one difficulty: for all that were
+/// measured at three or more radii up to 0.01. At larger radii the obstacles, not the
 /// space between them, determine the time.
-std::vector<BenchFit> bench_fits(const std::vector<Cell>& cells);
+std::vector<PowerFit> bench_fits(const std::vector<Cell>& cells);
 
 /// Table, fits, and one conclusion per engine.
 std::string bench_text(const std::vector<Cell>& cells, const std::vector<std::string>& engines);

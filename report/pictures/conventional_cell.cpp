@@ -1,9 +1,9 @@
-#include "report/pictures/conventional_cell.hpp"
-
+// The cube that shows the structure of a centred cubic lattice, which its primitive cell does not.
 #include <cmath>
 #include <vector>
 
 #include <lorentz/geometry.hpp>
+#include "report/pictures/drawing_parts.hpp"
 #include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::pictures {

@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <lorentz/geometry.hpp>
 #include "report/pictures/scene_drawing.hpp"
 #include "report/pictures/svg.hpp"
 #include "src/problem/scene_geometry.hpp"
@@ -141,6 +143,52 @@ struct PaperWindow {
   double width() const { return scale * box.width(); }
   double height() const { return scale * box.height(); }
 };
+
+// ---- in space
+
+/// The cell that is drawn for a lattice.
+struct ShownCell {
+  std::array<Vec, 3> vectors{};
+  int primitive_cells = 1;  ///< contained in it: 1, or in a cube 2 (bcc) or 4 (fcc)
+};
+
+/// The cube of a body-centred or face-centred cubic lattice (3D; rounded vectors are recognised), or the
+/// primitive cell.
+ShownCell shown_cell(const Lattice& lattice, const std::array<Vec, 3>& short_vectors);
+
+/// A parallelepiped.
+struct DrawnBlock {
+  Vec corner{};
+  std::array<Vec, 3> edges{};
+
+  Vec centre() const;
+  Vec vertex(int number) const {  ///< 0 to 7
+    Vec p = corner;
+    for (int i = 0; i < 3; ++i)
+      if (number >> i & 1) p = sum(p, edges[i]);
+    return p;
+  }
+};
+
+/// A flat piece of { x : normal.x = level }.
+struct Facet {
+  std::vector<Vec> corners;
+  Vec normal{};
+  double level = 0;
+  std::size_t way = 0;  ///< number of its free way
+};
+
+/// The two faces of a layer in the block, for the translate nearest to the block's middle; fewer if they miss
+/// the block.
+std::vector<Facet> faces_of(const Scene& scene, const FreeWay& layer, std::size_t number,
+                            const DrawnBlock& block);
+
+/// The part of the facet where sign * (normal.x - level) >= 0.
+Facet part_beside(const Facet& facet, const Vec& normal, double level, int sign);
+
+/// The ends of a cylinder's middle line in the block, for the translate of which the longest part is there.
+std::optional<std::array<Vec, 2>> axis_of(const Scene& scene, const FreeWay& cylinder,
+                                          const DrawnBlock& block);
 
 /// Pictures by dimension.
 Drawing draw_scene_2d(const Scene& scene, const DrawOptions& options,

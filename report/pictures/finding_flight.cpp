@@ -328,30 +328,27 @@ FlightPanel draw_flight(Svg& svg, const FindingCase& finding, const Panel& panel
 
 // The view along the flight, which appears as a point, with the shadows of the obstacles around it.
 void draw_side_view(Svg& svg, const FindingCase& finding, const Axes& axes, const Panel& panel) {
-  struct ShadowAlong {
-    ObstacleId obstacle;
-    double x, y;  // of its centre, in the unit of length
-    EllipseShape shape;
+  const auto shadow_along = [&](const ObstacleId& id) {
+    const Vec centre = finding.surroundings.centre(finding.query, PlaceOnLine::at(id), id);
+    return ShapeSection{{dot(centre, axes.depth), dot(centre, axes.across)},
+                        shadow_of(finding.atom_of(id), 3, axes.depth, axes.across)};
   };
-  std::vector<ShadowAlong> shadows;
   double reach = 0;
   for (const ObstacleId& id : marked_obstacles(finding)) {
-    const Vec centre = finding.surroundings.centre(finding.query, PlaceOnLine::at(id), id);
-    shadows.push_back({id, dot(centre, axes.depth), dot(centre, axes.across),
-                       shadow_of(finding.atom_of(id), 3, axes.depth, axes.across)});
-    const ShadowAlong& one = shadows.back();
-    reach = std::max(reach, std::max(std::fabs(one.x), std::fabs(one.y)) + one.shape.rx);
+    const ShapeSection one = shadow_along(id);
+    reach = std::max(reach, std::max(std::fabs(one.centre.x), std::fabs(one.centre.y)) + one.shape.rx);
   }
   if (!(reach > 0) || !std::isfinite(reach)) return;
   const double scale = 0.95 * panel.height / 2 / reach;
   const Point middle{panel.left + panel.width / 2, panel.middle()};
   open_clip(svg, panel);
-  for (const ShadowAlong& one : shadows) {
-    const Ink ink = *ink_of(finding, one.obstacle);
-    svg.ellipse({on_paper(middle.x + scale * one.x), on_paper(middle.y - scale * one.y)},
+  for (const ObstacleId& id : marked_obstacles(finding)) {
+    const ShapeSection one = shadow_along(id);
+    const Ink ink = *ink_of(finding, id);
+    svg.ellipse({on_paper(middle.x + scale * one.centre.x), on_paper(middle.y - scale * one.centre.y)},
                 {on_paper(std::max(1.0, scale * one.shape.rx)), on_paper(std::max(1.0, scale * one.shape.ry)),
                  -one.shape.angle},
-                paint(ink, ink, 1.2) + " fill-opacity=\"0.2\"", hint_of(finding, one.obstacle));
+                paint(ink, ink, 1.2) + " fill-opacity=\"0.2\"", hint_of(finding, id));
   }
   svg.ellipse(middle, {2.5, 2.5, 0}, paint(kInk), "the line of the flight, seen along it");
   close_clip(svg);

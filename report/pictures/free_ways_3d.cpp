@@ -1,9 +1,9 @@
-#include "report/pictures/free_ways_3d.hpp"
-
+// Layers and cylinders that are free forever, cut to a block of cells.
 #include <algorithm>
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
+#include "report/pictures/drawing_parts.hpp"
 
 namespace lorentz::pictures {
 namespace {
@@ -77,20 +77,25 @@ std::vector<Facet> faces_of(const Scene& scene, const FreeWay& layer, std::size_
   return faces;
 }
 
-std::optional<Axis> axis_of(const Scene& scene, const FreeWay& cylinder, const DrawnBlock& block) {
+std::optional<std::array<Vec, 2>> axis_of(const Scene& scene, const FreeWay& cylinder,
+                                          const DrawnBlock& block) {
   const auto& u = scene.lattices[0].vectors;
   const auto rows = dual_of(u, 3);
   Vec near = cylinder.point;
   for (int i = 0; i < 3; ++i)
     near = sum(near, scaled(u[i], std::round(dot(rows[i], plus(block.centre(), -1, cylinder.point)))));
-  std::optional<Axis> longest;
+  std::optional<std::array<Vec, 2>> longest;
+  double most = 0;
   for (int n = 0; n < 27; ++n) {
     const Vec p =
         sum(near, sum(scaled(u[0], n % 3 - 1), sum(scaled(u[1], n / 3 % 3 - 1), scaled(u[2], n / 9 - 1))));
     double first = 0, last = 0;
     if (!part_in_block(block, p, cylinder.vector, first, last)) continue;
-    const Axis axis{sum(p, scaled(cylinder.vector, first)), sum(p, scaled(cylinder.vector, last))};
-    if (!longest || axis.length() > 1.001 * longest->length()) longest = axis;
+    const Vec from = sum(p, scaled(cylinder.vector, first)), to = sum(p, scaled(cylinder.vector, last));
+    const double reach = length(plus(to, -1, from));
+    if (longest && !(reach > 1.001 * most)) continue;
+    longest = {from, to};
+    most = reach;
   }
   return longest;
 }

@@ -125,16 +125,14 @@ Page::Page(const Scene& scene, const DrawOptions& options, const Legend& legend,
   if (options.height <= 0) return;
   Svg scratch;
   constexpr double kOneNote = 18, kLeast = 40;
-  const double below =
-      options.legend ? add_legend(scratch, scene, options, legend, kLegendGap) + kOneNote : kMargin / 2;
+  const double below = add_legend(scratch, scene, options, legend, kLegendGap) + kOneNote;
   height = std::max(kLeast, options.height - top - below - kBottomMargin);
 }
 
 std::string finished(Svg& svg, const Scene& scene, const DrawOptions& options, const Legend& legend,
                      double bottom) {
   if (!options.title.empty()) svg.text({kMargin, 25}, options.title, "font-size=\"16\" font-weight=\"bold\"");
-  bottom =
-      options.legend ? add_legend(svg, scene, options, legend, bottom + kLegendGap) : bottom + kMargin / 2;
+  bottom = add_legend(svg, scene, options, legend, bottom + kLegendGap);
   const double height =
       options.height > 0 ? std::min(options.height, bottom + kBottomMargin) : bottom + kBottomMargin;
   return svg.document(options.width, height, options.title);

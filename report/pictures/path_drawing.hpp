@@ -17,10 +17,9 @@ struct PathDrawing {
   std::vector<Vec> other;     ///< another path beside it, or empty
   std::size_t parting = 0;    ///< index in `other` of the first place in which they differ
   std::string other_name;     ///< the name of the other path
-  double width = 800;         ///< in pixels, at most
 };
 
-/// The picture as SVG. Obstacles are left out if there are too many to be seen.
+/// The picture as SVG, at most 800 pixels wide. Obstacles are left out if there are too many to be seen.
 std::string draw_path(const PathDrawing& drawing);
 
 }  // namespace lorentz::pictures

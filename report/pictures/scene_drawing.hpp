@@ -31,7 +31,6 @@ struct DrawOptions {
   std::string title;                            ///< none if empty
   double width = 800;                           ///< of the picture, in pixels
   double height = 0;                            ///< maximum, legend included; 0: no limit
-  bool legend = true;                           ///< with the notes below it
   std::optional<std::array<double, 4>> window;  ///< 2D: x0, y0, x1, y1, with x0 < x1 and y0 < y1
   std::vector<FreeWay> ways;
 };

@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
-#include "report/pictures/conventional_cell.hpp"
 #include "report/pictures/drawing_parts.hpp"
-#include "report/pictures/free_ways_3d.hpp"
 
 namespace lorentz::pictures {
 namespace {
@@ -166,9 +164,9 @@ void Picture3D::explain() {
 }
 
 // Extended beyond the block at both ends, to show that it goes through.
-Axis longer(const Axis& axis) {
-  const Vec more = scaled(plus(axis.to, -1, axis.from), 0.15);
-  return {plus(axis.from, -1, more), sum(axis.to, more)};
+std::array<Vec, 2> longer(const std::array<Vec, 2>& axis) {
+  const Vec more = scaled(plus(axis[1], -1, axis[0]), 0.15);
+  return {plus(axis[0], -1, more), sum(axis[1], more)};
 }
 
 void Picture3D::fit() {
@@ -191,8 +189,8 @@ void Picture3D::fit() {
   for (int n = 0; n < (has_cell ? 8 : 0); ++n) box_.include(eye_(block(reach).vertex(n)));
   for (const std::size_t number : legend_.ways)
     if (options_.ways[number].kind == FreeWay::Kind::cylinder) {
-      const Axis axis = longer(*axis_of(scene_, options_.ways[number], block()));
-      for (const Vec& end : {axis.from, axis.to}) box_.include(eye_(end), options_.ways[number].width / 2);
+      for (const Vec& end : longer(*axis_of(scene_, options_.ways[number], block())))
+        box_.include(eye_(end), options_.ways[number].width / 2);
     }
   const double margin = 0.02 * box_.width();
   for (int k = 0; k < 2; ++k) {
@@ -293,8 +291,8 @@ void Picture3D::add_cylinders() {
   for (const std::size_t number : legend_.ways) {
     const FreeWay& way = options_.ways[number];
     if (way.kind != FreeWay::Kind::cylinder) continue;
-    const Axis axis = longer(*axis_of(scene_, way, block()));
-    add_line(axis.from, axis.to,
+    const auto [from, to] = longer(*axis_of(scene_, way, block()));
+    add_line(from, to,
              {way_colour(number), std::max(1.5, scale_ * way.width), false, " stroke-opacity=\"0.6\"",
               " stroke-opacity=\"0.15\""});
   }

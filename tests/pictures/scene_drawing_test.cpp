@@ -4,9 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <lorentz/geometry.hpp>
-#include "report/pictures/conventional_cell.hpp"
 #include "report/pictures/drawing_parts.hpp"
-#include "report/pictures/free_ways_3d.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
