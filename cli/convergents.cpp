@@ -11,24 +11,21 @@ namespace {
 
 struct ConvergentsOptions {
   std::string slope, run = "1";
-  std::uint64_t limit = 10'000;
   bool json = false;
 };
 
 int act(const ConvergentsOptions& options) {
   const double rise = parse_number(options.slope), run = parse_number(options.run);
   if (run == 0) throw InputError("the run is zero: the slope is infinite");
-  const auto convergents = oracle::convergents(rise, run, options.limit);
-  const bool complete = convergents.back().remainder_exact == "0";
+  constexpr std::size_t kAll = 10'000;  // a quotient of two binary64 has less than 3200 terms
+  const auto convergents = oracle::convergents(rise, run, kAll);
   if (options.json) {
     print(json::line_of([&](json::Members& object) {
       object.add("rise", rise, "run", run, "convergents",
-                 json::objects(convergents,
-                               [](json::Members& one, const oracle::Convergent& c) {
-                                 one.add("a", c.a, "p", c.p, "q", c.q, "remainder", c.remainder,
-                                         "remainder_exact", c.remainder_exact);
-                               }),
-                 "complete", complete);
+                 json::objects(convergents, [](json::Members& one, const oracle::Convergent& c) {
+                   one.add("a", c.a, "p", c.p, "q", c.q, "remainder", c.remainder, "remainder_exact",
+                           c.remainder_exact);
+                 }));
     }));
     return kDone;
   }
@@ -39,7 +36,6 @@ int act(const ConvergentsOptions& options) {
         {std::to_string(i), c.a.decimal(), c.p.decimal(), c.q.decimal(), fmt::format("{:.6g}", c.remainder)});
   }
   print(table.text());
-  if (!complete) print(fmt::format("... (stopped after --limit {} terms)\n", options.limit));
   return kDone;
 }
 
@@ -54,7 +50,6 @@ Command convergents_command() {
           {"slope", &options->slope, "TEXT",
            "the slope m, or its rise (v_2); decimal or hexadecimal, taken as a binary64", kRequired},
           {"run", &options->run, "TEXT", "the run (v_1): the slope is rise / run, exactly"},
-          {"--limit", Whole{&options->limit, 1, 1'000'000}, "N", "print N terms at most"},
           {"--json", &options->json, "", "one JSON object, the remainders also as exact fractions"},
       },
 

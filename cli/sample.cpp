@@ -24,10 +24,7 @@ struct SampleOptions {
   std::string scene = "square", kind = "uniform", format = "ndjson", precision = "binary64";
   std::uint64_t count = 1000, seed = starts::kDefaultSeed;
   std::optional<double> radius;
-  bool strict = false;
 };
-
-enum class SampleFormat { ndjson, csv, npy };
 
 void append(QueryRows& rows, const Query& query, int dimension) {
   ++rows.count;
@@ -42,51 +39,36 @@ void append(QueryRows& rows, const Query& query, int dimension) {
 }
 
 // `with_from`: the starts leave obstacles.
-void append_front(std::string& out, SampleFormat format, std::uint64_t count, const Scene& scene,
-                  bool with_from) {
-  switch (format) {
-    case SampleFormat::ndjson:
-      return append_scene_line(out, scene);
-    case SampleFormat::csv:
-      return append_csv_query_names(out, scene.dimension, with_from);
-    case SampleFormat::npy:
-      out += npy_query_header(count, scene.dimension, with_from);
-  }
+void append_front(std::string& out, const SampleOptions& options, const Scene& scene, bool with_from) {
+  if (options.format == "ndjson") append_scene_line(out, scene);
+  if (options.format == "csv") append_csv_query_names(out, scene.dimension, with_from);
+  if (options.format == "npy") out += npy_query_header(options.count, scene.dimension, with_from);
 }
 
-void append_rows(std::string& out, SampleFormat format, const QueryRows& rows, std::uint64_t first,
+void append_rows(std::string& out, const std::string& format, const QueryRows& rows, std::uint64_t first,
                  const Scene& scene) {
-  switch (format) {
-    case SampleFormat::ndjson:
-      for (std::size_t i = 0; i < rows.count; ++i)
-        append_query_line(out, std::to_string(first + i), rows.query(i, scene.dimension), scene);
-      return;
-    case SampleFormat::csv:
-      return append_csv_queries(out, rows, scene);
-    case SampleFormat::npy:
-      return append_npy_queries(out, rows, scene.dimension);
-  }
+  if (format == "csv") return append_csv_queries(out, rows, scene);
+  if (format == "npy") return append_npy_queries(out, rows, scene.dimension);
+  for (std::size_t i = 0; i < rows.count; ++i)
+    append_query_line(out, std::to_string(first + i), rows.query(i, scene.dimension), scene);
 }
 
 int act(const SampleOptions& options) {
   constexpr std::uint64_t kRowsTogether = 1024;
   const Kind kind = starts::kind_named(options.kind, "--kind");
-  const auto format =
-      static_cast<SampleFormat>(index_of_name(options.format, {"ndjson", "csv", "npy"}, "--format"));
-  const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
+  index_of_name(options.format, {"ndjson", "csv", "npy"}, "--format");  // throws if it is none of them
   const NumberFormat precision = number_format_named(options.precision);
-  const Scene scene =
-      rounded_scene(load_scene(options.scene, options.radius, unknown), precision, options.scene);
+  const Scene scene = rounded_scene(load_scene(options.scene, options.radius), precision, options.scene);
   const FreeStarts starts(scene, kind, options.seed, precision);
   const question::Listener listener = terminal();
   Output output;
   QueryRows rows;
-  append_front(output.buffer(), format, options.count, scene, kind == Kind::surface);
+  append_front(output.buffer(), options, scene, kind == Kind::surface);
   for (std::uint64_t first = 0; first < options.count; first += rows.count) {
     rows.clear();
     for (const Query& start : starts.some(first, std::min(kRowsTogether, options.count - first)))
       append(rows, start, scene.dimension);
-    append_rows(output.buffer(), format, rows, first, scene);
+    append_rows(output.buffer(), options.format, rows, first, scene);
     output.flush_if_due();
     report(listener, "drawing", first + rows.count, options.count);
   }
@@ -115,7 +97,6 @@ Command sample_command() {
           {"--format", &options->format, "ndjson|csv|npy",
            "ndjson: a stream that begins with the scene; csv, npy (NumPy): columns of numbers "
            "(docs/formats.md), which first-hit reads with --scene"},
-          {"--strict", &options->strict, "", kStrictKeysHelp},
       },
 
       "No start lies in an obstacle (but the one it leaves): that is decided exactly. The first N starts of "

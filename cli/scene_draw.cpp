@@ -28,11 +28,8 @@ struct SceneDrawOptions {
   std::optional<double> radius;
   std::optional<std::uint64_t> channels;
   std::string output = "-", size = "800";
-  bool no_legend = false;
 };
 
-// Whether the file exists and is not an SVG, so that overwriting it would lose other data. An empty file does
-// not count.
 // No program opens a file x.png that contains an SVG.
 void refuse_other_formats(const std::string& file) {
   const std::string extension = std::filesystem::path(file).extension();
@@ -139,7 +136,6 @@ int draw(const SceneDrawOptions& options) {
     throw InputError("--radius: needs a scene (those of a stream say their radii themselves)");
   DrawOptions drawing_options;
   drawing_options.title = title_of(options);
-  drawing_options.legend = !options.no_legend;
   drawing_options.window = window_of(options);
   const PictureSize size = picture_size(options.size);
   drawing_options.width = size.width, drawing_options.height = size.height.value_or(0);
@@ -185,7 +181,6 @@ Command scene_draw_command() {
           {"--window", &options->window, "X0,Y0,X1,Y1", "2D: the part of the plane to show"},
           {"--size", &options->size, "W[xH]", "in pixels: the width, or what the picture is to fit into"},
           {"--title", &options->title, "TEXT", "instead of the scene's name; \"\" for none"},
-          {"--no-legend", &options->no_legend, "", "leave out the legend, and the notes under it"},
           {"-o,--output", &options->output, "FILE",
            "file to write, whole or not at all; a file that is not an SVG is left as it is; - is "
            "standard output",

@@ -32,7 +32,7 @@ using survival::Rival;
 struct TrajectoryOptions {
   std::string starts = "-", precision = "binary64";
   std::optional<std::string> scene, radius, time, engine, csv, svg;
-  std::optional<std::uint64_t> collisions, digits, bits, most_bits;
+  std::optional<std::uint64_t> collisions, digits, most_bits;
   bool detail = false, strict = false, json = false;
 };
 
@@ -52,7 +52,6 @@ Journey journey_of(const TrajectoryOptions& options) {
   if (options.time) journey.time = positive_rational(*options.time, "--time");
   if (options.digits) journey.digits = static_cast<int>(*options.digits);
   if (options.most_bits) journey.most_bits = static_cast<long>(*options.most_bits);
-  if (options.bits) journey.first_bits = static_cast<long>(*options.bits);
   journey.states = options.detail;
   journey.stop = &Interrupt::came();
   return journey;
@@ -98,13 +97,27 @@ std::string in_table(const Id& id) {
   return csv_field(is_plain_text ? id.substr(1, id.size() - 2) : id);
 }
 
-// The output for one start: lines on stdout, rows of a table, a path for the picture.
-class StartReport {
+// Follows starts, and reports each: lines on stdout, rows of a table, a path for the picture.
+class TrajectoryRun {
  public:
-  StartReport(Output& out, const TrajectoryOptions& options) : out_(out), options_(options) {
+  TrajectoryRun(Output& out, const TrajectoryOptions& options)
+      : engine_(options.engine ? std::optional(question::engine_named(*options.engine)) : std::nullopt),
+        journey_(journey_of(options)),
+        precision_(precision_of(options)),
+        out_(out),
+        options_(options) {
     if (options.csv) csv_.emplace(*options.csv);
   }
 
+  void follow(const Id& id, const RationalScene& scene, const Start& start);
+  bool engine_failed() const { return engine_failed_; }
+  const std::optional<pictures::PathDrawing>& picture() const { return picture_; }
+
+  void commit() {
+    if (csv_) csv_->commit();
+  }
+
+ private:
   void begin(const Id& id, const Components& count) {
     const int dimension = count.of_vectors();
     id_ = id;
@@ -150,11 +163,9 @@ class StartReport {
     out_.flush();
   }
 
-  void commit() {
-    if (csv_) csv_->commit();
-  }
-
- private:
+  const std::optional<question::EngineInfo> engine_;
+  const Journey journey_;
+  const Precision precision_;
   Output& out_;
   const TrajectoryOptions& options_;
   std::optional<WholeFile> csv_;
@@ -162,6 +173,8 @@ class StartReport {
   Components components_ = 0;
   int columns_ = 0;
   std::uint64_t number_ = 0;
+  std::optional<pictures::PathDrawing> picture_;  // of the first start
+  bool engine_failed_ = false;
 };
 
 // Adds the end of the path, and the engine's path from the point where they separate.
@@ -178,45 +191,34 @@ void end_drawing(pictures::PathDrawing& drawing, const Arrival& arrival, Rival* 
   drawing.other_name = engine;
 }
 
-struct TrajectoryRun {
-  const TrajectoryOptions& options;
-  std::optional<question::EngineInfo> engine;
-  const Journey& journey;
-  Precision precision;
-  StartReport& report;
-  std::optional<pictures::PathDrawing> picture;  // of the first start
-  bool failed = false;
-};
-
-void follow(TrajectoryRun& run, const Id& id, const RationalScene& scene, const Start& start) {
+void TrajectoryRun::follow(const Id& id, const RationalScene& scene, const Start& start) {
   std::unique_ptr<Rival> rival;
-  if (run.engine) rival = std::make_unique<Rival>(*run.engine, run.precision, scene, start, terminal());
+  if (engine_) rival = std::make_unique<Rival>(*engine_, precision_, scene, start, terminal());
   pictures::PathDrawing* picture = nullptr;
-  if (run.options.svg && !run.picture) {
+  if (options_.svg && !picture_) {
     if (scene.dimension != 2) throw InputError("--svg: draws paths in two dimensions");
-    picture = &run.picture.emplace();
+    picture = &picture_.emplace();
     picture->scene = oracle::nearest(scene);
     picture->path.push_back(oracle::nearest(start).x);
   }
-  run.report.begin(id, oracle::nearest(scene));
-  const Arrival arrival =
-      Itinerary(scene).follow(start, run.journey, [&](const CertifiedCollision& collision) {
-        if (rival) rival->meet(collision);
-        run.report.collision(collision, rival.get());
-        if (picture) {
-          ++picture->collisions;
-          picture->path.push_back(survival::place_of(picture->scene, collision));
-        }
-        return true;
-      });
+  begin(id, oracle::nearest(scene));
+  const Arrival arrival = Itinerary(scene).follow(start, journey_, [&](const CertifiedCollision& met) {
+    if (rival) rival->meet(met);
+    collision(met, rival.get());
+    if (picture) {
+      ++picture->collisions;
+      picture->path.push_back(survival::place_of(picture->scene, met));
+    }
+    return true;
+  });
   if (Interrupt::came()) return;  // an interrupt is not the end of a trajectory
   if (rival && arrival.end != JourneyEnd::undecided)
     rival->finish(arrival.collisions, arrival.end == JourneyEnd::time
-                                          ? std::optional(oracle::nearest(*run.journey.time))
+                                          ? std::optional(oracle::nearest(*journey_.time))
                                           : std::nullopt);
-  run.report.end(arrival, rival.get());
-  run.failed |= rival && rival->failed();
-  if (picture) end_drawing(*picture, arrival, rival.get(), run.options.engine.value_or(""));
+  end(arrival, rival.get());
+  engine_failed_ |= rival && rival->failed();
+  if (picture) end_drawing(*picture, arrival, rival.get(), options_.engine.value_or(""));
   if (arrival.end == JourneyEnd::undecided)
     say("start {}: undecided at collision {} with {} bits (--max-bits allows more; a line that touches an "
         "obstacle, or two obstacles that are entered at once, no precision decides)",
@@ -224,16 +226,11 @@ void follow(TrajectoryRun& run, const Id& id, const RationalScene& scene, const 
 }
 
 int act(const TrajectoryOptions& options) {
-  std::optional<question::EngineInfo> engine;
-  if (options.engine) engine = question::engine_named(*options.engine);
-  const Journey journey = journey_of(options);
-  const Precision precision = precision_of(options);
+  Output output;
+  TrajectoryRun run(output, options);
   StartStream stream(options.starts, scene_of(options),
                      options.strict ? UnknownKeys::errors : UnknownKeys::warned);
-  Output output;
-  StartReport report(output, options);
   RequestedFile svg(options.svg);
-  TrajectoryRun run{options, std::move(engine), journey, precision, report, {}};
   const Interrupt interrupt;
   bool refused = false;
   for (StartItem item; !Interrupt::came() && stream.next(item);) {
@@ -241,7 +238,7 @@ int act(const TrajectoryOptions& options) {
       append_answer_line(output.buffer(), item.id, Answer::error(item.message), 0);
     if (item.kind != StreamItem::Kind::query) continue;
     try {
-      follow(run, item.id, *stream.scene(), item.start);
+      run.follow(item.id, *stream.scene(), item.start);
     } catch (const InputError& error) {
       refused = true;
       say("{}: start {}: {}", stream.lines().name(), item.id, error.what());
@@ -253,13 +250,13 @@ int act(const TrajectoryOptions& options) {
   } catch (const FileError&) {  // after SIGHUP the terminal is gone; the files are still written
     if (!Interrupt::came()) throw;
   }
-  report.commit();
-  if (run.picture) svg.write([&] { return pictures::draw_path(*run.picture); });
+  run.commit();
+  if (run.picture()) svg.write([&] { return pictures::draw_path(*run.picture()); });
   if (Interrupt::came()) {
     say("{}: the last start has no end", Interrupt::what());
     return kFailed;
   }
-  if (run.failed) return kFailed;
+  if (run.engine_failed()) return kFailed;
   return refused || stream.had_bad_input() ? kBadInput : kDone;
 }
 
@@ -282,8 +279,6 @@ Command trajectory_command() {
           {"--digits", Whole{&options->digits, 1, kMostDigits}, "N",
            "digits of times, places and velocities (default: 17)"},
           {"--detail", &options->detail, "", "place and velocity at each collision, too"},
-          {"--bits", Whole{&options->bits, 32, kMostBits}, "B",
-           "precision to begin with (default: by --digits)"},
           {"--max-bits", Whole{&options->most_bits, 32, kMostBits}, "B",
            "precision at which to give up, undecided (default: 262144, or as --digits needs)"},
           {"-e,--engine", &options->engine, "ENGINE",

@@ -6,24 +6,17 @@
 #include "python/certificates.hpp"
 #include "python/lines.hpp"
 #include "python/scene.hpp"
+#include "question/counts.hpp"
 
 namespace lorentz::python {
 namespace {
 
 using oracle::DecisionKind;
-using oracle::Verdict;
 
 const char* decision_name(DecisionKind kind) {
   constexpr const char* kNames[] = {"containing", "meeting", "order"};
   static_assert(std::size(kNames) == static_cast<std::size_t>(DecisionKind::order) + 1);
   return kNames[static_cast<int>(kind)];
-}
-
-const char* verdict_name(Verdict verdict) {
-  constexpr const char* kNames[] = {"agree",       "ill-posed", "wrong",  "undecided",
-                                    "unsupported", "error",     "missing"};
-  static_assert(std::size(kNames) == static_cast<std::size_t>(Verdict::missing) + 1);
-  return kNames[static_cast<int>(verdict)];
 }
 
 // A scene with its oracle, judge and other exact tools. Each is created when it is first needed, under the
@@ -79,7 +72,7 @@ class PyOracle {
     const oracle::Judgement judgement = judge.judge(query, exact, given, ulps);
     const auto diagnosis = lorentz::judge::diagnosis_of({place_, query, exact, {}, {}}, given, judgement);
     py::dict dict;
-    dict["verdict"] = verdict_name(judgement.verdict);
+    dict["verdict"] = question::name_of(static_cast<question::Count>(judgement.verdict)).words;
     dict["wrong_time"] = judgement.wrong_time;
     dict["other_quantity"] = judgement.other_quantity;
     dict["ulps"] = judgement.ulps;

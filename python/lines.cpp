@@ -5,32 +5,18 @@
 namespace lorentz::python {
 namespace {
 
-// A line in the form that the readers need, with padding behind it.
-class PaddedLine {
- public:
-  explicit PaddedLine(const std::string& text) : bytes_(text + std::string(LineReader::kPadding, ' ')) {
-    line_.text = std::string_view(bytes_).substr(0, text.size());
-    line_.number = 1;
-  }
-  const LineReader::Line& line() const { return line_; }
-
- private:
-  std::string bytes_;
-  LineReader::Line line_;
-};
-
-struct StrictReader : ExchangeReader {
-  StrictReader() { on_unknown_key(refuse_key); }
-};
-
 // The item of this kind in a line, read by `read`.
 template <class Item, class TheScene>
 Item item_in(const std::string& text, StreamItem::Kind wanted,
              void (ExchangeReader::*read)(const LineReader::Line&, const TheScene*, Item&),
              const std::type_identity_t<TheScene>* scene = nullptr) {
   Item item;
-  StrictReader reader;
-  (reader.*read)(PaddedLine(text).line(), scene, item);
+  ExchangeReader reader;
+  reader.on_unknown_key(refuse_key);
+  LineReader lines(text, "");
+  LineReader::Line line;
+  lines.next(line);
+  (reader.*read)(line, scene, item);
   if (item.kind == wanted) return item;
   throw InputError(item.kind == StreamItem::Kind::bad  ? item.message
                    : wanted == StreamItem::Kind::scene ? "is not a scene"
@@ -63,8 +49,12 @@ Answer read_answer(const std::string& text, const Components& count) {
   Answer answer;
   Id id;
   std::size_t components = 0;
-  if (!StrictReader().read_answer_line(PaddedLine(text).line(), id, answer, components))
-    throw InputError("is not an answer");
+  ExchangeReader reader;
+  reader.on_unknown_key(refuse_key);
+  LineReader lines(text, "");
+  LineReader::Line line;
+  lines.next(line);
+  if (!reader.read_answer_line(line, id, answer, components)) throw InputError("is not an answer");
   const bool names_one = answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
   const int needed = count.of_cells(answer.obstacle.lattice);
   // Columns have one coordinate per dimension; surplus ones are zero.

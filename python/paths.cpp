@@ -17,23 +17,15 @@ namespace {
 
 // ---- Particles
 
-// The collisions of C that are kept: every k-th, or only the last (k = 0).
-struct KeptCollisions {
-  std::size_t collisions, every;
-
-  std::size_t columns() const {
-    return every > 0 ? collisions / every : std::min<std::size_t>(collisions, 1);
-  }
-  std::optional<std::size_t> column_of(std::size_t collision) const {  // numbered from 1
-    if (every == 0) return 0;
-    return collision % every == 0 ? std::optional(collision / every - 1) : std::nullopt;
-  }
-};
-
-// The kept collisions, one row per particle. Collisions that did not happen are 0, their numbers NaN.
+// The kept ones of so many collisions, every k-th or only the last (k = 0), one row per particle. Collisions that
+// did not happen are 0, their numbers NaN.
 struct Paths {
-  Paths(std::size_t particles, KeptCollisions kept, int dimension)
-      : particles(particles), kept(kept), columns(kept.columns()), dimension(dimension) {
+  Paths(std::size_t particles, std::size_t collisions, std::size_t every, int dimension)
+      : particles(particles),
+        collisions(collisions),
+        every(every),
+        columns(every > 0 ? collisions / every : std::min<std::size_t>(collisions, 1)),
+        dimension(dimension) {
     const std::size_t all = particles * columns, components = all * static_cast<std::size_t>(dimension);
     const double none = std::numeric_limits<double>::quiet_NaN();
     time.resize(all, none), place.resize(components, none), velocity.resize(components, none);
@@ -43,9 +35,8 @@ struct Paths {
 
   void set(std::size_t i, const Scene& scene, const Particle& particle) {
     count[i] = static_cast<std::int64_t>(particle.collisions);
-    const std::optional<std::size_t> column = kept.column_of(particle.collisions);
-    if (!column) return;
-    const std::size_t k = i * columns + *column;
+    if (every > 0 && particle.collisions % every != 0) return;
+    const std::size_t k = i * columns + (every > 0 ? particle.collisions / every - 1 : 0);
     time[k] = particle.time, lattice[k] = particle.lattice, atom[k] = particle.atom;
     const Vec at = place_of(scene, particle);
     for (int c = 0; c < dimension; ++c) {
@@ -54,9 +45,7 @@ struct Paths {
     }
   }
 
-  std::size_t particles;
-  KeptCollisions kept;
-  std::size_t columns;
+  std::size_t particles, collisions, every, columns;
   int dimension;
   std::vector<double> time, place, velocity;
   std::vector<std::int32_t> lattice, atom;
@@ -89,7 +78,7 @@ void follow_together(const Scene& scene, const std::vector<Query>& starts, doubl
     return true;
   };
   SignalWatch watch;
-  for (std::size_t k = 0; k < paths.kept.collisions && particles.advance(until, visit) > 0; ++k) watch.look();
+  for (std::size_t k = 0; k < paths.collisions && particles.advance(until, visit) > 0; ++k) watch.look();
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const Stop stop = particles.stop(i);
     paths.stop[i] = static_cast<std::uint8_t>(stop == Stop::none ? Stop::collisions : stop);
@@ -102,7 +91,7 @@ void follow_one_by_one(const question::EngineInfo& engine, const Scene& scene,
   SignalWatch watch;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     Trajectory trajectory(ask, scene, starts[i], precision);
-    const Stop stop = trajectory.run(paths.kept.collisions, until, [&](const Trajectory& now) {
+    const Stop stop = trajectory.run(paths.collisions, until, [&](const Trajectory& now) {
       paths.set(i, scene, now.state());
       watch.look();
       return true;
@@ -111,11 +100,12 @@ void follow_one_by_one(const question::EngineInfo& engine, const Scene& scene,
   }
 }
 
-std::shared_ptr<Paths> follow(const PyScene& scene, const QueryArrays& arrays, KeptCollisions kept,
-                              double until, const std::string& engine, bool double_double) {
+std::shared_ptr<Paths> follow(const PyScene& scene, const QueryArrays& arrays, std::size_t collisions,
+                              std::size_t every, double until, const std::string& engine,
+                              bool double_double) {
   const question::EngineInfo info = own_engine(engine);
   const std::vector<Query> starts = starts_of(arrays, scene.scene());
-  auto paths = std::make_shared<Paths>(starts.size(), kept, scene.dimension());
+  auto paths = std::make_shared<Paths>(starts.size(), collisions, every, scene.dimension());
   const Precision precision = double_double ? Precision::double_double : Precision::binary64;
   const py::gil_scoped_release release;
   if (info.traits.in_bulk && !info.traits.is_exact)
@@ -160,57 +150,47 @@ py::dict itinerary(const PyScene& scene, const std::string& start, std::optional
 
 // ---- Starts
 
-struct DrawnStarts {
-  DrawnStarts(py::ssize_t count, py::ssize_t dimension)
-      : x({count, dimension}), v({count, dimension}), cell({count, dimension}), lattice(count), atom(count) {}
-
-  py::array_t<double> x, v;
-  py::array_t<std::int64_t> cell;
-  py::array_t<std::int32_t> lattice, atom;
-};
-
-void draw_into(DrawnStarts& drawn, const starts::FreeStarts& starts, std::uint64_t first) {
-  auto x = drawn.x.mutable_unchecked<2>(), v = drawn.v.mutable_unchecked<2>();
-  auto cell = drawn.cell.mutable_unchecked<2>();
-  auto lattice = drawn.lattice.mutable_unchecked<1>(), atom = drawn.atom.mutable_unchecked<1>();
-  const py::gil_scoped_release release;
-  SignalWatch watch;
-  Query start;
-  for (py::ssize_t i = 0; i < x.shape(0); ++i) {
-    starts.draw(first + static_cast<std::uint64_t>(i), start);
-    lattice(i) = start.from ? start.from->lattice : -1;
-    atom(i) = start.from ? start.from->atom : 0;
-    for (py::ssize_t k = 0; k < x.shape(1); ++k) {
-      const auto c = static_cast<std::size_t>(k);
-      x(i, k) = start.x[c], v(i, k) = start.v[c];
-      cell(i, k) = start.from ? start.from->cell[c].int64() : 0;
-    }
-    watch.look();
-  }
-}
-
 py::dict draw(const PyScene& scene, std::size_t count, const std::string& kind, std::uint64_t seed,
               std::uint64_t first) {
-  const starts::Kind its = starts::kind_named(kind, "kind");
-  DrawnStarts drawn(static_cast<py::ssize_t>(count), scene.dimension());
-  draw_into(drawn, {scene.scene(), its, seed}, first);
-  py::dict columns(py::arg("x") = drawn.x, py::arg("v") = drawn.v, py::arg("start_from") = py::none());
-  if (kind == "surface") columns["start_from"] = py::make_tuple(drawn.lattice, drawn.atom, drawn.cell);
+  const starts::FreeStarts starts(scene.scene(), starts::kind_named(kind, "kind"), seed);
+  const auto n = static_cast<py::ssize_t>(count), d = static_cast<py::ssize_t>(scene.dimension());
+  py::array_t<double> xs({n, d}), vs({n, d});
+  py::array_t<std::int64_t> cells({n, d});
+  py::array_t<std::int32_t> lattices(n), atoms(n);
+  auto x = xs.mutable_unchecked<2>(), v = vs.mutable_unchecked<2>();
+  auto cell = cells.mutable_unchecked<2>();
+  auto lattice = lattices.mutable_unchecked<1>(), atom = atoms.mutable_unchecked<1>();
+  {
+    const py::gil_scoped_release release;
+    SignalWatch watch;
+    Query start;
+    for (py::ssize_t i = 0; i < n; ++i) {
+      starts.draw(first + static_cast<std::uint64_t>(i), start);
+      lattice(i) = start.from ? start.from->lattice : -1;
+      atom(i) = start.from ? start.from->atom : 0;
+      for (py::ssize_t k = 0; k < d; ++k) {
+        const auto c = static_cast<std::size_t>(k);
+        x(i, k) = start.x[c], v(i, k) = start.v[c];
+        cell(i, k) = start.from ? start.from->cell[c].int64() : 0;
+      }
+      watch.look();
+    }
+  }
+  py::dict columns(py::arg("x") = xs, py::arg("v") = vs, py::arg("start_from") = py::none());
+  if (kind == "surface") columns["start_from"] = py::make_tuple(lattices, atoms, cells);
   return columns;
 }
 
 // ---- Arrays
 
-// The shape of an array: one number per particle, one per collision, or one vector per collision.
-enum class ArrayShape { particles, collisions, vectors };
-
+// An array with 1 axis: a number per particle; 2: one per collision; 3: a vector per collision.
 template <class Number>
-auto view_of(std::vector<Number> Paths::*member, ArrayShape shape) {
+auto view_of(std::vector<Number> Paths::*member, int axes) {
   return [=](const py::object& self) {
     const auto& paths = self.cast<const Paths&>();
-    std::vector<py::ssize_t> lengths{static_cast<py::ssize_t>(paths.particles)};
-    if (shape != ArrayShape::particles) lengths.push_back(static_cast<py::ssize_t>(paths.columns));
-    if (shape == ArrayShape::vectors) lengths.push_back(paths.dimension);
+    std::vector<py::ssize_t> lengths{static_cast<py::ssize_t>(paths.particles),
+                                     static_cast<py::ssize_t>(paths.columns), paths.dimension};
+    lengths.resize(static_cast<std::size_t>(axes));
     return view((paths.*member).data(), std::move(lengths), self);
   };
 }
@@ -219,20 +199,20 @@ auto view_of(std::vector<Number> Paths::*member, ArrayShape shape) {
 
 void bind_paths(py::module_& module) {
   py::class_<Paths, std::shared_ptr<Paths>>(module, "Paths", "Memory of lorentz.Paths.")
-      .def_property_readonly("count", view_of(&Paths::count, ArrayShape::particles))
-      .def_property_readonly("stop_code", view_of(&Paths::stop, ArrayShape::particles))
-      .def_property_readonly("time", view_of(&Paths::time, ArrayShape::collisions))
-      .def_property_readonly("lattice", view_of(&Paths::lattice, ArrayShape::collisions))
-      .def_property_readonly("atom", view_of(&Paths::atom, ArrayShape::collisions))
-      .def_property_readonly("cell", view_of(&Paths::cell, ArrayShape::vectors))
-      .def_property_readonly("place", view_of(&Paths::place, ArrayShape::vectors))
-      .def_property_readonly("velocity", view_of(&Paths::velocity, ArrayShape::vectors));
+      .def_property_readonly("count", view_of(&Paths::count, 1))
+      .def_property_readonly("stop_code", view_of(&Paths::stop, 1))
+      .def_property_readonly("time", view_of(&Paths::time, 2))
+      .def_property_readonly("lattice", view_of(&Paths::lattice, 2))
+      .def_property_readonly("atom", view_of(&Paths::atom, 2))
+      .def_property_readonly("cell", view_of(&Paths::cell, 3))
+      .def_property_readonly("place", view_of(&Paths::place, 3))
+      .def_property_readonly("velocity", view_of(&Paths::velocity, 3));
   module.def(
       "follow",
       [](const PyScene& scene, Numbers x, Numbers v, const py::object& from, std::size_t collisions,
          std::size_t every, double until, const std::string& engine, bool double_double) {
-        return follow(scene, QueryArrays::of(std::move(x), std::move(v), std::nullopt, from),
-                      {collisions, every}, until, engine, double_double);
+        return follow(scene, QueryArrays::of(std::move(x), std::move(v), std::nullopt, from), collisions,
+                      every, until, engine, double_double);
       },
       py::arg("scene"), py::arg("x"), py::arg("v"), py::arg("start_from"), py::arg("collisions"),
       py::arg("every"), py::arg("until"), py::arg("engine"), py::arg("double_double"));

@@ -38,6 +38,8 @@ std::string verdict_of(const oracle::Horizon& h, bool limited) {
 
 namespace {
 
+constexpr std::size_t kMostRows = 20;
+
 using Indices = std::array<Integer, 3>;
 
 std::string text_of(const Indices& indices, int dimension) {
@@ -52,8 +54,8 @@ std::string text_of(const Vec& a, int dimension) {
   return out;
 }
 
-std::string rest_of(std::size_t all, std::size_t shown) {
-  return all > shown ? fmt::format("... and {} more (--limit {} shows them)\n", all - shown, all) : "";
+std::string rest_of(std::size_t all) {
+  return all > kMostRows ? fmt::format("... and {} more (--json has them)\n", all - kMostRows) : "";
 }
 
 // Points that rounding has moved out of the channel are followed by a *. A component that is only the
@@ -66,7 +68,7 @@ std::string point_text(Vec point, bool inside, int dimension) {
   return text_of(point, dimension) + (inside ? "" : " *");
 }
 
-std::string channel_table(const oracle::Horizon& h, std::size_t limit) {
+std::string channel_table(const oracle::Horizon& h) {
   const bool flat = h.dimension == 2;
   bool counts = false;
   for (const auto& channel : h.channels) counts |= !(channel.count == Integer(1));
@@ -74,7 +76,7 @@ std::string channel_table(const oracle::Horizon& h, std::size_t limit) {
                                   "through"};
   if (counts) header.push_back("count");
   Table table(header);
-  for (std::size_t i = 0; i < std::min(limit, h.channels.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMostRows, h.channels.size()); ++i) {
     const auto& c = h.channels[i];
     const std::string indices = text_of(c.indices, h.dimension);
     std::vector<std::string> row{flat ? "[" + indices + "]" : "(" + indices + ")",
@@ -83,22 +85,22 @@ std::string channel_table(const oracle::Horizon& h, std::size_t limit) {
     if (counts) row.push_back(c.count.decimal());
     table.add(row);
   }
-  return table.text() + rest_of(h.channels.size(), limit);
+  return table.text() + rest_of(h.channels.size());
 }
 
-std::string cylinder_table(const oracle::Horizon& h, std::size_t limit) {
+std::string cylinder_table(const oracle::Horizon& h) {
   Table table({"cylinder", "radius", "vector", "through"});
-  for (std::size_t i = 0; i < std::min(limit, h.cylinders.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMostRows, h.cylinders.size()); ++i) {
     const auto& c = h.cylinders[i];
     table.add({"[" + text_of(c.direction, 3) + "]", fmt::format("{:.6g}", c.radius), text_of(c.vector, 3),
                point_text(c.point, c.inside, 3)});
   }
-  return table.text() + rest_of(h.cylinders.size(), limit);
+  return table.text() + rest_of(h.cylinders.size());
 }
 
-std::string families_text(const oracle::Horizon& h, std::size_t limit) {
+std::string families_text(const oracle::Horizon& h) {
   std::string out;
-  for (std::size_t i = 0; i < std::min(limit, h.families.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMostRows, h.families.size()); ++i) {
     const auto& family = h.families[i];
     const std::string planes = text_of(family.indices, 3);
     if (family.infinite)
@@ -111,7 +113,7 @@ std::string families_text(const oracle::Horizon& h, std::size_t limit) {
           "searched\n",
           planes, family.directions);
   }
-  return out + rest_of(h.families.size(), limit);
+  return out + rest_of(h.families.size());
 }
 
 std::string tail_text(const oracle::Horizon& h, bool limited) {
@@ -124,14 +126,14 @@ std::string tail_text(const oracle::Horizon& h, bool limited) {
 
 }  // namespace
 
-std::string text_of(const oracle::Horizon& h, std::size_t limit, bool limited) {
+std::string text_of(const oracle::Horizon& h, bool limited) {
   std::string out = verdict_of(h, limited) + "\n";
   bool outside = false;
-  for (std::size_t i = 0; i < std::min(limit, h.channels.size()); ++i) outside |= !h.channels[i].inside;
-  for (std::size_t i = 0; i < std::min(limit, h.cylinders.size()); ++i) outside |= !h.cylinders[i].inside;
-  if (!h.channels.empty()) out += "\n" + channel_table(h, limit);
-  if (!h.cylinders.empty()) out += "\n" + cylinder_table(h, limit);
-  if (!h.families.empty()) out += "\n" + families_text(h, limit);
+  for (std::size_t i = 0; i < std::min(kMostRows, h.channels.size()); ++i) outside |= !h.channels[i].inside;
+  for (std::size_t i = 0; i < std::min(kMostRows, h.cylinders.size()); ++i) outside |= !h.cylinders[i].inside;
+  if (!h.channels.empty()) out += "\n" + channel_table(h);
+  if (!h.cylinders.empty()) out += "\n" + cylinder_table(h);
+  if (!h.families.empty()) out += "\n" + families_text(h);
   if (outside) out += "* too narrow there: the rounded point is not inside\n";
   if (!h.undecided.empty())
     out += fmt::format("\nundecided: {}, three lattices or more with long common periods\n",

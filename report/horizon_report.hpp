@@ -11,8 +11,8 @@ namespace lorentz::report {
 /// Finite, infinite with the number of directions, or not known. `limited`: narrow channels were left out.
 std::string verdict_of(const oracle::Horizon& horizon, bool limited);
 
-/// The whole report for people, with at most `limit` rows in a table.
-std::string text_of(const oracle::Horizon& horizon, std::size_t limit, bool limited);
+/// The whole report for people, with at most 20 rows in a table.
+std::string text_of(const oracle::Horizon& horizon, bool limited);
 
 /// The whole report as one JSON object, for a scene of this name.
 std::string json_of(const oracle::Horizon& horizon, const std::string& scene, bool limited);
