@@ -16,8 +16,8 @@ PaperWindow window_around(const PathDrawing& drawing) {
   const double margin = 0.6 * cell_size(drawing.scene);
   for (const auto* path : {&drawing.path, &drawing.other})
     for (const Vec& place : *path) window.box.include(place, margin);
-  constexpr double kWidth = 800;
-  window.scale = (kWidth - 2 * kMargin) / std::max(window.box.width(), window.box.height());
+  constexpr double kPathWidth = 800;
+  window.scale = (kPathWidth - 2 * kMargin) / std::max(window.box.width(), window.box.height());
   return window;
 }
 

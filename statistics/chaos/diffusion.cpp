@@ -12,7 +12,7 @@
 namespace lorentz::chaos {
 namespace {
 
-constexpr std::uint64_t kTogether = 512;
+constexpr std::uint64_t kParticlesTogether = 512;
 
 // One particle's path up to now, and its values at the times of times_of().
 struct Way {
@@ -53,9 +53,9 @@ void add(const Way& way, Sums& sums) {
 }
 
 // Flies the particles [first, last) to the time T. If the work is stopped earlier, the sums are unusable.
-void fly(const DiffusionPlan& plan, const Batch& engine, const starts::FreeStarts& starts,
-         std::uint64_t first, std::uint64_t last, const std::vector<double>& times, const Work& work,
-         Sums& sums) {
+void fly_particles(const DiffusionPlan& plan, const Batch& engine, const starts::FreeStarts& starts,
+                   std::uint64_t first, std::uint64_t last, const std::vector<double>& times,
+                   const Work& work, Sums& sums) {
   Particles particles(engine, plan.scene);
   for (std::uint64_t i = first; i < last; ++i) particles.add(starts[i]);
   std::vector<Way> ways(particles.size());
@@ -146,8 +146,9 @@ Diffusion diffusion_of(const DiffusionPlan& plan, const Work& work) {
   const auto all = for_each_group(work, [&](std::uint64_t group) {
     Sums sums{std::vector<double>(kDiffusionValues)};
     const std::uint64_t end = first_of(group + 1, plan.count);
-    for (std::uint64_t i = first_of(group, plan.count); i < end && !work.is_stopped(); i += kTogether)
-      fly(plan, engine, starts, i, std::min(i + kTogether, end), times, work, sums);
+    for (std::uint64_t i = first_of(group, plan.count); i < end && !work.is_stopped();
+         i += kParticlesTogether)
+      fly_particles(plan, engine, starts, i, std::min(i + kParticlesTogether, end), times, work, sums);
     return sums;
   });
   std::vector<Sums> good;

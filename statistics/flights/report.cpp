@@ -21,7 +21,7 @@ using json::finite;
 namespace {
 
 // The result of a test of fit. With only one bin nothing is tested.
-std::string text_of(const ChiSquared& fit, double smooth_from) {
+std::string result_of(const ChiSquared& fit, double smooth_from) {
   if (!fit.p_value)
     return smooth_from > 0 ? fmt::format("not tested: hardly a flight is longer than {:g}", smooth_from)
                            : "not tested: too few flights for two bins";
@@ -56,7 +56,7 @@ std::string line_of_measured_constant(const Tail& tail, const FlightsFindings& f
          fmt::format("; extrapolated from {} flights longer than {:.6g}\n", measured->count, measured->from);
 }
 
-std::string lines_of_theory(const FlightsFindings& found) {
+std::string theory_lines(const FlightsFindings& found) {
   std::string text;
   if (!found.no_law.empty()) text += fmt::format("no law is known: {}\n", found.no_law);
   if (found.law) {
@@ -65,9 +65,9 @@ std::string lines_of_theory(const FlightsFindings& found) {
                         from > 0 ? fmt::format("; tested beyond t = {:g}", from) : "");
     text += found.fit.p_value
                 ? fmt::format("  chi squared {:.1f}, {} degrees: {}; of 1.02 times its survival: {}\n",
-                              found.fit.statistic, found.fit.degrees, text_of(found.fit, from),
-                              text_of(found.fit_of_more, from))
-                : fmt::format("  {}\n", text_of(found.fit, from));
+                              found.fit.statistic, found.fit.degrees, result_of(found.fit, from),
+                              result_of(found.fit_of_more, from))
+                : fmt::format("  {}\n", result_of(found.fit, from));
   }
   if (found.exponent)
     text += fmt::format(
@@ -177,7 +177,7 @@ std::string FlightsReport::table() const {
                       tally.shortest, tally.longest);
   if (const std::string remark = remark_on_mean(plan.from, found.tails.back()); !remark.empty())
     text += remark + '\n';
-  return text + '\n' + lines_of_theory(found) + '\n' + table_of_survival(found);
+  return text + '\n' + theory_lines(found) + '\n' + table_of_survival(found);
 }
 
 std::string FlightsReport::json() const {
