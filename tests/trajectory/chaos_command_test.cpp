@@ -107,10 +107,10 @@ TEST_CASE("Groups that were kept are gone on with, to the bit", "[chaos]") {
     const auto keeping = [&](unsigned jobs) {
       chaos::Work work;
       work.jobs = jobs;
-      work.kept = {[&](const auto& read) {
-                     for (const std::string& one : kept) read(one);
-                   },
-                   [&](const std::string& one) { added.push_back(one); }};
+      work.each_kept = [&](const auto& read) {
+        for (const std::string& one : kept) read(one);
+      };
+      work.keep = [&](const std::string& one) { added.push_back(one); };
       return work;
     };
     const std::string whole = text(keeping(1), lyapunov);
