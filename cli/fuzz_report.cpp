@@ -51,8 +51,8 @@ std::string bounds(const FuzzReport& report) {
 }
 
 void add_target(json::Members& object, const std::string& name, const TargetTally& tally) {
-  object.add("target", name, "next", tally.next, "cases", tally.cases, "variants", tally.variants, "reworded",
-             tally.reworded);
+  object.add("target", name, "next", tally.next, "cases", tally.cases, "variants", tally.variants,
+             "outside_domain", tally.outside, "reworded", tally.reworded);
   question::add_counts(object, tally.counts, question::Counted::campaigns);
   const std::uint64_t n = answered(tally);
   const bool none = tally.counts[Kind::wrong] == 0 && n > 0;

@@ -23,6 +23,7 @@ struct CheckedSet {
   std::string label;  // the name; also the precision if the set has one and the name does not
   Claim claim;
   std::size_t of_other_numbers = 0;  // records not asked because their numbers are not the engine's
+  std::size_t outside_domain = 0;    // records not asked because the engine does not claim to do them
 };
 
 std::string label_of(const golden::Header& header, const Claim& claim, const ExaminationOptions& options) {
@@ -54,14 +55,18 @@ std::size_t ask_set(const std::string& path, const ExaminationOptions& options, 
     if (!question) break;
     if (options.id && !question->where.starts_with(*options.id)) continue;
     ++asked;
-    if (question->place->has_numbers_for(question->query))
-      part.questions.push_back(std::move(*question));
-    else
+    const Place& place = *question->place;
+    if (!place.has_numbers_for(question->query))
       ++set.of_other_numbers;
+    else if (question->is_query() &&
+             !(place.takes(question->query) && place.takes(question->query, question->exact)))
+      ++set.outside_domain;
+    else
+      part.questions.push_back(std::move(*question));
     if (part.questions.size() == kTogether) lineup.ask(part), part.questions.clear();
   }
   lineup.ask(part);
-  lineup.end(!options.id && first >= header.count && set.of_other_numbers == 0);
+  lineup.end(!options.id && first >= header.count && set.of_other_numbers + set.outside_domain == 0);
   return asked;
 }
 
@@ -81,9 +86,10 @@ std::size_t not_asked_of(const ExaminedRow& row, const CheckedSet& set) {
 
 // The claim by which all sets were judged; not added if the sets have several precisions.
 void add_common_claim(json::Members& object, const Claim& claim, const std::vector<CheckedSet>& sets) {
-  const NumberFormat first = sets.empty() ? claim.precision : sets.front().claim.precision;
-  if (std::ranges::all_of(sets, [&](const CheckedSet& set) { return set.claim.precision == first; }))
-    report::add_claim(object, {first, claim.time_tolerance});
+  Claim its = claim;
+  if (!sets.empty()) its.precision = sets.front().claim.precision;
+  if (std::ranges::all_of(sets, [&](const CheckedSet& set) { return set.claim.precision == its.precision; }))
+    report::add_claim(object, its);
   else
     object.add("precision", std::optional<double>(), "time_tolerance", claim.time_tolerance);
 }
@@ -91,13 +97,14 @@ void add_common_claim(json::Members& object, const Claim& claim, const std::vect
 // An engine that is given up for good has fewer rows than there are sets.
 std::string json_of(const LineupEntry& one, const Claim& claim, const std::vector<CheckedSet>& sets) {
   const auto& rows = one.examination.rows();
-  std::size_t not_asked = 0;
+  std::size_t not_asked = 0, outside = 0;
   const auto add_set = [&](json::Members& object, std::size_t i) {
     object.add("set", rows[i].name);
     add_counts(object, rows[i].tally);
     not_asked += not_asked_of(rows[i], sets[i]);
-    object.add("not_asked", not_asked_of(rows[i], sets[i]), "precision", name_of(sets[i].claim.precision),
-               "tags", [&](json::Members& tags) {
+    outside += sets[i].outside_domain;
+    object.add("not_asked", not_asked_of(rows[i], sets[i]), "outside_domain", sets[i].outside_domain,
+               "precision", name_of(sets[i].claim.precision), "tags", [&](json::Members& tags) {
                  for (const auto& [tag, tally] : rows[i].by_tag)
                    tags.add_named(tag, [&](json::Members& counts) { add_counts(counts, tally); });
                });
@@ -107,18 +114,19 @@ std::string json_of(const LineupEntry& one, const Claim& claim, const std::vecto
   return json::line_of([&](json::Members& object) {
     object.add("engine", one.examination.name(), "sets", json::objects(numbers, add_set));
     add_common_claim(object, claim, sets);
-    object.add("records_not_asked", not_asked, "not_asked", sets.size() - rows.size());
+    object.add("records_not_asked", not_asked, "records_outside_domain", outside, "not_asked",
+               sets.size() - rows.size());
   });
 }
 
 std::string text_of(const LineupEntry& one, const Claim& claim, const std::vector<CheckedSet>& sets) {
   const auto& rows = one.examination.rows();
   report::Table table(titles_counted(Counted::examinations, {"set", "tag", "records"}, {}));
-  std::size_t of_other_numbers = 0;
+  std::size_t of_other_numbers = 0, outside = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     table.add(cells_of(sets[i].label, "all", rows[i].tally));
     for (const auto& [tag, tally] : rows[i].by_tag) table.add(cells_of("", tag, tally));
-    of_other_numbers += sets[i].of_other_numbers;
+    of_other_numbers += sets[i].of_other_numbers, outside += sets[i].outside_domain;
   }
   if (sets.size() > rows.size())
     table.add(cells_of(fmt::format("{} sets not asked", sets.size() - rows.size()), "", {}));
@@ -129,6 +137,8 @@ std::string text_of(const LineupEntry& one, const Claim& claim, const std::vecto
   if (of_other_numbers > 0)
     text += fmt::format("{} records were not asked: their numbers are of another precision\n\n",
                         of_other_numbers);
+  if (outside > 0)
+    text += fmt::format("{} records were not asked: they are outside of the declared domain\n\n", outside);
   if (!one.failures.empty()) text += fmt::format("The first failures:\n{}\n", fmt::join(one.failures, ""));
   return text + verdict_of(total) + '\n';
 }
@@ -161,8 +171,8 @@ Command golden_check_command() {
   return {
       "check", "Checks engines against sets: a table by set and tag, the first failures.",
       options->rows({"--engine", "sets", "--first", "--id", "--jobs", "--disagreements", "--ulps",
-                     "--precision", "--time-tolerance", "--timeout", "--json", "--failures", "--times",
-                     "--strict", "--baseline", "--junit"}),
+                     "--precision", "--time-tolerance", "--domain", "--starts-inside", "--timeout", "--json",
+                     "--failures", "--times", "--strict", "--baseline", "--junit"}),
 
       "The precision is each set's own, unless --precision or the engine says another one. Exit status 1: an "
       "answer is wrong, an error or missing; 3: a cmd: or lib: engine broke.\n"

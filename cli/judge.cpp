@@ -133,8 +133,8 @@ Command judge_command() {
   return {
       "judge", "All that can be said of one engine: comparison, golden sets, a campaign, speed; one verdict.",
       options->rows({"--engine", "--quick", "--time", "--questions", "--seed", "--jobs", "--ulps",
-                     "--precision", "--time-tolerance", "--timeout", "--html", "--golden", "--json",
-                     "--baseline", "--junit", "--times", "--strict"}),
+                     "--precision", "--time-tolerance", "--domain", "--starts-inside", "--timeout", "--html",
+                     "--golden", "--json", "--baseline", "--junit", "--times", "--strict"}),
 
       "docs/judge.md says what is asked, what --timeout means without --questions, and what the verdict "
       "means. "

@@ -246,7 +246,7 @@ std::string_view state_of(const ExaminedRow& row, const JudgeReport& report) {
   const question::Tally all = report.total();
   if (!row.is_exhausted) return "no time";
   if (all.queries == all[Count::unsupported]) return "unsupported";
-  return report.claim.precision == NumberFormat::binary64 ? "too slow" : "other numbers";
+  return report.claim == Claim{.time_tolerance = report.claim.time_tolerance} ? "too slow" : "other numbers";
 }
 
 // A line for each failure: "given up in scenes of: drawn cubic (4), golden ties (20); cmd died (exit 3) .."
@@ -284,7 +284,12 @@ std::string table_of(const JudgeReport& report) {
                              "0.1 s each in earlier rows)",
                              report.longest_wait),
                  report) +
-         line_of("other numbers", "not asked, numbers of another precision", report) + given_up_lines(report);
+         line_of("other numbers", "not asked, numbers of another precision or outside of the domain",
+                 report) +
+         (report.outside > 0
+              ? fmt::format("not asked: {} questions outside of the declared domain\n", report.outside)
+              : "") +
+         given_up_lines(report);
 }
 
 void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& report) {
@@ -336,7 +341,7 @@ std::string JudgeReport::json() const {
       object.add("what", its.what, "how_bad", its.how_bad, "worst", its.worst, "finding",
                  its.finding ? std::optional(its.finding - findings.data()) : std::nullopt);
     });
-    page.add("queries", t.queries);
+    page.add("queries", t.queries, "outside_domain", outside);
     question::add_counts(page, t.counts, Counted::judge);
     page.add("ns_per_query", json::finite(ns_per_query), "ns_of_reduction", json::finite(ns_of_reduction),
              "processor_ns_per_query", json::finite(processor_ns), "processor_ns_of_reduction",

@@ -32,6 +32,7 @@ struct JudgeReport : JudgeOrder {
   std::optional<double> ns_per_query = {}, ns_of_reduction = {};            ///< on the same drawn flights
   std::optional<double> processor_ns = {}, processor_ns_of_reduction = {};  ///< the same in processor time
   std::string speed_of = {};                                                ///< which flights these were
+  std::size_t outside = 0;   ///< questions that were not asked: they are outside of the engine's domain
   bool misbehaved = false;   ///< an external engine failed or misbehaved at least once
   bool was_stopped = false;  ///< before all questions were asked
 

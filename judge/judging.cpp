@@ -242,6 +242,7 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   JudgePlan plan(order);
   ask_all(*examination, plan, terms);
   report.flown = plan.flown();
+  report.outside = plan.outside();
   report.rows = examination->results().rows;
   report.findings = examination->results().all_findings();
   report.curves = examination->results().curves;

@@ -100,16 +100,16 @@ JudgePlan::JudgePlan(const JudgeOrder& order) : order_(order) {
         {.name = fmt::format("drawn {}", kSceneries[i].first),
          .explanation = "uniform starts, isotropic directions",
          .is_hard = false},
-        drawn(sceneries_[i], Kind::uniform, order_.seed, number));
+        drawn(sceneries_[i], Kind::uniform, order_.seed, number, outside_));
   }
   add(JudgePart::hard,
       {.name = "near-rational",
        .explanation = "directions along small lattice vectors but for ulps to 2^-40, in these scenes"},
-      drawn(places_, Kind::near_rational, order_.seed, 2 * number));
+      drawn(places_, Kind::near_rational, order_.seed, 2 * number, outside_));
   add(JudgePart::hard,
       {.name = "grazing",
        .explanation = "the first ball is passed or met within r 2^-10 to r 2^-52 of its edge"},
-      drawn(places_, Kind::grazing, order_.seed, 2 * number));
+      drawn(places_, Kind::grazing, order_.seed, 2 * number, outside_));
   for (const auto& [scene, radius] : kFlown) {
     flown_.emplace_back(scene, radius);
     flown_places_.push_back({flown_.back().name(), place_for(read_scene(scene, radius), order_.claim)});
@@ -118,7 +118,7 @@ JudgePlan::JudgePlan(const JudgeOrder& order) : order_(order) {
       {.name = "free paths",
        .explanation = "from collision to collision: starts on obstacles, by the cosine law",
        .is_hard = false},
-      drawn(flown_places_, Kind::surface, order_.seed, kFlights));
+      drawn(flown_places_, Kind::surface, order_.seed, kFlights, outside_));
   rows_.back().look = [this](const question::Judged& judged) {
     for (std::size_t i = 0; i < flown_.size(); ++i)
       if (judged.question.place == flown_places_[i].place)
@@ -130,7 +130,7 @@ JudgePlan::JudgePlan(const JudgeOrder& order) : order_(order) {
         {.name = "golden " + std::filesystem::path(file).stem().string(),
          .explanation = header.description,
          .records = header.count},
-        golden_set(file, order_.claim));
+        golden_set(file, order_.claim, outside_));
   }
 }
 
@@ -148,7 +148,7 @@ ExaminedRow campaign_row() {
 Source JudgePlan::campaign(unsigned part, unsigned parts) {
   const fuzz::Scope scope = scope_of(places_);
   const auto source = [&] {
-    return judge::campaign(order_.seed, scope, !order_.questions, part, parts, order_.claim);
+    return judge::campaign(order_.seed, scope, !order_.questions, part, parts, order_.claim, outside_);
   };
   if (part == 0 && (!campaign_ || scope != scope_)) campaign_ = source(), scope_ = scope;
   return part == 0 ? campaign_ : source();

@@ -1,6 +1,7 @@
 // The plan of `judge`: where its questions come from, the parts of a run with their times, and the rows of its report.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,20 +24,24 @@ struct NamedPlace {
 /// The place in which an engine with this claim is asked: the scene's numbers are rounded to its precision.
 std::shared_ptr<Place> place_for(const Scene& scene, const Claim& claim);
 
+/// Counts questions that are not asked because they are outside of the engine's domain. For many threads.
+using Outside = std::atomic<std::size_t>;
+
 /// `count` starts of a kind, a few of each place in turn. Places beyond the engine are left out. The places
-/// must outlast the source.
-Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count);
+/// must outlast the source, and so must `outside` of all sources.
+Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count,
+             Outside& outside);
 
 /// The records of a golden set that consist of numbers of the claim's precision; only the first ones of a
 /// scene that is beyond the engine. Throws as golden::Reader does.
-Source golden_set(const std::string& path, const Claim& claim = {});
+Source golden_set(const std::string& path, const Claim& claim, Outside& outside);
 
 /// Cases of all targets of campaigns in turn, without end; and for one case of each scene the variants that
 /// climb to the smallest margin. Only scenes that the scope admits are used, and of these only number `part`
 /// modulo `parts`. All cases consist of numbers of the claim's precision. The targets get the same time (a few
 /// take a hundred times as long as others), or the same number of scenes.
-Source campaign(std::uint64_t seed, const fuzz::Scope& scope, bool same_time = true, unsigned part = 0,
-                unsigned parts = 1, const Claim& claim = {});
+Source campaign(std::uint64_t seed, const fuzz::Scope& scope, bool same_time, unsigned part, unsigned parts,
+                const Claim& claim, Outside& outside);
 
 /// The narrowest scope that contains all the places in which the engine answered (a single ball and a single
 /// disc are in one scope); all scenes if it answered nowhere.
@@ -79,6 +84,8 @@ class JudgePlan {
   const std::vector<NamedPlace>& places() const { return places_; }
   /// The flights of the row `free paths`, in each scene in which the engine flew.
   std::vector<FlownScene> flown() const;
+  /// Questions that were not asked: they are outside of the engine's domain.
+  std::size_t outside() const { return outside_; }
 
  private:
   void add(JudgePart part, ExaminedRow row, Source source);
@@ -88,6 +95,7 @@ class JudgePlan {
   std::vector<NamedPlace> places_, flown_places_;
   std::vector<FlownScene> flown_;  // in the order of their places
   std::vector<PlannedRow> rows_;
+  Outside outside_ = 0;
   fuzz::Scope scope_;  // of campaign_
   Source campaign_;
 };

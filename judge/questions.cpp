@@ -17,27 +17,40 @@ namespace {
 
 constexpr std::size_t kBlock = 16;  // drawn queries of one place in a row
 
+// The question with its exact answer, at another speed if that brings it into the engine's domain. Nothing if it stays
+// outside, which is counted.
+std::optional<Question> asked(const std::shared_ptr<Place>& place, const Query& start, std::string where,
+                              Outside& outside) {
+  if (const auto query = place->brought_inside(start)) {
+    Question question{
+        .place = place, .query = *query, .exact = place->exact(*query), .where = std::move(where)};
+    if (place->takes(question.query, question.exact)) return question;
+  }
+  ++outside;
+  return std::nullopt;
+}
+
 // Blocks of all places in turn, except places that the engine does not support.
 class Drawn {
  public:
-  Drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count)
-      : places_(places), count_(count), what_(words_of(kind)) {
+  Drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count,
+        Outside& outside)
+      : places_(places), count_(count), what_(words_of(kind)), outside_(outside) {
     for (const NamedPlace& place : places)
       starts_.emplace_back(place.place->scene(), kind, seed, place.place->claim().precision);
   }
 
   std::optional<Question> next() {
-    for (std::size_t tried = 0; number_ < count_ && tried < places_.size(); ++tried) {
+    for (std::size_t tried = 0; number_ < count_ && tried < places_.size();) {
       const std::size_t block = number_ / kBlock, which = block % places_.size();
       if (const NamedPlace& place = places_[which]; !place.place->is_beyond_engine()) {
-        const Query query = starts_[which][block / places_.size() * kBlock + number_ % kBlock];
+        const Query start = starts_[which][block / places_.size() * kBlock + number_ % kBlock];
         ++number_;
-        return Question{.place = place.place,
-                        .query = query,
-                        .exact = place.place->exact(query),
-                        .where = fmt::format("{}, {}", what_, place.name)};
+        if (auto question = asked(place.place, start, fmt::format("{}, {}", what_, place.name), outside_))
+          return question;
+        continue;
       }
-      number_ = (block + 1) * kBlock;
+      ++tried, number_ = (block + 1) * kBlock;
     }
     return std::nullopt;
   }
@@ -52,6 +65,7 @@ class Drawn {
   const std::vector<NamedPlace>& places_;
   const std::size_t count_;
   const std::string what_;
+  Outside& outside_;
   std::size_t number_ = 0;
   std::vector<starts::FreeStarts> starts_;
 };
@@ -59,8 +73,9 @@ class Drawn {
 class CampaignQuestions {
  public:
   CampaignQuestions(std::uint64_t seed, const fuzz::Scope& scope, bool same_time, unsigned part,
-                    unsigned parts, const Claim& claim)
-      : seed_(seed),
+                    unsigned parts, const Claim& claim, Outside& outside)
+      : outside_(outside),
+        seed_(seed),
         scope_(scope),
         claim_(claim),
         same_time_(same_time),
@@ -105,25 +120,27 @@ class CampaignQuestions {
     const cases::Case base = target.make(seed_, begin, claim_.precision);
     if (!scope_.admits(base.scene)) return;
     const auto place = place_for(base.scene, claim_);
-    const auto add = [&](const Query& query, const Answer& exact, std::uint64_t index, int step) {
-      questions_.push_back({.place = place,
-                            .query = query,
-                            .exact = exact,
-                            .where = fmt::format("campaign, {}/{}{}", target.name(), index,
-                                                 step > 0 ? fmt::format(".{}", step) : "")});
+    const auto add = [&](const Query& query, std::uint64_t index, int step) {
+      std::string where =
+          fmt::format("campaign, {}/{}{}", target.name(), index, step > 0 ? fmt::format(".{}", step) : "");
+      if (auto question = asked(place, query, std::move(where), outside_))
+        questions_.push_back(std::move(*question));
     };
     for (std::uint64_t index = begin; index < begin + kCases; ++index) {
       const cases::Case one = target.make(seed_, index, claim_.precision);
-      if (one.scene == base.scene) add(one.query, place->exact(one.query), index, 0);
+      if (one.scene == base.scene) add(one.query, index, 0);
     }
+    const std::optional<Query> inside = place->brought_inside(base.query);
+    if (!inside) return;
     int step = 0;
     const cases::Random random(seed_, target.name(), begin, cases::Use::variants);
-    for (const fuzz::Variant& variant : fuzz::climb(random, base.query, *place))
-      add(variant.query, variant.exact, begin, ++step);
+    for (const fuzz::Variant& variant : fuzz::climb(random, *inside, *place))
+      add(variant.query, begin, ++step);
   }
 
   static constexpr std::uint64_t kCases = 16;  // of one scene
 
+  Outside& outside_;
   const std::uint64_t seed_;
   const fuzz::Scope scope_;
   const Claim claim_;
@@ -146,26 +163,33 @@ std::shared_ptr<Place> place_for(const Scene& scene, const Claim& claim) {
   return std::make_shared<Place>(rounded(scene, claim.precision), question::Truth::oracle, claim);
 }
 
-Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed,
-             std::size_t count) {
-  return source_of<Drawn>(places, kind, seed, count);
+Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count,
+             Outside& outside) {
+  return source_of<Drawn>(places, kind, seed, count, std::ref(outside));
 }
 
-Source golden_set(const std::string& path, const Claim& claim) {
+Source golden_set(const std::string& path, const Claim& claim, Outside& outside) {
   const auto reader = std::make_shared<golden::Reader>(path);
-  return [reader, records = golden::questions_of(*reader, claim)] {
+  return [reader, records = golden::questions_of(*reader, claim), &outside] {
     std::optional<Question> question;
+    const auto is_passed_over = [&] {
+      const Place& place = *question->place;
+      if (place.is_beyond_engine() || !place.has_numbers_for(question->query)) return true;
+      if (!question->is_query() ||
+          (place.takes(question->query) && place.takes(question->query, question->exact)))
+        return false;
+      return ++outside, true;
+    };
     do question = records();
-    while (question &&
-           (question->place->is_beyond_engine() || !question->place->has_numbers_for(question->query)));
+    while (question && is_passed_over());
     if (question) question->where = fmt::format("golden {}, {}", reader->header().name, question->where);
     return question;
   };
 }
 
 Source campaign(std::uint64_t seed, const fuzz::Scope& scope, bool same_time, unsigned part, unsigned parts,
-                const Claim& claim) {
-  return source_of<CampaignQuestions>(seed, scope, same_time, part, parts, claim);
+                const Claim& claim, Outside& outside) {
+  return source_of<CampaignQuestions>(seed, scope, same_time, part, parts, claim, std::ref(outside));
 }
 
 fuzz::Scope scope_of(const std::vector<NamedPlace>& places) {

@@ -60,15 +60,14 @@ std::vector<int> dimensions_in(json::Value value) {
 Domain::Range range_in(json::Value value, std::string_view key) {
   const std::string name = "domain: " + std::string(key);
   std::vector<double> ends;
-  json::each_element(value.array(),
-                     [&](json::Value end) { ends.push_back(not_negative(end, name.c_str())); });
+  json::each_element(value, [&](json::Value end) { ends.push_back(not_negative(end, name.c_str())); });
   if (ends.size() != 2 || ends[0] > ends[1]) throw InputError(name + " needs two numbers, the smaller first");
   return {ends[0], ends[1]};
 }
 
 void read_shapes(json::Value value, Domain& domain) {
   domain.balls = domain.ellipsoids = false;
-  json::each_element(value.array(), [&](json::Value shape) {
+  json::each_element(value, [&](json::Value shape) {
     const std::string_view name = shape.text();
     if (name != "ball" && name != "ellipsoid") throw InputError("domain: shapes are ball and ellipsoid");
     (name == "ball" ? domain.balls : domain.ellipsoids) = true;
@@ -77,8 +76,7 @@ void read_shapes(json::Value value, Domain& domain) {
 
 Domain domain_in(json::Value value) {
   Domain domain;
-  json::Object object = value.object();
-  json::each_member(object, [&](std::string_view key, json::Value its) {
+  json::each_member(value, [&](std::string_view key, json::Value its) {
     if (key == "speed") domain.speed = range_in(its, key);
     if (key == "coordinates") domain.coordinates = range_in(its, key);
     if (key == "radius") domain.radius = range_in(its, key);

@@ -42,6 +42,11 @@ class Place {
   bool takes(const Query& query) const {
     return is_in_its_domain_ && claim_.domain.has(query) && has_numbers_for(query);
   }
+  /// The query if it is in the domain, or the same flight at another speed that is; nothing if there is none.
+  std::optional<Query> brought_inside(const Query& query) const {
+    std::optional<Query> inside = claim_.domain.bring_inside(query);
+    return inside && takes(*inside) ? inside : std::nullopt;
+  }
   /// True if the exact answer is one that the engine is asked for, too.
   bool takes(const Query& query, const Answer& exact) const {
     const bool is_start_inside =

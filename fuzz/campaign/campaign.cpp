@@ -51,6 +51,7 @@ bool Scope::meets(const Target& target, std::uint64_t seed) const {
 void TargetTally::add(const TargetTally& other) {
   cases += other.cases;
   variants += other.variants;
+  outside += other.outside;
   reworded += other.reworded;
   counts += other.counts;
   for (std::size_t s = 0; s < stages.size(); ++s) stages[s] += other.stages[s];

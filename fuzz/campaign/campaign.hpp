@@ -57,6 +57,7 @@ struct Plan {
 struct TargetTally {
   std::uint64_t next = 0;  ///< the first index that is not done
   std::uint64_t cases = 0, variants = 0;
+  std::uint64_t outside = 0;                                ///< not asked: outside of the engine's domain
   std::uint64_t reworded = 0;                               ///< of both, asked in other words and answered
   question::Counts counts;                                  ///< replies to all of these, by Kind
   std::array<std::uint64_t, 3> stages{};                    ///< the same, by Stage, if the reply names it
@@ -65,8 +66,8 @@ struct TargetTally {
   std::uint64_t margin_index = 0;                           ///< from this case
 
   friend auto members_of(TargetTally& self) {
-    return std::tie(self.next, self.cases, self.variants, self.reworded, self.counts, self.stages, self.sorts,
-                    self.margin, self.margin_index);
+    return std::tie(self.next, self.cases, self.variants, self.outside, self.reworded, self.counts,
+                    self.stages, self.sorts, self.margin, self.margin_index);
   }
 
   /// Adds what another stint of indices met, except `next`, which the caller sets.

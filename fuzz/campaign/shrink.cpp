@@ -435,7 +435,7 @@ StillFails in_places(
       if (!is_sound(scene) || !is_sane(scene)) return false;
       place = place_of(scene);
     }
-    return !flaw_of(query, scene) && place->has_numbers_for(query) && still_fails(place, query);
+    return !flaw_of(query, scene) && place->takes(query) && still_fails(place, query);
   };
 }
 

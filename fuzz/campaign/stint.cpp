@@ -140,19 +140,25 @@ void StintRunner::pose(const Stint& stint, Questions& questions) {
     const std::shared_ptr<Place>& place = context->place();
     const std::size_t first = questions.cases.size();
     const auto add = [&](int step, const Query& query, const Answer& exact) {
-      questions.cases.push_back({index, step, {.place = place, .query = query, .exact = exact}, context});
+      const bool is_asked = place->takes(query) && place->takes(query, exact);
+      if (is_asked)
+        questions.cases.push_back({index, step, {.place = place, .query = query, .exact = exact}, context});
+      ++(is_asked ? step > 0 ? met.variants : met.cases : met.outside);
     };
-    add(0, base.query, place->exact(base.query));
-    ++met.cases;
+    const std::optional<Query> query = place->brought_inside(base.query);
+    if (!query) {
+      ++met.outside;
+      continue;
+    }
+    add(0, *query, place->exact(*query));
     if (Random random(plan_.seed, target.name(), index, Use::variants);
         plan_.mutate > 0 && random.one_in(plan_.mutate)) {
       int step = 0;
-      for (const Variant& variant : climb(random, base.query, *place)) {
+      for (const Variant& variant : climb(random, *query, *place)) {
         if (variant.margin() > 0 && variant.margin() < met.margin)
           met.margin = variant.margin(), met.margin_index = index;
         add(++step, variant.query, variant.exact);
       }
-      met.variants += static_cast<std::uint64_t>(step);
     }
     if (Random random(plan_.seed, target.name(), index, Use::rewordings);
         plan_.reword > 0 && random.one_in(plan_.reword))
@@ -174,12 +180,12 @@ void StintRunner::pose_in_other_words(Random& random, Questions& questions, std:
     auto& [rewording, context] = questions.other_words(plan_, *answerer_, one, number);
     if (!plan_.scope.admits(context->scene())) continue;
     auto reworded = rewording.reword(random, one.question.query);
-    if (!reworded || !context->place()->has_numbers_for(reworded->query)) continue;
+    if (!reworded || !context->place()->takes(reworded->query)) continue;
     auto carried = rewording.carried(one.question.exact, *reworded);
     Question question{.place = context->place(), .query = std::move(reworded->query)};
     question.exact = carried ? std::move(*carried) : question.place->exact(question.query);
     std::string words = rewording.words(*reworded);
-    if (random.one_in(kCasesPerLimit) && answerer_->takes_limits()) {
+    if (random.one_in(kCasesPerLimit) && answerer_->takes_limits() && plan_.claim.domain.limits) {
       const LimitAt limit = drawn_limit(random, question.exact);
       question.max_time = limit_of(limit, question.exact);
       if (limit != LimitAt::none) words += (words.empty() ? "" : ", ") + words_of(limit);

@@ -11,6 +11,19 @@
 #include "fuzz/campaign/campaign.hpp"
 #include "report/runs/database.hpp"
 
+namespace lorentz {
+
+// For pieces of stores (src/exchange/json_piece.hpp).
+inline auto members_of(Domain::Range& self) {
+  return std::tie(self.low, self.high);
+}
+inline auto members_of(Domain& self) {
+  return std::tie(self.speed, self.coordinates, self.radius, self.flight, self.dimension_2, self.dimension_3,
+                  self.balls, self.ellipsoids, self.limits);
+}
+
+}  // namespace lorentz
+
 namespace lorentz::fuzz {
 
 /// All that the findings of a campaign depend on. Two campaigns with the same manifest are one.
@@ -24,7 +37,7 @@ struct CampaignManifest {
   friend bool operator==(const CampaignManifest&, const CampaignManifest&) = default;
   friend auto members_of(CampaignManifest& self) {
     return std::tie(self.version, self.engine, self.targets, self.seed, self.options, self.claim.precision,
-                    self.claim.time_tolerance);
+                    self.claim.time_tolerance, self.claim.inside, self.claim.domain);
   }
 };
 

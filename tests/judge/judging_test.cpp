@@ -26,6 +26,8 @@ using namespace lorentz::judge;
 
 namespace {
 
+Outside outside = 0;  // of all sources here
+
 constexpr std::uint64_t kSeed = 20161116;
 constexpr double kForEver = 1e9;
 
@@ -127,7 +129,7 @@ std::string text_of(const report::Calls& calls) {
 
 TEST_CASE("Each case of a campaign is one part's, whatever their number", "[judge][questions]") {
   const auto first_of = [](unsigned part, unsigned parts, std::size_t number) {
-    const Source source = campaign(kSeed, {fuzz::Scope::Scenes::unit, 2}, true, part, parts);
+    const Source source = campaign(kSeed, {fuzz::Scope::Scenes::unit, 2}, true, part, parts, {}, outside);
     std::set<std::string> where;
     for (std::size_t i = 0; i < number; ++i)
       if (const auto question = source()) where.insert(question->where);
@@ -152,7 +154,7 @@ TEST_CASE("Each case of a campaign is one part's, whatever their number", "[judg
 
 TEST_CASE("Where scenes are counted, families take turns in one order, whatever each takes",
           "[judge][questions]") {
-  const Source source = campaign(kSeed, {}, false);
+  const Source source = campaign(kSeed, {}, false, 0, 1, {}, outside);
   std::vector<std::string> turns;  // the family of each scene, in the order in which they come
   std::map<std::string, int> met;
   std::size_t again = 0;
@@ -185,10 +187,44 @@ TEST_CASE("An engine in binary32 is asked what consists of such numbers", "[judg
     return count;
   };
   for (const starts::Kind kind : {starts::Kind::uniform, starts::Kind::near_rational, starts::Kind::grazing})
-    CHECK(asked(drawn(places, kind, kSeed, 50), 50) == 50);
+    CHECK(asked(drawn(places, kind, kSeed, 50, outside), 50) == 50);
   for (const std::string& file : golden::committed_sets())
-    if (file.ends_with("ball-3d.ndjson")) CHECK(asked(golden_set(file, claim), 1000) == 17);
-  CHECK(asked(campaign(kSeed, {}, false, 0, 1, claim), 500) == 500);
+    if (file.ends_with("ball-3d.ndjson")) CHECK(asked(golden_set(file, claim, outside), 1000) == 17);
+  CHECK(asked(campaign(kSeed, {}, false, 0, 1, claim, outside), 500) == 500);
+}
+
+TEST_CASE("Only questions in the engine's domain are asked; what is too fast alone is slowed down",
+          "[judge][judging]") {
+  Claim claim;
+  claim.domain.speed = {1e-3, 1e3};
+  claim.domain.coordinates = {0, 1e6};
+  claim.domain.radius = {0.01, 10};
+  claim.domain.ellipsoids = false;
+  claim.inside = StartInside::unsupported;
+  Outside passed_over = 0;
+  std::size_t asked = 0, insides = 0;
+  const auto ask = [&](const Source& source, std::size_t most) {
+    std::size_t count = 0;
+    for (std::optional<Question> one; count < most && (one = source()); ++count) {
+      INFO(one->where);
+      if (!one->is_query()) continue;
+      CHECK((claim.domain.has(one->place->scene()) && claim.domain.has(one->query)));
+      insides += one->exact.outcome == Outcome::inside;
+    }
+    asked += count;
+  };
+  ask(campaign(kSeed, {}, false, 0, 1, claim, passed_over), 3000);
+  CHECK(asked == 3000);
+  CHECK(passed_over > 300);
+  const std::size_t of_campaign = passed_over;
+  for (const std::string& file : golden::committed_sets())
+    if (file.ends_with("scale.ndjson")) ask(golden_set(file, claim, passed_over), 1000);
+  CHECK(passed_over > of_campaign);
+  const std::vector<NamedPlace> places{{"tiny", place_for(unit_scene(2, 1e-6), claim)},
+                                       {"square", place_for(unit_scene(2, 0.1), claim)}};
+  ask(drawn(places, starts::Kind::uniform, kSeed, 90, passed_over), 1000);
+  CHECK(asked > 3000 + 40);  // half of the 90 are in the square
+  CHECK(insides == 0);
 }
 
 TEST_CASE("Two threads of a judge's campaign ask different questions, and all of them count",
@@ -433,8 +469,8 @@ TEST_CASE("Drawn and flown questions come in blocks of each place, and none is l
         if (question->place == places[p].place) all[p].push_back(question->query);
     return all;
   };
-  const auto drawn_ones = by_place(drawn(places, starts::Kind::uniform, kSeed, 90)),
-             flown_ones = by_place(drawn(places, starts::Kind::surface, kSeed, 90));
+  const auto drawn_ones = by_place(drawn(places, starts::Kind::uniform, kSeed, 90, outside)),
+             flown_ones = by_place(drawn(places, starts::Kind::surface, kSeed, 90, outside));
   for (std::size_t p = 0; p < places.size(); ++p) {
     const Place& place = *places[p].place;
     REQUIRE(drawn_ones[p].size() == (p == 2 ? 26 : 32));

@@ -13,7 +13,7 @@ using namespace lorentz::test;
 
 TEST_CASE("A path: obstacles, both paths, where they part, and what is written of them",
           "[pictures][path_drawing]") {
-  PathDrawing drawing{crowd(), 3, {{0.5, 0}, {1.5, 0.5}, {0.7, 1.9}, {-0.4, 1}}, {}, {}, 0, "", 700};
+  PathDrawing drawing{crowd(), 3, {{0.5, 0}, {1.5, 0.5}, {0.7, 1.9}, {-0.4, 1}}, {}, {}, 0, ""};
   drawing.other = {{0.5, 0}, {1.5, 0.5}, {-1, 1.2}, {-1.5, -0.4}};
   drawing.parting = 2;
   drawing.other_name = "reduction";
