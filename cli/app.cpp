@@ -9,6 +9,7 @@
 #include <lorentz/exchange.hpp>
 #include "cli/completion.hpp"
 #include "cli/file_options.hpp"
+#include "cli/help_texts.hpp"
 #include "cli/manual.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
@@ -206,11 +207,13 @@ Command program() {
       "lorentz",
       "Exact first hits in periodic Lorentz gases: the reference that engines are checked against.",
       {},
-      "Exit status: 0 done, 1 a wrong answer was found, 2 bad usage or bad input, 3 the work could not "
-      "be done.\n"
-      "Example: what is hit first from (0, 0.445) along (1, 0.0175), among discs of radius 0.1?\n"
-      R"(  echo '{"id":1,"x":[0,0.445],"v":[1,0.0175]}' | lorentz first-hit --scene square )"
-      "--radius 0.1",
+      "Engines: " + names_for_help() +
+          " (docs/command_engines.md).\n"
+          "Exit status: 0 done, 1 a wrong answer was found, 2 bad usage or bad input, 3 the work could not "
+          "be done.\n"
+          "Example: what is hit first from (0, 0.445) along (1, 0.0175), among discs of radius 0.1?\n"
+          R"(  echo '{"id":1,"x":[0,0.445],"v":[1,0.0175]}' | lorentz first-hit --scene square )"
+          "--radius 0.1",
       {},
       {first_hit_command(), compare_command(), judge_command(), convergents_command(), horizon_command(),
        sample_command(), demo_command(), bench_command(), scene_command(), golden_command(), fuzz_command(),

@@ -37,7 +37,7 @@ std::vector<Option> chaos_rows(ChaosOptions& options, const std::string& rows_of
                        {
                            {"--jobs", Whole{&options.jobs, 1, 1024}, "N", "threads; the result is the same"},
                            {"--store", &options.store, "FILE",
-                            "where parts that are done are kept, and gone on from", kOutput},
+                            "keeps finished parts in FILE; the same command resumes there", kOutput},
                        }),
                 own);
 }

@@ -109,16 +109,17 @@ Claim ClaimOptions::claim(NumberFormat otherwise) const {
 }
 
 Option ClaimOptions::precision_row(const std::string& otherwise) {
-  return {"--precision", &precision, "binary64|binary32",
-          "of the engine's numbers: it is asked what consists of such numbers, and an ulp is one of them "
-          "(default: what a cmd: or lib: engine says of itself, " +
-              otherwise + ")"};
+  return {
+      "--precision", &precision, "binary64|binary32",
+      "format of the engine's numbers: questions consist of such numbers, and ulps are theirs (default: what "
+      "a cmd: or lib: engine claims, " +
+          otherwise + ")"};
 }
 
 Option ClaimOptions::time_tolerance_row() {
   return {"--time-tolerance", &time_tolerance, "T",
           "a time is right if it is off by at most T times itself, not by ulps; inf: times are not judged "
-          "(default: what a cmd: or lib: engine says of itself)"};
+          "(default: what a cmd: or lib: engine claims)"};
 }
 
 Option ClaimOptions::domain_row() {
@@ -126,7 +127,7 @@ Option ClaimOptions::domain_row() {
       "--domain", &domain, "PART=VALUE",
       "the questions that the engine is made for, with commas between parts: speed=A..B, coordinates=A..B, "
       "radius=A..B, flight=A..B, dimension=2|3, shape=ball|ellipsoid, limits=yes|no (default: what a cmd: or "
-      "lib: engine says of itself, else all)"};
+      "lib: engine claims, else all)"};
 }
 
 Option ClaimOptions::starts_inside_row() {
@@ -135,7 +136,7 @@ Option ClaimOptions::starts_inside_row() {
           "a hit at "
           "time 0 (zero), or when the line leaves it (exit); unsupported: it is not asked (default: what a "
           "cmd: or "
-          "lib: engine says of itself, else inside)"};
+          "lib: engine claims, else inside)"};
 }
 
 }  // namespace lorentz::cli

@@ -18,24 +18,25 @@ std::vector<Option> rows_of_sources(O& o) {
        "scene files, or names of the catalogue, with commas between them (default: square)", kCommas},
       {"--radius", &o.radii, "R", "radii of every ball of --scene, with commas between them", kCommas},
       {"--difficulty", &o.difficulties, "drawn|near-rational|grazing",
-       "of the queries (default: drawn,near-rational,grazing)", kCommas | kToldDefault},
+       "kinds of queries (default: drawn,near-rational,grazing)", kCommas | kToldDefault},
       {"--queries", &o.queries, "FILE",
-       "queries instead of drawn ones: a stream (NDJSON), - is standard input, or columns (.npy, .csv; "
+       "asks these queries instead of drawn ones: a stream (NDJSON; - is standard input), or columns (.npy, "
+       ".csv; "
        "docs/formats.md), which need --scene",
        kPlain, "--count"},
-      {"--count", Whole{&o.count, 0, 1'000'000'000}, "N", "how many queries to draw in each scene", kPlain,
+      {"--count", Whole{&o.count, 0, 1'000'000'000}, "N", "number of queries drawn in each scene", kPlain,
        "--queries"},
-      {"--seed", Whole{&o.seed}, "N", "of all that is drawn"},
+      {"--seed", Whole{&o.seed}, "N", "seed of everything that is drawn"},
       {"sets", &o.sets, "SET", "files, folders, or names of committed sets (default: all of these)"},
       {"--first", Whole{&o.first, 1, 1'000'000'000'000}, "N", "only the first N records of each set"},
-      {"--id", &o.id, "ID", "only this record; the beginning of its id will do"},
+      {"--id", &o.id, "ID", "only the record with this id, or whose id begins so"},
       {"--quick", &o.quick, "", "20 seconds instead of two minutes, and fewer drawn flights", kPlain,
        "--questions"},
       {"--time", Positive{&o.seconds}, "SECONDS",
-       "how long the run takes, the engine's start included; each part takes its share (default: 124; with "
+       "length of the run, with the engine's start; each part takes its share (default: 124; with "
        "--quick 19.5)"},
       {"--questions", Whole{&o.questions, 1, 1'000'000'000}, "N",
-       "asks N questions of each row, however long that takes: every machine asks the same", kToldDefault,
+       "asks N questions in each row, however long that takes: the same on every machine", kToldDefault,
        "--time"},
   };
 }
@@ -44,16 +45,18 @@ std::vector<Option> rows_of_sources(O& o) {
 std::vector<Option> rows_of_engines(O& o) {
   return {
       {"-e,--engine", &o.engines, "ENGINE",
-       names_for_help() + "; several with commas between them, or once each", kOneAtATime | kToldDefault},
+       std::string(kEngineHelp) + "; several with commas between them, or the option several times",
+       kOneAtATime | kToldDefault},
       {"--answers", &o.answers, "NAME=FILE",
-       "judge answers that some program wrote, as an engine NAME: a stream; or columns (.npy, .csv), "
-       "to queries in columns"},
+       "also judges the answers in FILE, which some program wrote, as those of an engine called NAME: a "
+       "stream, or columns (.npy, .csv) to queries in columns"},
       {"--jobs", Whole{&o.jobs, 1, 1024}, "N",
-       "threads, of exact answers and of engines of this program: the same results; times are of one", kPlain,
-       "--questions"},
+       "number of threads for exact answers and for engines of this program; results are the same, and "
+       "times are those of one thread",
+       kPlain, "--questions"},
       {"--timeout", Positive{&o.timeout}, "SECONDS", kTimeoutHelp},
       {"--judge", &o.judge, "oracle|certified", kJudgeHelp},
-      {"--no-oracle", &o.no_oracle, "", "only take times, judge nothing", kPlain, "--answers"},
+      {"--no-oracle", &o.no_oracle, "", "only measures times, judges nothing", kPlain, "--answers"},
       {"--ulps", Tolerance{&o.ulps}, "K",
        "the tolerance k: answers that k ulps in every input would make right are ill-posed, not wrong; 0 "
        "forgives nothing (default: 4)"},
@@ -61,27 +64,27 @@ std::vector<Option> rows_of_engines(O& o) {
       o.claim.time_tolerance_row(),
       o.claim.domain_row(),
       o.claim.starts_inside_row(),
-      {"--times", &o.times, "", "wrong times count: exit status 1, and among the failures"},
+      {"--times", &o.times, "", "wrong times are failures, too: exit status 1"},
       {"--strict", &o.strict, "",
-       "ill-posed and undecided answers count, and those to invalid questions: exit status 1; unknown keys "
-       "are errors"},
+       "ill-posed and undecided answers, and answers to invalid questions, are failures: exit status 1; "
+       "unknown keys are errors"},
   };
 }
 
 // Where results go.
 std::vector<Option> rows_of_sinks(O& o) {
   return {
-      {"--json", &o.json, "", "JSON instead of tables, one object a line"},
-      {"--failures", Whole{&o.failures, 0, 1'000'000}, "N", "show at most N failures of each engine"},
+      {"--json", &o.json, "", "writes JSON instead of tables, one object per line"},
+      {"--failures", Whole{&o.failures, 0, 1'000'000}, "N", "shows at most N failures of each engine"},
       {"--disagreements", &o.disagreements, "FILE",
-       "write each wrong or ill-posed answer there (--times: and wrong time), as a query stream", kOutput},
+       "writes each wrong or ill-posed answer (with --times each wrong time) to FILE, as a query stream",
+       kOutput},
       o.files.baseline_row(),
       o.files.junit_row(),
-      {"--csv", &o.csv, "FILE", "write the figures there too, one line a cell", kOutput},
-      {"--html", &o.html, "FILE", "write the report there as a page that opens offline, whole or not at all",
-       kOutput},
+      {"--csv", &o.csv, "FILE", "also writes the figures to FILE, one line per cell", kOutput},
+      {"--html", &o.html, "FILE", "writes the report to FILE, as a page that opens offline", kOutput},
       {"--golden", &o.golden, "FILE",
-       "write the simplest case of each fault there, as a golden set for the engine's own tests", kOutput},
+       "writes the simplest case of each fault to FILE, as a golden set for the engine's own tests", kOutput},
   };
 }
 

@@ -199,7 +199,7 @@ Command first_hit_command() {
       "Which obstacle is hit first? Queries to answers, line by line.",
       {
           {"queries", &options->queries, "FILE", "queries; - is standard input"},
-          {"-e,--engine", &options->engine, "ENGINE", "one of " + names_for_help()},
+          {"-e,--engine", &options->engine, "ENGINE", kEngineHelp},
           {"--scene", &options->scene, "SCENE",
            "scene before the first scene line: a file, or a name of the catalogue"},
           {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},

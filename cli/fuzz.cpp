@@ -253,18 +253,18 @@ int act(const FuzzOptions& options) {
 
 Command fuzz_command() {
   auto options = std::make_shared<FuzzOptions>();
-  return {
-      "fuzz",
-      "Campaigns: hard cases and variants of them until an engine fails, and what is found made readable.",
-      rows_of(*options),
+  return {"fuzz",
+          "Campaigns: constructs hard cases and variants until an engine fails, and reduces what it finds to "
+          "simple cases.",
+          rows_of(*options),
 
-      "docs/campaigns.md: targets, variants, what is a finding, how it is shrunk, the store. Without "
-      "--engine: "
-      "reduction.\n"
-      "Example:\n  lorentz fuzz --engine published --time 60 --store published.campaign\n"
-      "  lorentz fuzz show --store published.campaign",
-      [options] { return act(*options); },
-      {fuzz_show_command(), fuzz_export_command()}};
+          "docs/campaigns.md: targets, variants, what is a finding, how it is shrunk, the store. Without "
+          "--engine: "
+          "reduction.\n"
+          "Example:\n  lorentz fuzz --engine published --time 60 --store published.campaign\n"
+          "  lorentz fuzz show --store published.campaign",
+          [options] { return act(*options); },
+          {fuzz_show_command(), fuzz_export_command()}};
 }
 
 }  // namespace lorentz::cli

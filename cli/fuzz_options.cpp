@@ -121,30 +121,32 @@ std::vector<Option> rows_of(FuzzOptions& options) {
   for (const cases::Target& target : cases::targets()) names.emplace_back(target.name());
   return joined(
       {{"-t,--target", &options.targets, "TARGET",
-        fmt::format("what to aim at (default: all): {}", fmt::join(names, ", ")), kCommas},
+        fmt::format("targets of the campaign (default: all): {}", fmt::join(names, ", ")), kCommas},
        {"--dimension", Whole{&options.dimension, 2, 3}, "2|3",
         "only scenes in the plane, or in space (default: both)"},
        {"--scenes", &options.scope, "unit|lattice|ball|any",
-        "only such as the engine can do: unit (the square or cubic lattice with spacing 1 and one "
-        "ball), lattice (one, with one ball), ball (one, that is not repeated), any"},
-       {"--time", Positive{&options.seconds}, "SECONDS", "how long (default: 60, or until --count)"},
+        "only scenes that the engine supports: unit (the square or cubic lattice with spacing 1 and one "
+        "ball), lattice (one lattice with one ball), ball (a single one), any"},
+       {"--time", Positive{&options.seconds}, "SECONDS",
+        "length of the campaign (default: 60, or until --count)"},
        {"--count", Whole{&options.cases, 1, kMostCases}, "N",
-        "until each target has had N cases: its variants do not count, cases that --scenes leaves out do"},
-       {"--store", &options.store, "FILE", "where findings are kept and campaigns gone on with", kOutput},
+        "stops when each target has made N cases; variants do not count, cases that --scenes leaves out do"},
+       {"--store", &options.store, "FILE", "keeps findings in FILE; the same command resumes the campaign",
+        kOutput},
        {"--keep", Whole{&options.keep, 1, 1'000'000}, "N",
-        "findings of one sort that are kept and shrunk, of each target"},
+        "keeps and shrinks at most N findings of one sort for each target"},
        {"--mutate", Whole{&options.mutate, 0, 1'000'000'000}, "N",
-        "climb to smaller margins from one case in N; 0: from none"},
+        "climbs to smaller margins from one case in N; 0: from none"},
        {"--reword", Whole{&options.reword, 0, 1'000'000'000}, "N",
-        "ask one case in N, and its variants, in other words, too; 0: none"},
-       {"--first", &options.to_first, "", "stop at the first finding"},
+        "also asks one case in N, and its variants, in other words; 0: none"},
+       {"--first", &options.to_first, "", "stops at the first finding"},
        {"--undecided", &options.undecided, "",
         "`undecided` is a finding (the default, but for reduction and batch)", kPlain, "--no-undecided"},
        {"--no-undecided", &options.no_undecided, "", "`undecided` is not a finding", kPlain, "--undecided"},
        {"--progress", Positive{&options.progress}, "SECONDS",
-        "where stderr is not a terminal: print a line there every SECONDS (default: 60)"}},
+        "if stderr is not a terminal: prints a line of progress every SECONDS (default: 60)"}},
       options.rows({"--engine", "--seed", "--jobs", "--judge", "--ulps", "--precision", "--time-tolerance",
-                    "--timeout", "--times", "--json"}));
+                    "--domain", "--starts-inside", "--timeout", "--times", "--json"}));
 }
 
 }  // namespace lorentz::cli

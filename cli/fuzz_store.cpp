@@ -95,7 +95,7 @@ std::string text_of(const std::string& id, const fuzz::Finding& f, const Claim& 
   std::string out = fmt::format("{}: {}{}\ncause: {}\n", id, f.kind, report::words_of(claim), f.cause);
   if (!f.words.empty()) out += fmt::format("in other words: {}\n", f.words);
   if (f.shrinking == fuzz::Shrinking::due)
-    return out + "not shrunk yet: the campaign does so when it is gone on with\n" +
+    return out + "not shrunk yet: the campaign does so when it is resumed\n" +
            lines_of("as found:", f.text, claim.precision);
   return out + lines_of(heading_of_shrunk(f), f.shrunk, claim.precision) +
          lines_of("as found:", f.text, claim.precision);

@@ -272,13 +272,13 @@ Command golden_make_command() {
            "scene before the first scene line, and of columns: a file, or a name of the catalogue"},
           {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
           {"--tag", &options->tags, "TAG[=SENTENCE]", "tag of each record of --queries", kOneAtATime},
-          {"--name", &options->name, "NAME", "of the set that --queries become (default: queries)"},
+          {"--name", &options->name, "NAME", "name of the set that --queries become (default: queries)"},
           {"--precision", &options->precision, "binary64|binary32",
-           "of the numbers of scenes and queries: cases are hard in its ulps, which margins and "
+           "format of the numbers of scenes and queries: cases are hard in its ulps, which margins and "
            "conditions count (default: binary64)"},
           {"--count", Whole{&options->count, 1, 1'000'000'000'000}, "N",
            "how many records (default: as many as are committed, or would be)"},
-          {"--seed", Whole{&options->seed}, "N", "of the cases"},
+          {"--seed", Whole{&options->seed}, "N", "seed of the cases"},
           {"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads"},
           {"-o,--output", &options->output, "FILE", "file to write (- is standard output)",
            kOutput | kTakesStdout},

@@ -7,9 +7,8 @@
 namespace lorentz::cli {
 
 std::string names_for_help() {
-  return fmt::format(
-      "{}, cmd:COMMAND (an external program), lib:FILE.so (a shared library); docs/command_engines.md",
-      fmt::join(question::own_names(), ", "));
+  return fmt::format("{}, cmd:COMMAND (a program), lib:FILE.so (a shared library)",
+                     fmt::join(question::own_names(), ", "));
 }
 
 }  // namespace lorentz::cli

@@ -8,10 +8,13 @@ namespace lorentz::cli {
 /// The names of all engines, with `cmd:COMMAND` and `lib:FILE.so`.
 std::string names_for_help();
 
+inline constexpr const char* kEngineHelp =
+    "an engine that `lorentz --help` lists, cmd:COMMAND (a program) or lib:FILE.so (a shared library)";
+
 inline constexpr const char* kTimeoutHelp =
-    "how long a cmd: or lib: engine may be silent while it owes answers (default: 60)";
+    "how long a cmd: or lib: engine may take for an answer (default: 60)";
 
 inline constexpr const char* kJudgeHelp =
-    "whose answers are the truth: oracle, or certified, which is faster and rests on reduction";
+    "the engine whose answers count as exact: oracle, or certified, which is faster and uses reduction";
 
 }  // namespace lorentz::cli

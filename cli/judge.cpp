@@ -131,7 +131,9 @@ int act(const ExaminationOptions& options) {
 Command judge_command() {
   auto options = std::make_shared<ExaminationOptions>();
   return {
-      "judge", "All that can be said of one engine: comparison, golden sets, a campaign, speed; one verdict.",
+      "judge",
+      "Judges one engine: drawn and hard flights, golden sets, a campaign, speed; one verdict and its "
+      "reasons.",
       options->rows({"--engine", "--quick", "--time", "--questions", "--seed", "--jobs", "--ulps",
                      "--precision", "--time-tolerance", "--domain", "--starts-inside", "--timeout", "--html",
                      "--golden", "--json", "--baseline", "--junit", "--times", "--strict"}),

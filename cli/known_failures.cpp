@@ -83,11 +83,11 @@ std::set<RecordKey> records_in(const std::string& text, const std::string& name)
 }  // namespace
 
 Option FailureFiles::baseline_row() {
-  return {
-      "--baseline", &baseline, "FILE",
-      "failures that are known, lines \"SET ID\" (SET: the set, row or target): only others count, and stale "
-      "lines are told of. If there is no FILE, it is written with the failures of this run",
-      kOutput};
+  return {"--baseline", &baseline, "FILE",
+          "failures that are known, lines \"SET ID\" (SET: the set, row or target): only others count, and "
+          "lines that no longer fail are reported. If FILE does not exist, the failures of this run are "
+          "written to it",
+          kOutput};
 }
 
 Option FailureFiles::junit_row() {

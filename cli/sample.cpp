@@ -92,8 +92,9 @@ Command sample_command() {
            "the cosine law, with `from`; near-rational: along a lattice vector but for ulps to "
            "2^-40; grazing: at an obstacle's edge but for ulps to 2^-10"},
           {"--count", Whole{&options->count, 1, 1'000'000'000'000}, "N", "how many"},
-          {"--seed", Whole{&options->seed}, "N", "of the starts"},
-          {"--precision", &options->precision, "binary64|binary32", "of the numbers of scene and starts"},
+          {"--seed", Whole{&options->seed}, "N", "seed of the starts"},
+          {"--precision", &options->precision, "binary64|binary32",
+           "format of the numbers of scene and starts"},
           {"--format", &options->format, "ndjson|csv|npy",
            "ndjson: a stream that begins with the scene; csv, npy (NumPy): columns of numbers "
            "(docs/formats.md), which first-hit reads with --scene"},

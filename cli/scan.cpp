@@ -43,7 +43,7 @@ std::vector<Option> scan_rows(ScanOptions& options, const std::string& rows_of_c
       {"--scene", &options.scenes, "SCENE",
        "a file, or a name of the catalogue; several, with commas between them, one after the other", kCommas},
       {"--radius", &options.radii, "R", "radius of every ball; several, with commas between them", kCommas},
-      {"--seed", Whole{&options.seed}, "N", "of the starts"},
+      {"--seed", Whole{&options.seed}, "N", "seed of the starts"},
       {"--csv", &options.csv, "FILE",
        rows_of_csv + ", to a file; of several scenes or radii one table, with both in its first columns",
        kOutput},

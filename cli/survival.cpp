@@ -68,7 +68,7 @@ Command survival_command() {
       joined(scan_rows(*options, "shares of starts that are right after k collisions"),
              {
                  {"-e,--engine", &options->engine, "ENGINE",
-                  "whose flights binary64 and double-double have: one of " + names_for_help()},
+                  "the engine of the flights in binary64 and double-double; " + std::string(kEngineHelp)},
                  {"--bits", &options->bits, "LIST",
                   "arithmetics: 53 is the engine in binary64, 106 in double-double, any other number "
                   "plain arithmetic of that many bits",

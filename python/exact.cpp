@@ -63,11 +63,12 @@ class PyOracle {
   }
 
   py::dict judge(const std::string& text, const std::string& given_text, double ulps,
-                 const std::string& precision, std::optional<double> time_tolerance) const {
-    const Claim claim = claim_of(precision, time_tolerance);
-    const auto [query, exact] = question(text);
+                 const std::string& claim_line) const {
+    const Claim claim = claim_of(claim_line);
+    auto [query, exact] = question(text);
     const Answer given = read_answer(given_text, scene_);
     const question::Place place(scene_, question::Truth::oracle, claim);
+    if (exact.outcome == Outcome::inside) exact = place.exact(query);
     const oracle::Judge& judge = claim == Claim() ? place_->judge() : place.judge();
     const oracle::Judgement judgement = judge.judge(query, exact, given, ulps);
     const auto diagnosis = lorentz::judge::diagnosis_of({place_, query, exact, {}, {}}, given, judgement);
@@ -141,8 +142,7 @@ void bind_exact(py::module_& module) {
       .def("is_free", &PyOracle::is_free, py::arg("query"))
       .def("margin", &PyOracle::margin, py::arg("query"))
       .def("passed", &PyOracle::passed, py::arg("query"), py::arg("most"))
-      .def("judge", &PyOracle::judge, py::arg("query"), py::arg("answer"), py::arg("ulps"),
-           py::arg("precision"), py::arg("time_tolerance"))
+      .def("judge", &PyOracle::judge, py::arg("query"), py::arg("answer"), py::arg("ulps"), py::arg("claim"))
       .def("prove", &PyOracle::prove, py::arg("query"))
       .def("refutation", &PyOracle::refutation, py::arg("query"), py::arg("answer"), py::arg("time_decimal"),
            py::arg("certificate"));

@@ -136,12 +136,10 @@ void write_page(const std::string& path, const std::string& json) {
 py::tuple judge_function(const py::object& function, const std::string& engine, const std::string& command,
                          bool quick, std::optional<double> time, std::optional<std::size_t> questions,
                          std::uint64_t seed, unsigned jobs, double ulps, bool times,
-                         const std::optional<std::string>& html, const std::string& precision,
-                         std::optional<double> time_tolerance) {
+                         const std::optional<std::string>& html, const std::string& claim) {
   lorentz::judge::JudgeOrder order;
   order.command = command, order.quick = quick, order.time = time, order.questions = questions;
-  order.seed = seed, order.jobs = jobs, order.ulps = ulps, order.times = times,
-  order.claim = claim_of(precision, time_tolerance);
+  order.seed = seed, order.jobs = jobs, order.ulps = ulps, order.times = times, order.claim = claim_of(claim);
   if (jobs < 1 || jobs > 1024) throw InputError("jobs: needs a number from 1 to 1024");
   if (time && !(*time > 0 && *time < 1e9)) throw InputError("time: needs seconds above 0");
   if (!(ulps >= 0 && ulps < 1e300)) throw InputError("ulps: needs a number, 0 or above");
@@ -167,8 +165,7 @@ py::tuple judge_function(const py::object& function, const std::string& engine, 
 void bind_judge(py::module_& module) {
   module.def("judge", judge_function, py::arg("function"), py::arg("engine"), py::arg("command"),
              py::arg("quick"), py::arg("time"), py::arg("questions"), py::arg("seed"), py::arg("jobs"),
-             py::arg("ulps"), py::arg("times"), py::arg("html"), py::arg("precision"),
-             py::arg("time_tolerance"));
+             py::arg("ulps"), py::arg("times"), py::arg("html"), py::arg("claim"));
   module.attr("HAS_PAGE") = report::has_page();
 }
 

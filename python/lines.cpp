@@ -2,6 +2,8 @@
 
 #include <type_traits>
 
+#include "question/introduction.hpp"
+
 namespace lorentz::python {
 namespace {
 
@@ -64,6 +66,13 @@ Answer read_answer(const std::string& text, const Components& count) {
     throw InputError("cell: has " + std::to_string(components) + " coordinates, the lattice has " +
                      std::to_string(needed) + " vectors");
   return answer;
+}
+
+Claim claim_of(const std::string& line) {
+  const auto said = question::introduction_in(line);
+  if (!said) throw InputError("claim: is not an introduction");
+  return {said->precision.value_or(NumberFormat::binary64), said->time_tolerance,
+          said->inside.value_or(StartInside::inside), said->domain.value_or(Domain())};
 }
 
 std::string answer_text(const Answer& answer, const Components& count) {

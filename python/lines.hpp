@@ -27,9 +27,7 @@ std::string answer_text(const Answer& answer, const Components& count);
 /// The handler of unknown keys for the readers: throws InputError.
 void refuse_key(const std::string& key);
 
-/// The claim of an engine. `precision` is "binary64" or "binary32".
-inline Claim claim_of(const std::string& precision, std::optional<double> time_tolerance) {
-  return {precision == "binary32" ? NumberFormat::binary32 : NumberFormat::binary64, time_tolerance};
-}
+/// The claim in the line that a program writes about itself (question/introduction.hpp). Throws InputError.
+Claim claim_of(const std::string& line);
 
 }  // namespace lorentz::python

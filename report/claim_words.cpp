@@ -9,17 +9,17 @@ namespace lorentz::report {
 
 namespace {
 
-std::string text_of(const Domain::Range& range) {
+std::string range_text(const Domain::Range& range) {
   std::string text = range.low > 0 ? fmt::format("{}..", range.low) : "..";
   if (std::isfinite(range.high)) text += fmt::format("{}", range.high);
   return text;
 }
 
 // As the argument of --domain; empty for all.
-std::string text_of(const Domain& domain) {
+std::string domain_text(const Domain& domain) {
   std::vector<std::string> parts;
   const auto add = [&](const char* key, const Domain::Range& range) {
-    if (range != Domain::Range()) parts.push_back(key + text_of(range));
+    if (range != Domain::Range()) parts.push_back(key + range_text(range));
   };
   add("speed=", domain.speed), add("coordinates=", domain.coordinates);
   add("radius=", domain.radius), add("flight=", domain.flight);
@@ -35,7 +35,7 @@ std::string text_of(const Domain& domain) {
 std::string words_of(const Claim& claim) {
   std::string words;
   if (claim.precision != NumberFormat::binary64) words += fmt::format(", in {}", name_of(claim.precision));
-  if (const std::string domain = text_of(claim.domain); !domain.empty()) words += ", for " + domain;
+  if (const std::string domain = domain_text(claim.domain); !domain.empty()) words += ", for " + domain;
   if (claim.inside != StartInside::inside) words += fmt::format(", starts inside: {}", name_of(claim.inside));
   if (!claim.time_tolerance) return words;
   return words + (std::isinf(*claim.time_tolerance)
@@ -54,13 +54,13 @@ std::string arguments_of(const Claim& claim) {
   if (claim.precision != NumberFormat::binary64)
     text += fmt::format(" --precision {}", name_of(claim.precision));
   if (claim.time_tolerance) text += fmt::format(" --time-tolerance {}", *claim.time_tolerance);
-  if (const std::string domain = text_of(claim.domain); !domain.empty()) text += " --domain " + domain;
+  if (const std::string domain = domain_text(claim.domain); !domain.empty()) text += " --domain " + domain;
   if (claim.inside != StartInside::inside) text += fmt::format(" --starts-inside {}", name_of(claim.inside));
   return text;
 }
 
 void add_claim(json::Members& object, const Claim& claim) {
-  const std::string domain = text_of(claim.domain);
+  const std::string domain = domain_text(claim.domain);
   object.add("precision", name_of(claim.precision), "time_tolerance", claim.time_tolerance);
   if (!domain.empty()) object.add("domain", domain);
   if (claim.inside != StartInside::inside) object.add("starts_inside", name_of(claim.inside));

@@ -99,7 +99,8 @@ LORENTZ_ENGINE_EXPORT void lorentz_engine_answer(lorentz_engine* engine, const l
 LORENTZ_ENGINE_EXPORT void lorentz_engine_release(lorentz_engine* engine);
 
 /* Optional. The claims by which the engine is judged, as the line of JSON that a program prints on empty
- * input: {"engine":{"name":..,"version":..,"precision":"binary32","time_tolerance":1e-6,"dimensions":[2,3]}}.
+ * input: {"engine":{"name":..,"version":..,"precision":"binary32","time_tolerance":1e-6,"dimensions":[2,3]}},
+ * with the engine's domain and its rule for starts inside (docs/formats.md).
  * The text belongs to the library and stays valid. */
 LORENTZ_ENGINE_EXPORT const char* lorentz_engine_claim(void);
 

@@ -38,15 +38,14 @@ template <std::size_t D>
 Sighting<D> first_entry(const ExactScene<D>& scene, const ExactQuery<D>& query, bool pass_around) {
   Sighting<D> seen;
   std::vector<View<D>> views;
-  if (!pass_around) seen.around = smallest_around(scene, query, views);
+  if (pass_around)
+    for_each_atom(scene, [&](int lattice, int atom) { views.push_back(query.view(scene, lattice, atom)); });
+  else
+    seen.around = smallest_around(scene, query, views);
   if (seen.around) return seen;
   auto view = views.begin();
   for_each_atom(scene, [&](int lattice, int atom) {
-    const ZVec<D>* from = query.from_in(lattice, atom);
-    if (pass_around)
-      search_first_hit(query.view(scene, lattice, atom), lattice, atom, from, seen.earliest);
-    else
-      search_first_hit(*view++, lattice, atom, from, seen.earliest);
+    search_first_hit(*view++, lattice, atom, query.from_in(lattice, atom), seen.earliest);
   });
   return seen;
 }

@@ -22,7 +22,7 @@ FirstHitFunction = Callable[..., Any]
 def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vectorized: bool = False,
           quick: bool = True, time: float | None = None, questions: int | None = None, seed: int = 20161115,
           jobs: int = 1, ulps: float = 4, precision: str = "binary64", time_tolerance: float | None = None,
-          times: bool = False, html: str | os.PathLike[str] | None = None) -> dict[str, Any]:
+          domain: dict[str, Any] | None = None, starts_inside: str = "inside", times: bool = False, html: str | os.PathLike[str] | None = None) -> dict[str, Any]:
     """A full report on one engine: its errors, their causes, and its speed (docs/judge.md).
 
     Args:
@@ -48,6 +48,11 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
             such numbers, and ulps are those of this precision.
         time_tolerance: T: a time is right if it is off by at most T times itself, instead of by ulps. With
             infinity times are not judged.
+        domain: the questions that the engine is made for: intervals of "speed", "coordinates", "radius" and
+            "flight", as in ``{"speed": (1e-3, 1e3)}``, "shapes", "dimensions", "limits" (docs/formats.md).
+            Others are not asked.
+        starts_inside: what the engine answers if x lies in an obstacle: "inside", "miss", "zero", "exit", or
+            "unsupported" (docs/formats.md).
         times: wrong times count in the verdict.
         html: a file for the report as a page. It is written as a whole or not at all.
 
@@ -75,7 +80,7 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
         function, called, command, quick, seconds,
         None if questions is None else whole(questions, "questions", 1, 10**9), whole(seed, "seed", 0, 2**64 - 1),
         whole(jobs, "jobs", 1, 1024), finite(ulps, "ulps"), times, page,
-        *claim(precision, time_tolerance))
+        claim(precision, time_tolerance, domain, starts_inside))
     result: dict[str, Any] = json.loads(report)
     if function is not None and function.failed:
         text += (f"\n{function.failed} calls with many queries failed and were repeated one by one: "

@@ -149,9 +149,27 @@ def finite(value: Any, name: str) -> float:
     return float(number)
 
 
-def claim(precision: Any, time_tolerance: Any) -> tuple[str, float | None]:
-    """The claim of an engine: "binary64" or "binary32", and a tolerance of times, 0 or above, possibly
-    infinite. Raises Error."""
+def claim(precision: Any, time_tolerance: Any, domain: Any = None, starts_inside: Any = "inside") -> str:
+    """The claim of an engine, as the line that a program writes about itself (docs/formats.md). Raises Error."""
+    precision, tolerance = _precision_and_tolerance(precision, time_tolerance)
+    said: dict[str, Any] = {"precision": precision, "inside": word(starts_inside, "starts_inside")}
+    if tolerance is not None:
+        said["time_tolerance"] = "inf" if tolerance == math.inf else tolerance
+    if domain is not None:
+        if not isinstance(domain, dict):
+            raise Error(f"domain: {domain!r} is not a dict like {{'speed': (1e-3, 1e3)}}")
+        unknown = set(domain) - {"speed", "coordinates", "radius", "flight", "shapes", "limits", "dimensions"}
+        if unknown:
+            raise Error(f"domain: {sorted(map(str, unknown))[0]!r} is not one of its keys")
+        said |= {"dimensions": domain["dimensions"]} if "dimensions" in domain else {}
+        said["domain"] = {key: value for key, value in domain.items() if key != "dimensions"}
+    try:
+        return json.dumps({"engine": said}, allow_nan=False, default=float)
+    except (TypeError, ValueError) as error:
+        raise Error(f"domain: {error}; use the text 'inf' for an open end") from None
+
+
+def _precision_and_tolerance(precision: Any, time_tolerance: Any) -> tuple[str, float | None]:
     if word(precision, "precision") not in ("binary64", "binary32"):
         raise Error(f"precision: {precision!r} is neither 'binary64' nor 'binary32'")
     if time_tolerance is None or isinstance(time_tolerance, float) and time_tolerance == math.inf:

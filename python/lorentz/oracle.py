@@ -158,17 +158,19 @@ class Verdict:
 
 @renamed("from", "start_from")
 def judge_answer(scene: SceneLike, x: Vector, v: Vector, answer: Answer, *, start_from: Obstacle | None = None,
-                 ulps: float = 4, precision: str = "binary64", time_tolerance: float | None = None) -> Verdict:
+                 ulps: float = 4, precision: str = "binary64", time_tolerance: float | None = None,
+                 starts_inside: str = "inside") -> Verdict:
     """Is this answer right? One that is right only if inputs move by up to `ulps` ulps is "ill-posed".
 
     Ulps are those of `precision`, "binary64" or "binary32". With `time_tolerance` T a time is right if it is off by at
-    most T times itself. If T is infinite, times are not judged.
+    most T times itself. If T is infinite, times are not judged. `starts_inside` is the engine's rule if x lies in
+    an obstacle: "inside", "miss", "zero" or "exit" (docs/verdicts.md).
     """
     tolerance = finite(ulps, "ulps")
     if not 0 <= tolerance < 1e300:
         raise Error("ulps: needs a number, 0 or above")
     return Verdict(**_oracle(scene).judge(_text(x, v, start_from), _checked(answer).to_line(), tolerance,
-                                          *claim(precision, time_tolerance)))
+                                          claim(precision, time_tolerance, None, starts_inside)))
 
 
 @renamed("from", "start_from")

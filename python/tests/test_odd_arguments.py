@@ -48,8 +48,9 @@ CALLS = [
     (lorentz.oracle.convergents, dict(rise=1.0, run=3.0), "rise run"),
     (lorentz.hit, dict(time=1.0, cell=(0, 0)), "time"),
     (lorentz.golden, dict(name_or_file="ties"), "name_or_file"),
-    (lorentz.judge, dict(engine="reduction", questions=1, seed=1, jobs=1, ulps=4.0, precision="binary64", time_tolerance=None),
-     "engine questions seed jobs ulps precision time_tolerance"),
+    (lorentz.judge, dict(engine="reduction", questions=1, seed=1, jobs=1, ulps=4.0, precision="binary64", time_tolerance=None,
+                         domain=None, starts_inside="inside"),
+     "engine questions seed jobs ulps precision time_tolerance domain starts_inside"),
 ]
 # What an argument is called in messages, where that is not its name.
 ALSO = {"source": "scene", "scene": "dimension|lattices|file|catalogue", "name": "engine", "name_or_file": "file|set", "scenes": "scene",

@@ -116,6 +116,26 @@ def test_verdicts():
     assert lorentz.judge_answer(scene, x, v, lorentz.unsupported("too hot")).verdict == "unsupported"
 
 
+def test_starts_inside_by_other_rules():
+    scene = lorentz.unit_scene(2, 0.25)
+    rules = {"inside": lorentz.inside((0, 0)), "miss": lorentz.hit(0.75, (1, 0)),
+             "zero": lorentz.hit(0, (0, 0)), "exit": lorentz.hit(0.25, (0, 0))}
+    for rule in rules:
+        for other, answer in rules.items():
+            verdict = lorentz.judge_answer(scene, [0, 0], [1, 0], answer, starts_inside=rule)
+            assert (verdict.verdict == "agree" and not verdict.wrong_time) == (rule == other), (rule, other)
+    with pytest.raises(lorentz.Error, match="inside"):
+        lorentz.judge_answer(scene, [0, 0], [1, 0], rules["miss"], starts_inside="behind")
+
+
+def test_a_declared_domain():
+    report = lorentz.judge("reduction", questions=2, domain={"speed": (1e-3, 1e3), "shapes": ["ball"]})
+    assert report["outside_domain"] > 0 and report["domain"] == "speed=0.001..1000,shape=ball"
+    for bad in ({"sped": (0, 1)}, {"speed": (2, 1)}, {"speed": 1}, {"shapes": ["box"]}, {"speed": (0, math.inf)}, 3):
+        with pytest.raises(lorentz.Error, match="domain|speed|numbers|array|shapes"):
+            lorentz.judge("reduction", questions=1, domain=bad)
+
+
 @pytest.mark.parametrize("name", ["square", "cubic", "ellipsoid", "grating", "impurity"])
 def test_certificates_prove_and_refute(name):
     scene = lorentz.Scene(name)

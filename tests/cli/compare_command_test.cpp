@@ -203,7 +203,7 @@ TEST_CASE("compare and golden check judge by what an engine claims", "[cli][comp
   CHECK(single.status == 0);
   CHECK(contains(
       single.out,
-      R"("precision":"binary32","time_tolerance":null,"not_asked":1,"engines":[{"engine":"mine","queries":1,"agree":1,)"));
+      R"("precision":"binary32","time_tolerance":null,"not_asked":1,"outside_domain":0,"engines":[{"engine":"mine","queries":1,"agree":1,)"));
   CHECK(contains(single.out, R"("wrong_time":0,)"));
   CHECK(contains(said(" --precision binary32").out, "1 given queries, in binary32\n1 more were not asked"));
   CHECK(contains(said(" --time-tolerance 1e-6 --json").out, R"("time_tolerance":1e-06,)"));
@@ -220,8 +220,9 @@ TEST_CASE("compare and golden check judge by what an engine claims", "[cli][comp
   const Run check = folder.lorentz("golden check -e oracle --precision binary32 --json ball-3d");
   CHECK(contains(check.out, R"("sets":[{"set":"ball-3d","records":17,"agree":17,)"));
   CHECK(contains(check.out, R"("not_asked":623,)"));
-  CHECK(contains(check.out,
-                 R"("precision":"binary32","time_tolerance":null,"records_not_asked":623,"not_asked":0})"));
+  CHECK(contains(
+      check.out,
+      R"("precision":"binary32","time_tolerance":null,"records_not_asked":623,"records_outside_domain":0,"not_asked":0})"));
   CHECK(contains(folder.lorentz("golden check -e oracle --precision binary32 ball-3d").out,
                  "623 records were not asked: their numbers are of another precision"));
 }

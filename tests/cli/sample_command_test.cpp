@@ -135,7 +135,8 @@ TEST_CASE("sample --precision: starts in binary32, which compare asks of columns
                                    " --answers mine=" + answers + scene);
     INFO(format << run.err);
     CHECK(run.status == 0);
-    CHECK(contains(run.out, R"("not_asked":0,"engines":[{"engine":"mine","queries":50,"agree":50,)"));
+    CHECK(contains(
+        run.out, R"("not_asked":0,"outside_domain":0,"engines":[{"engine":"mine","queries":50,"agree":50,)"));
   }
   CHECK(folder.lorentz("sample --precision double").status == 2);
 }

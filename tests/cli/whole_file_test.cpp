@@ -101,18 +101,6 @@ TEST_CASE("The name of a file that is not whole cannot be foreseen, and no link 
   CHECK(folder.read("victim") == "precious\n");
 }
 
-TEST_CASE("golden make, which has to find its part again, follows no link to it", "[cli][whole_file]") {
-  const Folder folder;
-  const std::string victim = folder.write("victim", "precious\n"), set = folder.file("set");
-  CHECK(folder.lorentz("golden make --set ties --count 5 -o " + set).status == 0);
-  CHECK(contains(folder.read("set"), "{\"golden\""));
-  std::filesystem::create_symlink(victim, set + ".part");
-  const Run run = folder.lorentz("golden make --set ties --count 5 -o " + set);
-  CHECK(run.status == 3);
-  CHECK(contains(run.err, "remove the link"));
-  CHECK(folder.read("victim") == "precious\n");
-}
-
 TEST_CASE("A new file has the permissions of any new file, whatever its name's length", "[cli][whole_file]") {
   const Folder folder;
   const mode_t before = ::umask(027);

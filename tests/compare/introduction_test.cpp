@@ -89,7 +89,7 @@ TEST_CASE("A flight at another speed is brought into the domain, exactly or not 
     return query ? query->v : Vec{};
   };
   CHECK(speed({1, 0, 0}) == Vec{1, 0, 0});
-  CHECK(speed({0x3p100, 0, 0}) == Vec{0.75, 0, 0});
+  CHECK(speed({0x3p100, 0, 0}) == Vec{1.5, 0, 0});
   CHECK(speed({0, 0x3p-100, 0}) == Vec{0, 0.75, 0});
   CHECK(speed({0x1p1023, 0x1p1023, 0}) == Vec{1, 1, 0});
   CHECK(speed({0x1p1000, 0x1p-1000, 0}) == Vec{});  // the small one would vanish
@@ -131,7 +131,7 @@ TEST_CASE("An engine is judged by what it says of itself, unless an option says 
   CHECK(contains(folder.lorentz("golden check ball-3d --first 1 --json" + engine).out,
                  R"("precision":"binary32","time_tolerance":0.001,)"));
   const std::string judged = folder.lorentz("judge --questions 1 --json" + engine).out;
-  CHECK(contains(judged, R"(--precision binary32 --time-tolerance 0.001"})"));
+  CHECK(contains(judged, R"("precision":"binary32","time_tolerance":0.001,)"));
   CHECK(contains(judged, R"("library":"Ball 1.2","verdict")"));
   CHECK(contains(judged, R"("what":"Ball 1.2 (cmd:)"));
   CHECK(contains(judged, R"("engine_ns":1e+06,)"));

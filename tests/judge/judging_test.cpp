@@ -193,7 +193,7 @@ TEST_CASE("An engine in binary32 is asked what consists of such numbers", "[judg
   CHECK(asked(campaign(kSeed, {}, false, 0, 1, claim, outside), 500) == 500);
 }
 
-TEST_CASE("Only questions in the engine's domain are asked; what is too fast alone is slowed down",
+TEST_CASE("Only questions in the engine's domain are asked, and what is too fast alone is slowed down",
           "[judge][judging]") {
   Claim claim;
   claim.domain.speed = {1e-3, 1e3};

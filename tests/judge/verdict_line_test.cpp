@@ -187,7 +187,8 @@ TEST_CASE("Answers to invalid questions are counted apart, told last, and count 
   JudgeReport report = report_of({row(false, 1000), row(true, 300)});
   report.rows[1].tally.counts[Count::nonsense] = 115;
   CHECK(report.line() == "right: no wrong answer in 1300; 115 invalid questions answered");
-  CHECK(contains(report.json(), R"("queries":1300,"agree":1300,"ill_posed":0,"wrong":0,)"));
+  CHECK(
+      contains(report.json(), R"("queries":1300,"outside_domain":0,"agree":1300,"ill_posed":0,"wrong":0,)"));
   CHECK(contains(report.json(), R"("missing":0,"nonsense":115,"too_slow":0,)"));
   report.strict = true;
   CHECK(report.verdict() == "wrong");

@@ -30,7 +30,7 @@ TEST_CASE("A path: obstacles, both paths, where they part, and what is written o
   CHECK(path[0]["stroke-dasharray"].empty());
   CHECK_FALSE(parted[0]["stroke-dasharray"].empty());
   // The box of all places and 0.6 cells, across the page.
-  const double more = 0.6 * std::sqrt(0.96), scale = (700 - 48) / (3 + 2 * more);
+  const double more = 0.6 * std::sqrt(0.96), scale = (800 - 48) / (3 + 2 * more);
   const Plane plane{{24 + scale * (1.5 + more), 24 + scale * (1.9 + more)}, scale};
   REQUIRE(path[0].points.size() == 4);
   for (std::size_t i = 0; i < 4; ++i) CHECK(same_place(path[0].points[i], spot(drawing.path[i]), plane));

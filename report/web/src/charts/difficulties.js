@@ -73,7 +73,7 @@ export function difficultiesChart(report) {
   return chart({
     name: "difficulties",
     title: "Where it fails",
-    note: "Each line is a kind of query; further right is worse. No mark: nothing of that.",
+    note: "Each line is a kind of query; further right is worse. No mark: there was none.",
     draw,
   }).element;
 }
