@@ -118,11 +118,11 @@ Real Uncertain<D>::margin_of_ahead(const Centre<D>& centre) const {
 // (s - sqrt(d)) / v^2 = (c^2 - r^2) / (s + sqrt(d)): if s > 0, nothing cancels in the second form; for an exit, with the
 // other sign of the root, if s < 0.
 template <std::size_t D>
-Real Uncertain<D>::time_of(const Centre<D>& centre, End end) const {
+Real Uncertain<D>::time_of(const Centre<D>& centre, ChordEnd end) const {
   const Z d = rho2_ - centre.h2;
   if (d <= 0) return real(centre.s) / real(view_.velocity.v2);
-  const Real root = end == End::entry ? -sqrt(real(d)) : sqrt(real(d));
-  const bool cancels = end == End::entry ? centre.s > 0 : centre.s < 0;
+  const Real root = end == ChordEnd::entry ? -sqrt(real(d)) : sqrt(real(d));
+  const bool cancels = end == ChordEnd::entry ? centre.s > 0 : centre.s < 0;
   if (cancels) return real(Z(centre.c2 - view_.radius2)) / (real(centre.s) - root);
   return (real(centre.s) + root) / real(view_.velocity.v2);
 }
@@ -130,13 +130,13 @@ Real Uncertain<D>::time_of(const Centre<D>& centre, End end) const {
 // t v - c = (s v - v^2 c) / v^2 -+ sqrt(d) v / v^2: two vectors at right angles; the first has integer
 // components.
 template <std::size_t D>
-PerturbedArrival<D> Uncertain<D>::arrival(const Centre<D>& centre, End end) const {
+PerturbedArrival<D> Uncertain<D>::arrival(const Centre<D>& centre, ChordEnd end) const {
   if (centre.h2 >= rho2_) throw InputError("answer: the line does not meet the obstacle that it names");
   const ExactVelocity<D>& velocity = view_.velocity;
   PerturbedArrival<D> arrival;
   arrival.t = time_of(centre, end);
   const Real root = sqrt(real(Z(rho2_ - centre.h2)));
-  const Real chord = end == End::entry ? root : -root, v2 = real(velocity.v2);
+  const Real chord = end == ChordEnd::entry ? root : -root, v2 = real(velocity.v2);
   ZVec<D> nearest;
   for (std::size_t i = 0; i < D; ++i) nearest[i] = centre.s * velocity.v[i] - velocity.v2 * centre.point.p[i];
   const ZVec<D> v = to_ball_transposed_ * velocity.v, n = to_ball_transposed_ * nearest;
@@ -160,7 +160,7 @@ Real Uncertain<D>::largest_change_across(const Real& latest) const {
 }
 
 template <std::size_t D>
-Real Uncertain<D>::change_of_time(const Centre<D>& centre, End end) const {
+Real Uncertain<D>::change_of_time(const Centre<D>& centre, ChordEnd end) const {
   const PerturbedArrival<D> its = arrival(centre, end);
   Real change = abs(its.by_radius) * radius_ulp_;
   for (std::size_t i = 0; i < D; ++i) change += abs(its.by_x[i]) * (ulps_.x[i] + abs(its.t) * ulps_.v[i]);

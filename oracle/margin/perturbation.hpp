@@ -72,7 +72,7 @@ struct InputUlps {
 };
 
 /// The end of a chord: where the line enters the obstacle, or where it leaves it.
-enum class End { entry = -1, exit = +1 };
+enum class ChordEnd { entry = -1, exit = +1 };
 
 /// The time of an end with its derivatives: dt = sum of by_x (dx + t dv) - by_radius dr.
 template <std::size_t D>
@@ -102,10 +102,10 @@ class Uncertain {
   Real margin_of_ahead(const Centre<D>& centre) const;
   /// For an obstacle that is met. time_of accepts missed obstacles: they count as entered where the line is
   /// nearest to them. (Their derivatives would be infinite, so `arrival` throws for them.)
-  PerturbedArrival<D> arrival(const Centre<D>& centre, End end = End::entry) const;
-  Real time_of(const Centre<D>& centre, End end = End::entry) const;
+  PerturbedArrival<D> arrival(const Centre<D>& centre, ChordEnd end = ChordEnd::entry) const;
+  Real time_of(const Centre<D>& centre, ChordEnd end = ChordEnd::entry) const;
   /// The largest change of this time.
-  Real change_of_time(const Centre<D>& centre, End end = End::entry) const;
+  Real change_of_time(const Centre<D>& centre, ChordEnd end = ChordEnd::entry) const;
   /// The difference of the times of entry of this atom's obstacle and another one, in ulps; zero for a tie.
   Real margin_of_order(const Centre<D>& centre, const Uncertain& other, const Centre<D>& its) const;
 

@@ -68,14 +68,16 @@ class PerturbedQuery {
 
 /// The largest change of the time at which an obstacle is entered or left, in the query's own units.
 template <std::size_t D>
-Real change_of_time(const PerturbedQuery<D>& perturbed, const ObstacleId& id, End end = End::entry) {
+Real change_of_time(const PerturbedQuery<D>& perturbed, const ObstacleId& id,
+                    ChordEnd end = ChordEnd::entry) {
   return times_power_of_two(perturbed.atom_of(id).change_of_time(perturbed.centre_of(id), end),
                             perturbed.query().time_exponent());
 }
 
 /// The time at which an obstacle is entered or left, in the query's own units; it may be beyond binary64.
 template <std::size_t D>
-Real time_in_own_units(const PerturbedQuery<D>& perturbed, const ObstacleId& id, End end = End::entry) {
+Real time_in_own_units(const PerturbedQuery<D>& perturbed, const ObstacleId& id,
+                       ChordEnd end = ChordEnd::entry) {
   return times_power_of_two(perturbed.atom_of(id).time_of(perturbed.centre_of(id), end),
                             perturbed.query().time_exponent());
 }

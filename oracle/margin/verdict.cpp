@@ -57,10 +57,10 @@ struct Judge::Impl {
     const bool at_exit = is_inside && start == StartInside::exit;
     Judgement judgement{Verdict::agree};
     if (!given.time) return judgement;
-    judge_time(query, {exact.obstacle, at_exit ? End::exit : End::entry, *exact.time}, *given.time, ulps,
-               judgement);
+    judge_time(query, {exact.obstacle, at_exit ? ChordEnd::exit : ChordEnd::entry, *exact.time}, *given.time,
+               ulps, judgement);
     if (!judgement.wrong_time || start != StartInside::exit || ulps == 0) return judgement;
-    const End other = at_exit ? End::entry : End::exit;
+    const ChordEnd other = at_exit ? ChordEnd::entry : ChordEnd::exit;
     const double margin = scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
       return to_double(
           perturbed.atom_of(exact.obstacle).margin_of_containing(perturbed.centre_of(exact.obstacle)), kHuge);
@@ -88,10 +88,10 @@ struct Judge::Impl {
   Judgement judge_order_of_exits(const Query& query, const ObstacleId& first, const ObstacleId& named,
                                  double ulps) const {
     const double departs = scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
-      const Real later =
-          time_in_own_units(perturbed, named, End::exit) - time_in_own_units(perturbed, first, End::exit);
+      const Real later = time_in_own_units(perturbed, named, ChordEnd::exit) -
+                         time_in_own_units(perturbed, first, ChordEnd::exit);
       const Real change =
-          change_of_time(perturbed, named, End::exit) + change_of_time(perturbed, first, End::exit);
+          change_of_time(perturbed, named, ChordEnd::exit) + change_of_time(perturbed, first, ChordEnd::exit);
       return to_double(later / change, kHuge);
     });
     return {
@@ -102,11 +102,12 @@ struct Judge::Impl {
   Judgement judge_times(const Query& query, const Answer& exact, const Answer& given, double ulps) const {
     Judgement judgement{Verdict::agree};
     if (exact.time && given.time)
-      judge_time(query, {exact.obstacle, End::entry, *exact.time}, *given.time, ulps, judgement);
+      judge_time(query, {exact.obstacle, ChordEnd::entry, *exact.time}, *given.time, ulps, judgement);
     if (!given.exit_time) return judgement;
     Judgement of_exit;
-    const double exit = exact.exit_time ? *exact.exit_time : rounded_time(query, exact.obstacle, End::exit);
-    judge_time(query, {exact.obstacle, End::exit, exit}, *given.exit_time, ulps, of_exit);
+    const double exit =
+        exact.exit_time ? *exact.exit_time : rounded_time(query, exact.obstacle, ChordEnd::exit);
+    judge_time(query, {exact.obstacle, ChordEnd::exit, exit}, *given.exit_time, ulps, of_exit);
     judgement.wrong_time |= of_exit.wrong_time;
     judgement.other_quantity |= of_exit.other_quantity;
     judgement.departs = std::max(judgement.departs, of_exit.departs);
@@ -116,7 +117,7 @@ struct Judge::Impl {
   // When the line enters or leaves an obstacle, correctly rounded.
   struct ExactTime {
     const ObstacleId& obstacle;
-    End end;
+    ChordEnd end;
     double time;
   };
 
@@ -150,11 +151,11 @@ struct Judge::Impl {
     return abs(Real(given) - Real(exact)) <= Real(tolerance) * abs(Real(exact));
   }
 
-  double rounded_time(const Query& query, const ObstacleId& obstacle, End end) const {
+  double rounded_time(const Query& query, const ObstacleId& obstacle, ChordEnd end) const {
     return scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
       const ExactQuery<D>& exact = perturbed.query();
       const ExactEntry<D> meeting = exact.meeting(perturbed.scene(), obstacle);
-      return round_to_binary64(end == End::exit ? exact.exit_time_of(meeting) : exact.time_of(meeting));
+      return round_to_binary64(end == ChordEnd::exit ? exact.exit_time_of(meeting) : exact.time_of(meeting));
     });
   }
 

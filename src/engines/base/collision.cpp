@@ -44,9 +44,9 @@ double length_of_any(const Vec& a) {
 
 // The line of flight and the obstacle that an answer names. `arm`: from its centre to the point of the line where the
 // answer's time is, or to x.
-class Passage {
+class Chord {
  public:
-  Passage(const Scene& scene, const Query& query, const Answer& answer)
+  Chord(const Scene& scene, const Query& query, const Answer& answer)
       : dimension_(scene.dimension), v_(query.v), start_(answer.outcome == Outcome::hit ? answer.time : 0) {
     if (!start_ || (answer.outcome != Outcome::hit && answer.outcome != Outcome::inside))
       throw InputError("answer: needs a hit with a time, or inside");
@@ -90,20 +90,20 @@ class Passage {
 }  // namespace
 
 double exit_time(const Scene& scene, const Query& query, const Answer& answer) {
-  return Passage(scene, query, answer).exit_time();
+  return Chord(scene, query, answer).exit_time();
 }
 
 Detail collision_detail(const Scene& scene, const Query& query, const Answer& answer) {
-  const Passage passage(scene, query, answer);
-  const double exit = passage.exit_time();
+  const Chord chord(scene, query, answer);
+  const double exit = chord.exit_time();
   Detail detail;
   if (answer.outcome == Outcome::hit) {
     detail.point = plus(query.x, *answer.time, query.v);
-    detail.normal = passage.normal_at(*answer.time);
+    detail.normal = chord.normal_at(*answer.time);
   }
-  detail.impact_parameter = passage.impact_parameter();
+  detail.impact_parameter = chord.impact_parameter();
   detail.exit_point = plus(query.x, exit, query.v);
-  detail.exit_normal = passage.normal_at(exit);
+  detail.exit_normal = chord.normal_at(exit);
   return detail;
 }
 
