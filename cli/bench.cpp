@@ -78,8 +78,7 @@ Command bench_command() {
   return {
       "bench", "Speed against error: engines by scenes by radii by difficulty.",
       options->rows({"--engine", "--scene", "--radius", "--difficulty", "--count", "--seed", "--ulps",
-                     "--precision", "--time-tolerance", "--domain", "--starts-inside", "--timeout", "--json",
-                     "--csv", "--html"}),
+                     "--precision", "--time-tolerance", "--timeout", "--json", "--csv", "--html"}),
 
       "Without --engine: classical, published, reduction, certified and oracle. Without --scene: square and "
       "cubic. Without --radius: 0.3, 0.1, 0.01, 0.001 and 1e-06; scenes with semiaxes at their own size.\n"

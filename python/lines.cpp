@@ -69,8 +69,12 @@ Answer read_answer(const std::string& text, const Components& count) {
 }
 
 Claim claim_of(const std::string& line) {
-  const auto said = question::introduction_in(line);
-  if (!said) throw InputError("claim: is not an introduction");
+  std::optional<question::Introduction> said;
+  try {
+    said = question::introduction_in(line);
+  } catch (const InputError& error) {  // the rest was checked in Python
+    throw InputError("domain: " + std::string(error.what()));
+  }
   return {said->precision.value_or(NumberFormat::binary64), said->time_tolerance,
           said->inside.value_or(StartInside::inside), said->domain.value_or(Domain())};
 }

@@ -152,7 +152,9 @@ def finite(value: Any, name: str) -> float:
 def claim(precision: Any, time_tolerance: Any, domain: Any = None, starts_inside: Any = "inside") -> str:
     """The claim of an engine, as the line that a program writes about itself (docs/formats.md). Raises Error."""
     precision, tolerance = _precision_and_tolerance(precision, time_tolerance)
-    said: dict[str, Any] = {"precision": precision, "inside": word(starts_inside, "starts_inside")}
+    if word(starts_inside, "starts_inside") not in ("inside", "miss", "zero", "exit", "unsupported"):
+        raise Error(f"starts_inside: {starts_inside!r} is not one of inside, miss, zero, exit, unsupported")
+    said: dict[str, Any] = {"precision": precision, "inside": starts_inside}
     if tolerance is not None:
         said["time_tolerance"] = "inf" if tolerance == math.inf else tolerance
     if domain is not None:

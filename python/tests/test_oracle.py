@@ -59,7 +59,7 @@ def test_rational_inputs_are_taken_as_they_are():
 def test_detail():
     answer = oracle.first_hit(lorentz.unit_scene(2, 0.25), [-1.5, 0], [1, 0], detail=True)
     assert answer.point == (-1.25, 0.0) and answer.normal == (-1.0, 0.0) and answer.impact_parameter == 0
-    assert answer.exit_time == 1.75 and answer.exit_point == (0.25, 0.0) and answer.exit_normal == (1.0, 0.0)
+    assert answer.exit_time == 0.75 and answer.exit_point == (-0.75, 0.0) and answer.exit_normal == (1.0, 0.0)
     within = oracle.first_hit(lorentz.unit_scene(2, 0.25), [0, 0], [0, -2], detail=True)
     assert within.outcome == "inside" and within.exit_time == 0.125 and within.exit_normal == (0.0, -1.0)
     assert within.point is None and lorentz.Answer.from_line(within.to_line()).exit_time == 0.125
@@ -124,7 +124,7 @@ def test_starts_inside_by_other_rules():
         for other, answer in rules.items():
             verdict = lorentz.judge_answer(scene, [0, 0], [1, 0], answer, starts_inside=rule)
             assert (verdict.verdict == "agree" and not verdict.wrong_time) == (rule == other), (rule, other)
-    with pytest.raises(lorentz.Error, match="inside"):
+    with pytest.raises(lorentz.Error, match="starts_inside"):
         lorentz.judge_answer(scene, [0, 0], [1, 0], rules["miss"], starts_inside="behind")
 
 
@@ -132,7 +132,7 @@ def test_a_declared_domain():
     report = lorentz.judge("reduction", questions=2, domain={"speed": (1e-3, 1e3), "shapes": ["ball"]})
     assert report["outside_domain"] > 0 and report["domain"] == "speed=0.001..1000,shape=ball"
     for bad in ({"sped": (0, 1)}, {"speed": (2, 1)}, {"speed": 1}, {"shapes": ["box"]}, {"speed": (0, math.inf)}, 3):
-        with pytest.raises(lorentz.Error, match="domain|speed|numbers|array|shapes"):
+        with pytest.raises(lorentz.Error, match="domain"):
             lorentz.judge("reduction", questions=1, domain=bad)
 
 
