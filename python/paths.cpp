@@ -17,7 +17,7 @@ namespace {
 
 // ---- Particles
 
-// The kept ones of so many collisions, every k-th or only the last (k = 0), one row per particle. Collisions that
+// Which collisions are kept: every k-th or only the last (k = 0), one row per particle. Collisions that
 // did not happen are 0, their numbers NaN.
 struct Paths {
   Paths(std::size_t particles, std::size_t collisions, std::size_t every, int dimension)
