@@ -129,7 +129,9 @@ void answer_by_certified(std::span<Question> questions, const Listener& listener
   certified->on_reply([&](Reply& reply) {
     Question& question = *order[told++];
     question.exact = std::move(reply.answer);
-    if (question.exact.outcome == Outcome::inside) question.exact = question.place->exact(question.query);
+    const bool by_other_rule = question.place->claim().inside != StartInside::inside;
+    if (by_other_rule && question.exact.outcome == Outcome::inside)
+      question.exact = question.place->exact(question.query);
     report(listener, kExactAnswers, told, order.size());
   });
   for (const Question* question : order) {

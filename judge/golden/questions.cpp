@@ -11,7 +11,8 @@ question::Source questions_of(Reader& reader, const Claim& claim) {
       place = std::make_shared<question::Place>(reader.scene(), question::Truth::oracle, claim);
     scene = reader.scene_number();
     Record& record = read.record;
-    if (record.expect.outcome == Outcome::inside && read.query) record.expect = place->exact(*read.query);
+    if (claim.inside != StartInside::inside && record.expect.outcome == Outcome::inside && read.query)
+      record.expect = place->exact(*read.query);
     return question::Question{
         .place = place,
         .query = read.query.value_or(Query()),
