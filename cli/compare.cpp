@@ -83,12 +83,12 @@ std::string not_asked_of(const ComparedQuestions& questions) {
 std::string text_of(const ExaminationOptions& options, const ComparedQuestions& questions,
                     const std::list<LineupEntry>& all) {
   const bool drawn = !options.queries;
-  std::string text =
-      fmt::format("{}: {} {} queries{}{}{}\n{}\n{}", questions.title(), questions.count(),
-                  drawn ? "drawn" : "given", drawn ? ", seed " + std::to_string(options.seed) : "",
-                  options.judge == "oracle" ? "" : ", judged by " + options.judge,
-                  report::words_of(options.claim.claim()), not_asked_of(questions),
-                  options.no_oracle ? times_of(all) : table_of(all));
+  std::string text = fmt::format(
+      "{}: {} {} queries{}{}{}\n{}{}\n{}", questions.title(), questions.count(), drawn ? "drawn" : "given",
+      drawn ? ", seed " + std::to_string(options.seed) : "",
+      options.judge == "oracle" ? "" : ", judged by " + options.judge,
+      report::words_of(options.claim.claim()), drawn ? fmt::format("drawn: {}\n", starts::kVariedWords) : "",
+      not_asked_of(questions), options.no_oracle ? times_of(all) : table_of(all));
   if (options.no_oracle) return text;
   for (const LineupEntry& one : all)
     text += fmt::format("\n{}\n{}{}", verdict_of(one.total()),

@@ -6,7 +6,6 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/numbers.hpp"
-#include "question/starts/free_starts.hpp"
 #include "report/files/messages.hpp"
 #include "report/files/scene_file.hpp"
 
@@ -98,10 +97,11 @@ std::vector<Question> ComparedQuestions::draw(std::size_t most) {
   Questions questions;
   for (; scene_ < named_.size(); ++scene_, drawn_ = 0) {
     if (drawn_ == 0 && scene_ > 0) enter(named_[scene_]);
-    const starts::FreeStarts starts(place_->scene(), starts::Kind::uniform, options_.seed, claim_.precision);
-    const std::size_t number = std::min(most - questions.size(), options_.count - drawn_);
-    for (const Query& query : starts.some(drawn_, number)) add(questions, query, std::to_string(count_));
-    drawn_ += number;
+    if (drawn_ == 0) starts_.emplace(place_->scene(), options_.seed, claim_);
+    for (; drawn_ < options_.count && questions.size() < most; ++drawn_) {
+      const starts::VariedStart start = (*starts_)[drawn_];
+      add(questions, start.query, std::to_string(count_), start.max_time);
+    }
     if (drawn_ < options_.count) break;
   }
   return questions;

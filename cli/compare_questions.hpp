@@ -11,6 +11,7 @@
 #include "cli/examination_options.hpp"
 #include "cli/given_queries.hpp"
 #include "question/question.hpp"
+#include "question/starts/varied_starts.hpp"
 
 namespace lorentz::cli {
 
@@ -53,9 +54,10 @@ class ComparedQuestions {
   const ExaminationOptions& options_;
   const Claim claim_;
   DisagreementFile& disagreements_;
-  std::vector<Scene> named_;           // the scenes of --scene and --radius
-  std::size_t drawn_ = 0, scene_ = 0;  // queries of the current one of these; the next one
-  std::optional<GivenQueries> given_;  // or drawn
+  std::vector<Scene> named_;                    // the scenes of --scene and --radius
+  std::size_t drawn_ = 0, scene_ = 0;           // queries of the current one of these; the next one
+  std::optional<starts::VariedStarts> starts_;  // in the current one
+  std::optional<GivenQueries> given_;           // or drawn
   std::shared_ptr<question::Place> place_;
   bool is_new_ = false, bad_ids_ = false;
   std::vector<question::Question> passed_over_;

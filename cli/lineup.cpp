@@ -255,10 +255,11 @@ std::string verdict_of(const Tally& t) {
           : "; " + counted_text(t.counts, {Count::ill_posed, Count::undecided, Count::unsupported,
                                            Count::error, Count::missing});
   if (answers == 0) return fmt::format("{}: no answer to judge{}", t.name, others);
-  std::string text = t[Count::wrong]
-                         ? fmt::format("{}: wrong in {} of {} answers", t.name, t[Count::wrong], answers)
-                         : fmt::format("{}: no wrong answer in {} (with 95 %: in fewer than {:.2g} % of all)",
-                                       t.name, answers, 100 * report::bound_of_none(answers));
+  std::string text =
+      t[Count::wrong]
+          ? fmt::format("{}: wrong in {} of {} answers", t.name, t[Count::wrong], answers)
+          : fmt::format("{}: no wrong answer in {} (with 95 %: in fewer than {:.2g} % of such questions)",
+                        t.name, answers, 100 * report::bound_of_none(answers));
   text += others;
   if (const std::size_t others_of_time = t[Count::other_quantity]; others_of_time > 0)
     text += fmt::format("; in {} the time is another quantity", others_of_time);

@@ -89,16 +89,26 @@ void JudgePlan::add(JudgePart part, ExaminedRow row, Source source) {
   rows_.push_back({part, std::move(row), std::move(source), {}});
 }
 
-// One row for each scene; then two rows of hard flights in all these scenes that have balls; then free paths and
+// The places of the flights that are retold: the cells are cubes, so that starts can be moved exactly.
+constexpr const char* kRetold[] = {"square, r = 0.1", "square, r = 0.01", "cubic, r = 0.1", "ball"};
+
+// The flights in other words; one row for each scene; then two rows of hard flights in all these scenes that have balls; then free paths and
 // golden sets.
 JudgePlan::JudgePlan(const JudgeOrder& order) : order_(order) {
   for (const Scenery& scenery : kSceneries) sceneries_.push_back(places_of(scenery, order_.claim));
   const std::size_t number = number_of_flights(order_);
+  for (const auto& scenery : sceneries_) places_.insert(places_.end(), scenery.begin(), scenery.end());
+  for (const char* name : kRetold)
+    plain_places_.push_back(*std::ranges::find(places_, name, &NamedPlace::name));
+  for (const Retelling how :
+       {Retelling::plain, Retelling::moved, Retelling::mirrored, Retelling::faster, Retelling::limited})
+    add(JudgePart::drawn,
+        {.name = words_of(how).name, .explanation = words_of(how).explanation, .is_hard = false},
+        retold(plain_places_, how, order_.seed, number, outside_));
   for (std::size_t i = 0; i < kSceneries.size(); ++i) {
-    places_.insert(places_.end(), sceneries_[i].begin(), sceneries_[i].end());
     add(JudgePart::drawn,
         {.name = fmt::format("drawn {}", kSceneries[i].first),
-         .explanation = "uniform starts, isotropic directions",
+         .explanation = starts::kVariedWords,
          .is_hard = false},
         drawn(sceneries_[i], Kind::uniform, order_.seed, number, outside_));
   }

@@ -9,11 +9,12 @@
 #include "fuzz/campaign/campaign.hpp"
 #include "judge/examination.hpp"
 #include "judge/free_paths.hpp"
-#include "question/starts/free_starts.hpp"
+#include "question/starts/varied_starts.hpp"
 
 namespace lorentz::judge {
 
-// ---- Sources of questions: drawn flights, golden sets, and the families of hard cases (questions.cpp)
+// ---- Sources of questions: drawn flights, golden sets, the families of hard cases (questions.cpp), and the same flights
+// in other words (retold.cpp)
 
 /// A scene and its name: "square, r = 0.1".
 struct NamedPlace {
@@ -27,10 +28,42 @@ std::shared_ptr<Place> place_for(const Scene& scene, const Claim& claim);
 /// Counts questions that are not asked because they are outside of the engine's domain. For many threads.
 using Outside = std::atomic<std::size_t>;
 
-/// `count` starts of a kind, a few of each place in turn. Places beyond the engine are left out. The places
-/// must outlast the source, and so must `outside` of all sources.
+/// Numbers of questions: blocks of several places in turn, without the places that are beyond the engine.
+class InTurn {
+ public:
+  InTurn(std::size_t places, std::size_t count) : places_(places), count_(count) {}
+
+  /// Question number `index` of a place.
+  struct Next {
+    std::size_t place, index;
+  };
+  std::optional<Next> next(const std::function<bool(std::size_t place)>& is_beyond);
+
+ private:
+  static constexpr std::size_t kBlock = 16;
+  std::size_t places_, count_, number_ = 0;
+};
+
+/// The question with its exact answer, at another speed if that brings it into the engine's domain. Nothing if it stays
+/// outside, which is counted.
+std::optional<Question> question_in(const std::shared_ptr<Place>& place, const Query& start,
+                                    std::string where, Outside& outside);
+
+/// `count` starts of a kind (for `uniform`: VariedStarts), a few of each place in turn. Places beyond the engine are
+/// left out. The places must outlast the source, and so must `outside` of all sources.
 Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count,
              Outside& outside);
+
+/// The ways to ask the same plain flights.
+enum class Retelling { plain, moved, mirrored, faster, limited };
+struct RowWords {
+  const char *name, *explanation;
+};
+RowWords words_of(Retelling how);
+
+/// `count` plain flights, told in this way; as for drawn().
+Source retold(const std::vector<NamedPlace>& places, Retelling how, std::uint64_t seed, std::size_t count,
+              Outside& outside);
 
 /// The records of a golden set that consist of numbers of the claim's precision; only the first ones of a
 /// scene that is beyond the engine. Throws as golden::Reader does.
@@ -92,7 +125,7 @@ class JudgePlan {
 
   const JudgeOrder& order_;
   std::vector<std::vector<NamedPlace>> sceneries_;
-  std::vector<NamedPlace> places_, flown_places_;
+  std::vector<NamedPlace> places_, plain_places_, flown_places_;
   std::vector<FlownScene> flown_;  // in the order of their places
   std::vector<PlannedRow> rows_;
   Outside outside_ = 0;

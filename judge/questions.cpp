@@ -15,42 +15,35 @@
 namespace lorentz::judge {
 namespace {
 
-constexpr std::size_t kBlock = 16;  // drawn queries of one place in a row
+// Numbered starts in one place.
+using Starts = std::function<starts::VariedStart(std::uint64_t index)>;
 
-// The question with its exact answer, at another speed if that brings it into the engine's domain. Nothing if it stays
-// outside, which is counted.
-std::optional<Question> asked(const std::shared_ptr<Place>& place, const Query& start, std::string where,
-                              Outside& outside) {
-  if (const auto query = place->brought_inside(start)) {
-    Question question{
-        .place = place, .query = *query, .exact = place->exact(*query), .where = std::move(where)};
-    if (place->takes(question.query, question.exact)) return question;
-  }
-  ++outside;
-  return std::nullopt;
+Starts starts_in(const Place& place, starts::Kind kind, std::uint64_t seed) {
+  if (kind == starts::Kind::uniform)
+    return [all = std::make_shared<starts::VariedStarts>(place.scene(), seed, place.claim())](
+               std::uint64_t index) { return (*all)[index]; };
+  return [all = std::make_shared<starts::FreeStarts>(place.scene(), kind, seed, place.claim().precision)](
+             std::uint64_t index) { return starts::VariedStart{(*all)[index]}; };
 }
 
-// Blocks of all places in turn, except places that the engine does not support.
+// Starts of a kind in all places in turn.
 class Drawn {
  public:
   Drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count,
         Outside& outside)
-      : places_(places), count_(count), what_(words_of(kind)), outside_(outside) {
-    for (const NamedPlace& place : places)
-      starts_.emplace_back(place.place->scene(), kind, seed, place.place->claim().precision);
+      : places_(places), turns_(places.size(), count), what_(words_of(kind)), outside_(outside) {
+    for (const NamedPlace& place : places) starts_.push_back(starts_in(*place.place, kind, seed));
   }
 
   std::optional<Question> next() {
-    for (std::size_t tried = 0; number_ < count_ && tried < places_.size();) {
-      const std::size_t block = number_ / kBlock, which = block % places_.size();
-      if (const NamedPlace& place = places_[which]; !place.place->is_beyond_engine()) {
-        const Query start = starts_[which][block / places_.size() * kBlock + number_ % kBlock];
-        ++number_;
-        if (auto question = asked(place.place, start, fmt::format("{}, {}", what_, place.name), outside_))
-          return question;
-        continue;
-      }
-      ++tried, number_ = (block + 1) * kBlock;
+    while (const auto next =
+               turns_.next([this](std::size_t place) { return places_[place].place->is_beyond_engine(); })) {
+      const auto& [name, place] = places_[next->place];
+      const starts::VariedStart start = starts_[next->place](next->index);
+      auto question = question_in(place, start.query, fmt::format("{}, {}", what_, name), outside_);
+      if (!question) continue;
+      question->max_time = start.max_time;
+      return question;
     }
     return std::nullopt;
   }
@@ -63,11 +56,10 @@ class Drawn {
   }
 
   const std::vector<NamedPlace>& places_;
-  const std::size_t count_;
+  InTurn turns_;
   const std::string what_;
   Outside& outside_;
-  std::size_t number_ = 0;
-  std::vector<starts::FreeStarts> starts_;
+  std::vector<Starts> starts_;
 };
 
 class CampaignQuestions {
@@ -123,7 +115,7 @@ class CampaignQuestions {
     const auto add = [&](const Query& query, std::uint64_t index, int step) {
       std::string where =
           fmt::format("campaign, {}/{}{}", target.name(), index, step > 0 ? fmt::format(".{}", step) : "");
-      if (auto question = asked(place, query, std::move(where), outside_))
+      if (auto question = question_in(place, query, std::move(where), outside_))
         questions_.push_back(std::move(*question));
     };
     for (std::uint64_t index = begin; index < begin + kCases; ++index) {
@@ -158,6 +150,26 @@ Source source_of(Arguments&&... arguments) {
 }
 
 }  // namespace
+
+std::optional<InTurn::Next> InTurn::next(const std::function<bool(std::size_t)>& is_beyond) {
+  for (std::size_t tried = 0; number_ < count_ && tried < places_; ++tried) {
+    const std::size_t block = number_ / kBlock, place = block % places_;
+    if (!is_beyond(place)) return Next{place, block / places_ * kBlock + number_++ % kBlock};
+    number_ = (block + 1) * kBlock;
+  }
+  return std::nullopt;
+}
+
+std::optional<Question> question_in(const std::shared_ptr<Place>& place, const Query& start,
+                                    std::string where, Outside& outside) {
+  if (const auto query = place->brought_inside(start)) {
+    Question question{
+        .place = place, .query = *query, .exact = place->exact(*query), .where = std::move(where)};
+    if (place->takes(question.query, question.exact)) return question;
+  }
+  ++outside;
+  return std::nullopt;
+}
 
 std::shared_ptr<Place> place_for(const Scene& scene, const Claim& claim) {
   return std::make_shared<Place>(rounded(scene, claim.precision), question::Truth::oracle, claim);

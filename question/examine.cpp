@@ -64,6 +64,15 @@ bool departs(const Judgement& judgement) {
          judgement.verdict == Verdict::ill_posed;
 }
 
+void ask(Answerer& answerer, const Question& question) {
+  if (!question.is_query())
+    answerer.ask_text(question.id, question.text);
+  else if (question.has_limit())
+    answerer.ask_until(question.id, question.query, question.max_time);
+  else
+    answerer.ask(question.id, question.query);
+}
+
 void ask_all(const Source& source, Answerer& answerer,
              const std::function<void(const Question&, Reply&)>& take) {
   std::deque<Question> open;
@@ -79,13 +88,9 @@ void ask_all(const Source& source, Answerer& answerer,
     place = next->place;
     open.push_back(std::move(*next));
     const Question& asked = open.back();
-    const Id id = asked.id;  // its reply may come at once and remove it
-    if (!asked.is_query())
-      answerer.ask_text(id, std::string(asked.text));
-    else if (asked.has_limit())
-      answerer.ask_until(id, Query(asked.query), asked.max_time);
-    else
-      answerer.ask(id, Query(asked.query));
+    // Its reply may come at once and remove it.
+    ask(answerer,
+        {.place = {}, .query = asked.query, .text = asked.text, .id = asked.id, .max_time = asked.max_time});
   }
   answerer.drain();
   answerer.on_reply([](Reply&) {});

@@ -8,6 +8,9 @@
 
 namespace lorentz::question {
 
+/// Asks an answerer, in the scene that was set, with the question's limit if it has one.
+void ask(Answerer& answerer, const Question& question);
+
 /// Asks all questions of the source, waits for the replies, and passes each reply on with its question, in
 /// the order of the questions.
 void ask_all(const Source& source, Answerer& answerer,

@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 
+#include "question/examine.hpp"
 #include "question/instruction_counter.hpp"
 
 namespace lorentz::question {
@@ -55,7 +56,9 @@ Round run_round(Questions questions, const std::vector<const SceneEngine*>& engi
                 const Listener& listener) {
   Round round;
   std::vector<Reply> replies(kBlock);
-  const oracle::Request request;
+  std::vector<oracle::Request> requests(questions.size());
+  for (std::size_t i = 0; i < questions.size(); ++i)
+    if (questions[i].has_limit()) requests[i].max_time = questions[i].max_time;
   InstructionCounter instructions;
   double spent = 0;
   round.time_blocks(questions.size(), kBlock, [&](std::size_t begin, std::size_t end) {
@@ -63,7 +66,7 @@ Round run_round(Questions questions, const std::vector<const SceneEngine*>& engi
     spent -= thread_ns();
     const auto start = SteadyClock::now();
     for (std::size_t i = begin; i < end; ++i)
-      engines[i]->ask(questions[i].query, request, replies[i - begin]);
+      engines[i]->ask(questions[i].query, requests[i], replies[i - begin]);
     const double ns = ns_since(start);
     spent += thread_ns();
     instructions.pause();
@@ -90,7 +93,7 @@ std::deque<ColumnsThere> columns_of(Questions questions, const EngineInfo& engin
   for (const Question& question : questions) {
     const Place* const place = question.place.get();
     if (all.empty() || all.back().place != place) all.emplace_back(engine, place);
-    all.back().queries.push_back(question.query);
+    all.back().queries.push_back(question.query, question.max_time);
   }
   return all;
 }
@@ -120,7 +123,7 @@ Round run_round(const std::deque<ColumnsThere>& all, const std::string& name, co
 void ask_program(Questions questions, Answerer& program, const Place*& place) {
   for (const Question& question : questions) {
     if (question.place.get() != place) program.set_scene((place = question.place.get())->scene());
-    program.ask(question.id, question.query);
+    ask(program, question);
   }
   program.drain();
 }

@@ -1,0 +1,130 @@
+// The same plain flights in other words. An engine that goes wrong in some rows only shows by which one it is.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include <lorentz/geometry.hpp>
+#include "judge/plan.hpp"
+
+namespace lorentz::judge {
+namespace {
+
+using cases::Random;
+
+constexpr int kSpeed = 10, kFarthest = 30;  // exponents of two
+constexpr std::int64_t kAway = 1000;        // by which single obstacles are moved, at most
+
+// Starts are multiples of 2^-grid, so that they can be moved exactly.
+int grid_of(NumberFormat format) {
+  return (bits_of(format) - 13) / 2;
+}
+
+// The number of bits of a count of cells after which a start is still a number of the format.
+int bits_to_move(NumberFormat format) {
+  return std::min(kFarthest, bits_of(format) - grid_of(format) - 2);
+}
+
+Vec negated(const Vec& a) {
+  return scaled(a, -1);
+}
+
+class Retold {
+ public:
+  Retold(const std::vector<NamedPlace>& places, Retelling how, std::uint64_t seed, std::size_t count,
+         Outside& outside)
+      : places_(places), how_(how), seed_(seed), turns_(places.size(), count), outside_(outside) {
+    Random random(seed, "retold places", 0);
+    for (int i = 0; i < 3; ++i) away_[i] = random.whole(-kAway, kAway);
+    for (const NamedPlace& named : places) {
+      const Place& place = *named.place;
+      starts_.emplace_back(place.scene(), starts::Kind::uniform, seed, place.claim().precision);
+      const Scene scene = retold(place.scene());
+      retold_.push_back(scene == place.scene() ? named.place : place_for(scene, place.claim()));
+    }
+  }
+
+  std::optional<Question> next() {
+    while (const auto next =
+               turns_.next([this](std::size_t place) { return retold_[place]->is_beyond_engine(); }))
+      if (const auto plain = plain_flight(next->place, next->index))
+        if (auto question = asked(next->place, next->index, *plain)) return question;
+    return std::nullopt;
+  }
+
+ private:
+  // A single obstacle is moved together with the start.
+  Scene retold(Scene scene) const {
+    const bool repeats = scene.lattices[0].rank(scene.dimension) > 0;
+    for_each_atom(scene, [&](Atom& atom) {
+      if (how_ == Retelling::mirrored) atom.position = negated(atom.position);
+      if (how_ == Retelling::moved && !repeats) atom.position = sum(atom.position, away_);
+    });
+    return scene;
+  }
+
+  // The same in all rows; nothing if the start lies in an obstacle after its rounding to the grid.
+  std::optional<Query> plain_flight(std::size_t which, std::size_t index) const {
+    const Place& place = *places_[which].place;
+    const int grid = grid_of(place.claim().precision);
+    Query query = starts_[which][index];
+    for (double& x : query.x) x = std::ldexp(std::floor(std::ldexp(x, grid)), -grid);
+    if (place.exact(query).outcome == Outcome::inside) return std::nullopt;
+    return query;
+  }
+
+  Query retold(Random& random, const Place& place, Query query) const {
+    const Scene& scene = place.scene();
+    const Lattice& lattice = scene.lattices[0];
+    if (how_ == Retelling::mirrored) query.x = negated(query.x), query.v = negated(query.v);
+    if (how_ == Retelling::faster) query.v = scaled(query.v, std::ldexp(1, random.exponent(-kSpeed, kSpeed)));
+    if (how_ != Retelling::moved) return query;
+    const int bits = random.exponent(0, bits_to_move(place.claim().precision)),
+              rank = lattice.rank(scene.dimension);
+    if (rank == 0) query.x = sum(query.x, away_);
+    for (int i = 0; i < rank; ++i)
+      query.x = plus(query.x, random.whole(-(std::int64_t{1} << bits), std::int64_t{1} << bits),
+                     lattice.vectors[i]);
+    return query;
+  }
+
+  std::optional<Question> asked(std::size_t which, std::size_t index, const Query& plain) {
+    const std::shared_ptr<Place>& place = retold_[which];
+    Random random(seed_, "retold flights", index);
+    auto question = question_in(place, retold(random, *place, plain),
+                                fmt::format("{}, {}", words_of(how_).name, places_[which].name), outside_);
+    if (!question || how_ != Retelling::limited) return question;
+    const double time = question->exact.time.value_or(1 / length(plain.v));
+    question->max_time = rounded(time * random.octave(-2, 2), place->claim().precision);
+    if (place->claim().domain.limits) return question;
+    return ++outside_, std::nullopt;
+  }
+
+  const std::vector<NamedPlace>& places_;
+  const Retelling how_;
+  const std::uint64_t seed_;
+  InTurn turns_;
+  Outside& outside_;
+  Vec away_{};
+  std::vector<starts::FreeStarts> starts_;
+  std::vector<std::shared_ptr<Place>> retold_;
+};
+
+}  // namespace
+
+RowWords words_of(Retelling how) {
+  constexpr RowWords kWords[] = {
+      {"plain", "starts in the first cell, |v| = 1; the next rows ask the same flights in other words"},
+      {"moved", "the same flights, up to 2^30 cells away; single obstacles, moved with the start"},
+      {"mirrored", "the same flights with x, v and the obstacles negated"},
+      {"at another speed", "the same flights with v times 2^-10 to 2^10"},
+      {"limited", "the same flights, until 1/4 to 4 times their times (max_time)"}};
+  return kWords[static_cast<std::size_t>(how)];
+}
+
+Source retold(const std::vector<NamedPlace>& places, Retelling how, std::uint64_t seed, std::size_t count,
+              Outside& outside) {
+  const auto maker = std::make_shared<Retold>(places, how, seed, count, outside);
+  return [maker] { return maker->next(); };
+}
+
+}  // namespace lorentz::judge
