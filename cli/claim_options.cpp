@@ -32,31 +32,22 @@ void take_part(const std::string& part, Domain& domain) {
   const std::size_t equals = part.find('=');
   const std::string key = part.substr(0, equals), value = equals == part.npos ? "" : part.substr(equals + 1);
   const std::string name = "--domain: " + key;
-  switch (index_of_name(key, {"speed", "coordinates", "radius", "flight", "dimension", "shape", "limits"},
-                        "--domain")) {
-    case 0:
-      domain.speed = range_from(value, name);
-      break;
-    case 1:
-      domain.coordinates = range_from(value, name);
-      break;
-    case 2:
-      domain.radius = range_from(value, name);
-      break;
-    case 3:
-      domain.flight = range_from(value, name);
-      break;
-    case 4:
-      domain.dimension_2 = index_of_name(value, {"2", "3"}, name) == 0,
-      domain.dimension_3 = !domain.dimension_2;
-      break;
-    case 5:
-      domain.balls = index_of_name(value, {"ball", "ellipsoid"}, name) == 0,
-      domain.ellipsoids = !domain.balls;
-      break;
-    default:
-      domain.limits = index_of_name(value, {"no", "yes"}, name) == 1;
-  }
+  std::vector<std::string> names;
+  for (const NamedRange& its : kDomainRanges) names.emplace_back(its.name);
+  const std::size_t ranges = names.size();
+  names.insert(names.end(), {"dimension", "shape", "limits"});
+  const std::size_t number = index_of_name(key, names, "--domain");
+  const auto choice = [&](const std::vector<std::string>& two) {
+    return index_of_name(value, two, name) == 0;
+  };
+  if (number < ranges)
+    domain.*kDomainRanges[number].range = range_from(value, name);
+  else if (key == "dimension")
+    domain.dimension_2 = choice({"2", "3"}), domain.dimension_3 = !domain.dimension_2;
+  else if (key == "shape")
+    domain.balls = choice({"ball", "ellipsoid"}), domain.ellipsoids = !domain.balls;
+  else
+    domain.limits = choice({"yes", "no"});
 }
 
 Domain domain_from(const std::string& text) {

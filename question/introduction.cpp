@@ -77,10 +77,8 @@ void read_shapes(json::Value value, Domain& domain) {
 Domain domain_in(json::Value value) {
   Domain domain;
   json::each_member(value, [&](std::string_view key, json::Value its) {
-    if (key == "speed") domain.speed = range_in(its, key);
-    if (key == "coordinates") domain.coordinates = range_in(its, key);
-    if (key == "radius") domain.radius = range_in(its, key);
-    if (key == "flight") domain.flight = range_in(its, key);
+    for (const NamedRange& named : kDomainRanges)
+      if (key == named.name) domain.*named.range = range_in(its, key);
     if (key == "shapes") read_shapes(its, domain);
     if (key == "limits") domain.limits = its.boolean();
   });

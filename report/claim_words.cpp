@@ -18,11 +18,9 @@ std::string range_text(const Domain::Range& range) {
 // As the argument of --domain; empty for all.
 std::string domain_text(const Domain& domain) {
   std::vector<std::string> parts;
-  const auto add = [&](const char* key, const Domain::Range& range) {
-    if (range != Domain::Range()) parts.push_back(key + range_text(range));
-  };
-  add("speed=", domain.speed), add("coordinates=", domain.coordinates);
-  add("radius=", domain.radius), add("flight=", domain.flight);
+  for (const auto& [name, range] : kDomainRanges)
+    if (domain.*range != Domain::Range())
+      parts.push_back(fmt::format("{}={}", name, range_text(domain.*range)));
   if (!domain.dimension_2 || !domain.dimension_3)
     parts.push_back(domain.dimension_2 ? "dimension=2" : "dimension=3");
   if (!domain.balls || !domain.ellipsoids) parts.push_back(domain.balls ? "shape=ball" : "shape=ellipsoid");

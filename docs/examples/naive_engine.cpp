@@ -51,7 +51,7 @@ std::string obstacle(const Vec& n) {
   return "\"lattice\":0,\"atom\":0,\"cell\":[" + cell + "]";
 }
 
-std::string first_hit(const Scene& scene, Vec x, const Vec& v, const Vec& from) {
+std::string first_hit(const Scene& scene, Vec x, const Vec& v, const Vec& from, double limit) {
   const std::size_t dimension = scene.centre.size();
   Vec cell(dimension), n(dimension), best;
   double speed2 = 0, first = INFINITY;
@@ -76,6 +76,7 @@ std::string first_hit(const Scene& scene, Vec x, const Vec& v, const Vec& from) 
     double leave = INFINITY;
     for (std::size_t k = 0; k < dimension; ++k)
       if (const double t = (cell[k] + (v[k] > 0) - x[k]) / v[k]; v[k] != 0 && t < leave) leave = t, axis = k;
+    if (std::min(first, leave) >= limit) return "\"outcome\":\"later\"";
     if (first <= leave) return "\"outcome\":\"hit\"," + obstacle(best) + ",\"time\":" + text_of(first);
     cell[axis] += v[axis] > 0 ? 1 : -1;
   }
@@ -89,10 +90,11 @@ int main() {
       scene = Scene(line);
       continue;
     }
-    const Vec x = numbers(line, "x"), v = numbers(line, "v"), id = numbers(line, "id");
+    const Vec x = numbers(line, "x"), v = numbers(line, "v"), id = numbers(line, "id"),
+              limit = numbers(line, "max_time");
     std::string answer = R"("outcome":"error","message":"no such scene here","reason":"unsupported")";
     if (!scene.centre.empty() && x.size() == scene.centre.size() && v.size() == x.size())
-      answer = first_hit(scene, x, v, numbers(line, "cell"));
+      answer = first_hit(scene, x, v, numbers(line, "cell"), limit.empty() ? INFINITY : limit[0]);
     const std::string name = id.empty() ? "null" : text_of(id[0]);
     std::cout << "{\"id\":" + name + ',' + answer + "}\n" << std::flush;  // the caller may wait for it
   }

@@ -47,7 +47,7 @@ class Lattice:
             cell[axis] += 1 if s[axis] > 0 else -1
 
 
-def first_hit(lattices, x, v, source):
+def first_hit(lattices, x, v, source, limit):
     best, inside, speed2 = None, None, dot(v, v)
     for number, lattice in enumerate(lattices):
         for step, (cell, leave) in enumerate(lattice.cells(x, v)):
@@ -64,12 +64,14 @@ def first_hit(lattices, x, v, source):
                 room = r * r - dot(miss, miss)
                 if room > 0 and (enters := t - math.sqrt(room / speed2)) >= 0:
                     best = min(filter(None, [best, (enters, number, atom, n)]))
-            if inside or (best and best[0] <= leave):
+            if inside or (best and best[0] <= leave) or leave >= limit:
                 break
         else:
             return {"outcome": "undecided"}
     if inside:
         return {"outcome": "inside"} | dict(zip(("lattice", "atom", "cell"), inside))
+    if not best or best[0] >= limit:
+        return {"outcome": "later"}
     return {"outcome": "hit"} | dict(zip(("time", "lattice", "atom", "cell"), best))
 
 
@@ -79,7 +81,7 @@ def answer(query, lattices):
     if not lattices:
         return {"outcome": "error", "message": "crystals of balls only", "reason": "unsupported"}
     source = (f := query.get("from")) and (f["lattice"], f["atom"], [int(n) for n in f["cell"]])
-    return first_hit(lattices, query["x"], query["v"], source)
+    return first_hit(lattices, query["x"], query["v"], source, float(query.get("max_time", math.inf)))
 
 
 lattices = None

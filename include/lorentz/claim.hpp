@@ -48,6 +48,16 @@ struct Domain {
   friend bool operator==(const Domain&, const Domain&) = default;
 };
 
+/// The ranges of a domain, by the names that claims and --domain have for them.
+struct NamedRange {
+  const char* name;
+  Domain::Range Domain::*range;
+};
+inline constexpr NamedRange kDomainRanges[] = {{"speed", &Domain::speed},
+                                               {"coordinates", &Domain::coordinates},
+                                               {"radius", &Domain::radius},
+                                               {"flight", &Domain::flight}};
+
 /// What an engine answers if x lies in open obstacles (`from` excepted).
 enum class StartInside {
   inside,  ///< Outcome::inside, with the smallest of them (lattice, atom, cell)

@@ -60,7 +60,7 @@ TEST_CASE("compare: a wrong time has its own column, and counts with --times onl
   const std::string through = R"("outcome":"hit","lattice":0,"atom":0,"cell":[1,0],"time":0.75)";
   CHECK((logged(through, "").status == 0 && logged(through, "--times").status == 1));
   CHECK(contains(logged(through, "").out, "mine: no wrong answer in 1 "));
-  CHECK(contains(logged(through, "").out, " of all); in 1 the time is another quantity\n"));
+  CHECK(contains(logged(through, "").out, " of such questions); in 1 the time is another quantity\n"));
   CHECK(contains(logged(through, "--json").out, R"("agree":1,"ill_posed":0,"wrong":0,)"));
   CHECK(contains(logged(through, "--json").out, R"("wrong_time":1,"other_quantity":1,)"));
   // Zero is a tolerance, here as elsewhere.

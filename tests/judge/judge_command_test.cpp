@@ -90,7 +90,9 @@ TEST_CASE("judge --baseline: failures that are known by row and id do not count"
   const std::string text = folder.read("known");
   std::istringstream lines(text);
   std::string heading, first;
-  REQUIRE((std::getline(lines, heading) && std::getline(lines, first)));
+  REQUIRE(std::getline(lines, heading));
+  while (std::getline(lines, first) && !first.starts_with("golden-")) {
+  }
   CHECK_THAT(first, Catch::StartsWith("golden-") && Catch::EndsWith(" wrong"));
   const std::string key = first.substr(0, first.rfind(' ')), id = key.substr(key.find(' ') + 1);
   CHECK(contains(folder.read("report.xml"), "name=\"" + id + "\"><failure message=\"wrong\"/>"));
@@ -122,7 +124,7 @@ TEST_CASE("judge finds a correct engine right, in JSON, too", "[judge][judge_com
       run.out,
       R"("engine":"certified","library":null,"verdict":"right","line":"right: no wrong answer in )"));
   CHECK(contains(run.out, R"("ill_posed":0,"wrong":0,"wrong_time":0,"other_quantity":0,"undecided":0,)"));
-  CHECK(contains(run.out, R"("difficulties":[{"name":"drawn square",)"));
+  CHECK(contains(run.out, R"("difficulties":[{"name":"plain",)"));
   CHECK(contains(run.out, R"("findings":[],"calls":[{"decade":-)"));
   CHECK(contains(run.out, R"("free_paths":[{"scene":"square","engine":"certified","radius":0.1,)"));
   CHECK(lines(run.out) == 1);

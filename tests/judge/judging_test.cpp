@@ -475,10 +475,10 @@ TEST_CASE("Drawn and flown questions come in blocks of each place, and none is l
     const Place& place = *places[p].place;
     REQUIRE(drawn_ones[p].size() == (p == 2 ? 26 : 32));
     REQUIRE(flown_ones[p].size() == drawn_ones[p].size());
-    const starts::FreeStarts uniform(place.scene(), starts::Kind::uniform, kSeed),
-        surface(place.scene(), starts::Kind::surface, kSeed);
+    const starts::VariedStarts varied(place.scene(), kSeed);
+    const starts::FreeStarts surface(place.scene(), starts::Kind::surface, kSeed);
     for (std::size_t i = 0; i < drawn_ones[p].size(); ++i) {
-      CHECK(stream(place.scene(), drawn_ones[p][i]) == stream(place.scene(), uniform[i]));
+      CHECK(stream(place.scene(), drawn_ones[p][i]) == stream(place.scene(), varied[i].query));
       CHECK(stream(place.scene(), flown_ones[p][i]) == stream(place.scene(), surface[i]));
     }
   }
