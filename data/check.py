@@ -102,26 +102,30 @@ def sign(a, b, c):  # of a + sqrt b - sqrt c; if a >= 0, of 2 a sqrt b - z
     z = c - a * a - b
     return -sign(-a, c, b) if a < 0 else 1 if z < 0 else (4 * a * a * b > z * z) - (4 * a * a * b < z * z)
 def order(t, u): return sign(t[0] * u[2] - u[0] * t[2], u[1] * t[2]**2, t[1] * u[2]**2)  # the sign of t - u
-def rounds(t, n, base, k, digits):
-    """Is n base^k what t rounds to? So t is between the midpoints to its neighbours, or at one if n is even. The lower
+def entry(t): return lambda p, q: order(t, (p, 0, q))  # the sign of t - p / q
+def exit_at(s, D, Q): return lambda p, q: order((-p, 0, q), (-s, D, Q))  # of (s + sqrt D) / Q - p / q
+def rounds(order_to, n, base, k, digits):
+    """Does a time round to n base^k? So it is between the midpoints to its neighbours, or at one if n is even. The lower
     one of a power of the base is closer (of 2^-1022, it is not); "inf" stands for 2^1024, and has none above."""
     side = 1 if n == base**(digits - 1) and (base, k) != (2, -1074) else base
     up, down = base**max(k, 0), 2 * base**(1 + max(-k, 0))
-    return order(t, ((2 * base * n - side) * up, 0, down)) >= n % 2 and (
-        (base, k) == (2, 972) or order(t, ((2 * base * n + base) * up, 0, down)) <= -(n % 2))
-def check_time(t, time, text):
+    return order_to((2 * base * n - side) * up, down) >= n % 2 and (
+        (base, k) == (2, 972) or order_to((2 * base * n + base) * up, down) <= -(n % 2))
+def check_double(order_to, time, name):
     k = max((n := 2**2098 if time == "inf" else number(time)).bit_length() - 53, 0)
-    require(str(time)[0] != "-" and rounds(t, n >> k, 2, k - 1074, 53), "time is not correctly rounded")
+    require(str(time)[0] != "-" and rounds(order_to, n >> k, 2, k - 1074, 53), f"{name} is not correctly rounded")
+def check_decimal(t, text):
     require(len(text) <= LONGEST, "time_decimal is too long")
     whole, part, power = re.fullmatch("([0-9]+)(?:[.]([0-9]+))?(?:e([+-][0-9]{1,4}))?", text).groups("")
     n, k = (whole + part).lstrip("0"), int(power or 0) - len(part)
-    require(len(n) == 40 and rounds(t, int(n), 10, k, 40) if t[0]**2 > t[1] else text == "0", "time_decimal is wrong")
+    require(len(n) == 40 and rounds(entry(t), int(n), 10, k, 40) if t[0]**2 > t[1] else text == "0", "time_decimal is wrong")
 def verify(record, scene):
     outcome, size = record["expect"]["outcome"], scene[0]
     own = {"hit": "lattice atom cell time time_decimal", "inside": "lattice atom cell"}.get(str(outcome), "").split()
     has = {*record["expect"]} & {"id", "lattice", "atom", "cell", "time"} | {*record} & {"time_decimal"}
     require(has == {*own} and (outcome != "error" or "certificate" not in record), f"keys: {outcome!r:.20} has {own}")
     require({type(record["expect"].get(key, "")) for key in ("message", "reason")} == {str}, "a message is no string")
+    require(own or "exit_time" not in record["expect"], f"keys: {outcome!r:.20} has no exit_time")
     try: leaving, ranks, balls = read_query(record, *scene)
     except Exception as flaw: return require(outcome == "error", flaw)
     require(outcome in ("hit", "inside", "never"), f"the outcome is not {outcome!r:.20}")
@@ -136,6 +140,7 @@ def verify(record, scene):
         D = R - dot(h, h)
         claim = s * s < D if outcome == "inside" else s > 0 and s * s >= D > 0
         require(claim and X != leaving, f"{X} is no {outcome}")
+        if "exit_time" in record["expect"]: check_double(exit_at(s, D, Q), record["expect"]["exit_time"], "exit_time")
     if outcome == "hit": time = s, D, Q
     for row, piece in pieces:
         v, Q, R, _, u, k = balls[key := (integer(piece["lattice"]), integer(piece["atom"]))]
@@ -161,7 +166,8 @@ def verify(record, scene):
         p, q = ends.get(key, -1).as_integer_ratio()
         require(X or key in ends, f"no rows of {key}, and no windows")
         require(X and order((p * Q, R * q * q, q * Q), time) >= 0, f"{key}: a gap")
-    if outcome == "hit": check_time(time, record["expect"]["time"], record["time_decimal"])
+    if outcome != "hit": return
+    check_double(entry(time), record["expect"]["time"], "time"), check_decimal(time, record["time_decimal"])
 def depth(x): return type(x) in (dict, list) and 1 + max(map(depth, x.values() if type(x) is dict else x), default=0)
 def read(text):  # ---- FILES. A line's object, and its keys in order: the outermost object ends last.
     def members(pairs):

@@ -52,9 +52,9 @@ Judgement judgement_of(const Question& question, const Answer& given, double ulp
     if (says_later || (names_obstacle && at_limit == AtLimit::exact && is_later(question)))
       return {Verdict::wrong, {}, std::numeric_limits<double>::infinity()};
   }
-  // Equal answers need no judge, and many scenes never get one.
+  // Equal answers without exits need no judge, and many scenes never get one.
   const Answer& exact = question.exact;
-  if (given.outcome == Outcome::hit && exact.outcome == Outcome::hit && same_answer(given, exact))
+  if (given.outcome == Outcome::hit && !given.exit_time && same_answer(given, exact))
     return std::isfinite(*exact.time) ? Judgement{Verdict::agree, 0.0} : Judgement{Verdict::agree};
   return question.place->judge().judge(question.query, exact, given, ulps);
 }

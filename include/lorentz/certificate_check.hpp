@@ -33,9 +33,9 @@ class CertificateCheck {
   ~CertificateCheck();
 
   /// Returns nothing if the certificate proves the answer. Otherwise says what is wrong, in one line that
-  /// names the window, the atom or the obstacle. The proof is about outcome, obstacle, time and, if there are
-  /// digits, `time_decimal`, but not about the collision's detail. No false answer passes, whatever the
-  /// certificate holds. A proof beyond the limits of certificate.hpp is refused. If it takes too many steps,
+  /// names the window, the atom or the obstacle. The proof is about outcome, obstacle, time and, if they are
+  /// there, `time_decimal` and `exit_time`, but not about the collision's detail. No false answer passes,
+  /// whatever the certificate holds. A proof beyond the limits of certificate.hpp is refused. If it takes too many steps,
   /// `*too_long` (if given) becomes true, whether or not the proof is right. Safe to call from several
   /// threads.
   std::optional<std::string> refutation(const Query& query, const Answer& answer,

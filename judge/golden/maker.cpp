@@ -23,6 +23,11 @@ bool is_same(const oracle::ExcusedAnswer& a, const oracle::ExcusedAnswer& b) {
   return a.ulps == b.ulps && a.answer.outcome == b.answer.outcome && a.answer.obstacle == b.answer.obstacle;
 }
 
+bool is_one_obstacle(const Scene& scene) {
+  return scene.lattices.size() == 1 && scene.lattices[0].atoms.size() == 1 &&
+         scene.lattices[0].rank(scene.dimension) == 0;
+}
+
 // A record must have exactly the parts that belong to its outcome.
 std::optional<std::string> flaw_of_form(const Record& record) {
   const Outcome outcome = record.expect.outcome;
@@ -78,7 +83,9 @@ void Maker::excuse(const Query& query, Record& record) const {
 Proved Maker::prove(const Query& query) const {
   oracle::Request request;
   request.digits = kDigits;
+  request.detail = is_one_obstacle(scene_);
   Proved proved{oracle_.first_hit(query, request), {}};
+  proved.exact.detail.reset();
   proved.certificate =
       others_.prove ? others_.prove(query, proved.exact) : prover_.prove(query, proved.exact);
   bool too_long = false;

@@ -22,7 +22,8 @@ struct MadeRecord {
   std::optional<oracle::HardestDecision> hardest = {};  ///< on which the answer rests
 };
 
-/// An exact answer, with kDigits digits of its time, and its proof.
+/// An exact answer, with kDigits digits of its time, and its proof. In a scene of one single obstacle it has its
+/// exit_time, for those who intersect rays with such shapes.
 struct Proved {
   Answer exact;
   oracle::Certificate certificate;

@@ -158,8 +158,8 @@ oracle::Certificate read_certificate(json::Value value, const Components& count)
   return certificate;
 }
 
-// An answer of a record has the members of its outcome, and no id. `expect` has a time; acceptable answers
-// have ulps.
+// An answer of a record has the members of its outcome, and no id. `expect` has a time, and may have an exit_time;
+// acceptable answers have ulps.
 void check_members(const std::set<std::string>& keys, Outcome outcome, bool is_expected) {
   const bool named = outcome == Outcome::hit || outcome == Outcome::inside;
   const std::pair<const char*, bool> members[] = {{"id", false},
@@ -168,10 +168,12 @@ void check_members(const std::set<std::string>& keys, Outcome outcome, bool is_e
                                                   {"cell", named},
                                                   {"time", is_expected && outcome == Outcome::hit},
                                                   {"ulps", !is_expected}};
+  const auto refuse = [&](const char* key, const char* why) {
+    throw InputError(fmt::format("{}: {} {}", is_expected ? "expect" : "acceptable", key, why));
+  };
   for (const auto& [key, needed] : members)
-    if (keys.contains(key) != needed)
-      throw InputError(fmt::format("{}: {} {}", is_expected ? "expect" : "acceptable", key,
-                                   needed ? "is missing" : "does not belong there"));
+    if (keys.contains(key) != needed) refuse(key, needed ? "is missing" : "does not belong there");
+  if (keys.contains("exit_time") && !(named && is_expected)) refuse("exit_time", "does not belong there");
 }
 
 }  // namespace

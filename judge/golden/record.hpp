@@ -45,7 +45,7 @@ struct Record {
   std::string comment = {};    ///< on the hard decision; empty: no decision is hard
   std::string source_id = {};  ///< as JSON: the id that the question came with; empty: it had none
   std::string question;        ///< the text between the tags and `,"expect"`, from which the id is made
-  Answer expect;               ///< with time_decimal for a hit
+  Answer expect;               ///< with time_decimal for a hit, and perhaps exit_time
   std::optional<double> margin = {}, condition = {};
   std::optional<double> time_change = {};  ///< for a hit: the effect of an ulp in each input on its time
   std::vector<oracle::ExcusedAnswer> acceptable = {};  ///< besides `expect`, in order of ulps

@@ -1,5 +1,5 @@
 """data/check.py accepts golden records that are right, and no others: python3 -m unittest tests/golden/check_py_test.py"""
-import contextlib, copy, hashlib, importlib.util, io, itertools, json, math, pathlib, random, subprocess, sys, tempfile, unittest
+import contextlib, copy, decimal, hashlib, importlib.util, io, itertools, json, math, pathlib, random, subprocess, sys, tempfile, unittest
 from fractions import Fraction
 
 CHECK = pathlib.Path(__file__).resolve().parents[2] / "data" / "check.py"
@@ -409,6 +409,42 @@ class Refuses(unittest.TestCase):
             self.assertEqual(got, status, output)
             self.assertRegex(output, why)
 
+class Exits(unittest.TestCase):
+    """An exit_time is correctly rounded where it stands. The proved checker passes over it."""
+    def held(self, name, exit_time, status, why, **query):
+        case = copy.deepcopy(CASES[name])
+        case["query"].update(query)
+        case["expect"]["exit_time"] = exit_time
+        got, said = run(golden(case))
+        self.assertEqual(got, status, said)
+        self.assertRegex(said, why)
+
+    def test_each(self):
+        """Against roots in 200 digits."""
+        decimal.getcontext().prec = 200
+        for name in "ball", "plane", "inside", "exact", "at once", "inf":
+            case = CASES[name]
+            lattice = case["scene"]["lattices"][0]
+            cell, radius = case["expect"]["cell"], decimal.Decimal(lattice["atoms"][0]["radius"])
+            centre = [p + sum(n * u[i] for n, u in zip(cell, lattice["vectors"])) for i, p in enumerate(lattice["atoms"][0]["position"])]
+            w = [decimal.Decimal(c) - decimal.Decimal(x) for c, x in zip(centre, case["query"]["x"])]
+            v = list(map(decimal.Decimal, case["query"]["v"]))
+            s, vv = sum(a * b for a, b in zip(v, w)), sum(a * a for a in v)
+            right = float((s + (s * s - vv * (sum(a * a for a in w) - radius**2)).sqrt()) / vv)
+            if right == math.inf:
+                self.held(name, "inf", 0, "verified")
+                self.held(name, 1.7976931348623157e308, 1, "exit_time is not correctly rounded")
+                continue
+            self.held(name, right, 0, "verified")
+            for wrong in math.nextafter(right, 0), math.nextafter(right, math.inf), -right, "inf", case["expect"].get("time", 0):
+                self.held(name, wrong, 1, "exit_time is not correctly rounded")
+            for none in None, "soon", [right]:
+                self.held(name, none, 1, "ValueError|Error")
+
+    def test_where_there_is_none(self):
+        self.held("never2", 1.0, 1, "has no exit_time")
+        self.held("error", 1.0, 1, "has no exit_time")
+
 class Parts(unittest.TestCase):
     def test_ends_of_windows(self):
         for text in "0x1p16384", "-0X.1P-16380", "0x0p-16384":
@@ -439,18 +475,19 @@ class Rounds(unittest.TestCase):
                 (0, Fraction(1, 2), -Fraction(1, 4), Fraction(1, 4), Fraction(1, 2) + Fraction(1, 2**70), -Fraction(1, 4) - Fraction(1, 2**70)))
             t *= Fraction(2) ** rng.choice((0, 7, -1074, -1075, -1073, -1076, -1022 - 52, 971, -30))
             for time in (float(t), check.math.nextafter(float(t), 0), check.math.nextafter(float(t), 1e999)) if t < 2**1024 - 2**970 else ("inf", 2.0**1023):
-                root = rng.randint(1, 99)  # t = (s - sqrt D) / Q
-                triple = t.numerator + root * t.denominator, (root * t.denominator)**2, t.denominator
-                right = time == (float(t) if t < 2**1024 - 2**970 else "inf")
-                n = 2**2098 if time == "inf" else check.number(time) if time < 1e999 else 2**2098
-                k = max(n.bit_length() - 53, 0)
-                self.assertEqual(check.rounds(triple, n >> k, 2, k - 1074, 53), right, (t, time))
+                root = rng.randint(1, 99)  # t = (s - sqrt D) / Q, or (s + sqrt D) / Q
+                D, Q = (root * t.denominator)**2, t.denominator
+                for order_to in (check.entry((t.numerator + root * Q, D, Q)), check.exit_at(t.numerator - root * Q, D, Q)):
+                    right = time == (float(t) if t < 2**1024 - 2**970 else "inf")
+                    n = 2**2098 if time == "inf" else check.number(time) if time < 1e999 else 2**2098
+                    k = max(n.bit_length() - 53, 0)
+                    self.assertEqual(check.rounds(order_to, n >> k, 2, k - 1074, 53), right, (t, time))
 
     def test_decimal(self):
         for t, n, k, right in ((Fraction(10**40 - 1), 10**39, 1, False), (Fraction(10**41 - 4), 10**39, 2, True), (Fraction(10**41 - 6), 10**39, 2, False),
                                (Fraction(10**41 - 5), 10**39, 2, True), (Fraction(10**40 + 5), 10**39, 1, True), (Fraction(10**40 + 15), 10**39 + 1, 1, False),
                                (Fraction(10**40 + 15), 10**39 + 2, 1, True), (Fraction(5, 10**80), 5 * 10**39, -119, True)):
-            self.assertEqual(check.rounds((t.numerator, 0, t.denominator), n, 10, k, 40), right, (t, n, k))
+            self.assertEqual(check.rounds(check.entry((t.numerator, 0, t.denominator)), n, 10, k, 40), right, (t, n, k))
 
 if __name__ == "__main__":
     unittest.main()

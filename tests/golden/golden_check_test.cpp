@@ -146,6 +146,23 @@ TEST_CASE("golden check: another program that lies, is silent about some, or bre
   CHECK(contains(once.out, "\"not_asked\":0}"));
 }
 
+TEST_CASE("golden check: judges exits by the sets that have them", "[golden][golden_check]") {
+  const Folder folder;
+  beginning_of_set(folder, "ball-3d", 100);
+  const std::string set = folder.file("ball-3d.ndjson");
+  long exits = 0;
+  golden::Reader reader(set);
+  for (golden::ReadRecord read; reader.next(read);) exits += read.record.expect.exit_time.has_value();
+  CHECK(exits > 20);
+  const auto wrong_times = [&](const std::string& engine) {
+    const Run run = folder.lorentz("golden check --json --engine " + engine + " " + set);
+    INFO(run.err);
+    return between(run.out, "\"wrong_time\":", ",");
+  };
+  CHECK(wrong_times("'cmd:" LORENTZ_PROGRAM " first-hit --detail'") == "0");
+  CHECK(wrong_times(engine(folder, "if 'cell' in a: a['exit_time'] = 'inf'")) == std::to_string(exits));
+}
+
 TEST_CASE("golden check: says whether a wrong time is the exit, another quantity, or near the right one",
           "[golden][golden_check]") {
   const Folder folder;

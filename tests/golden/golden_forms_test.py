@@ -333,6 +333,16 @@ REFUSED |= {
                      golden("hit").replace(b"\n", b" " * 2**25 + b"\n", 1),
                      golden("hit")[:-1] + b" " * (33 << 20)]}
 
+EXIT, LATER = 0.5330117872090137, 0.5330117872090138
+EXITS = {  # for these two alone: the proved checker passes over them
+    "accepted": in_record("hit", (TIME, TIME + f',"exit_time":{EXIT}'), (TIME, f'"exit_time":{EXIT}00,' + TIME),
+                          (TIME, TIME + f',"exit_time":"{EXIT.hex()}"')),
+    "refused": in_record("hit", *[(TIME, f'{TIME},"exit_time":{text}') for text in (
+                   LATER, f"-{EXIT}", "0", '"inf"', '"-inf"', '"nan"', "null", f'"{EXIT}"', f"[{EXIT}]", "1e400", "true")]) +
+               in_record("inside", ('"outcome":', '"exit_time":1e3,"outcome":')) +
+               in_record("never", ('"outcome":"never"', '"outcome":"never","exit_time":1')) +
+               in_record("error", ('"message":', '"exit_time":1,"message":'))}
+
 class Forms(unittest.TestCase):
     def hold(self, forms, *statuses):
         with tempfile.TemporaryDirectory() as folder:
@@ -343,6 +353,10 @@ class Forms(unittest.TestCase):
 
     def test_accepted(self):
         self.hold(ACCEPTED, (0, 0))
+
+    def test_exits(self):
+        self.hold({"accepted": EXITS["accepted"]}, (0, 0))
+        self.hold({"refused": EXITS["refused"]}, (1, 1), (1, 2))
 
     def test_refused(self):
         """If a record has an id and another form than it should, check.py says that it is refuted."""

@@ -72,6 +72,7 @@ void require_same(const Record& a, const Record& b) {
   CHECK(a.expect.outcome == b.expect.outcome);
   CHECK(a.expect.obstacle == b.expect.obstacle);
   CHECK(a.expect.time == b.expect.time);
+  CHECK(a.expect.exit_time == b.expect.exit_time);
   CHECK(a.expect.time_decimal == b.expect.time_decimal);
   CHECK(a.expect.message == b.expect.message);
   CHECK(a.margin == b.margin);
@@ -452,6 +453,31 @@ TEST_CASE("Golden: each kind of tampering with a hit is named", "[golden]") {
                r = {.id = r.id, .tags = r.tags, .question = r.question, .expect = Answer::error("no query")};
              }}});
   }
+}
+
+TEST_CASE("Golden: records of one single obstacle, and no others, say when it is left", "[golden]") {
+  Scene ball = unit_scene(3, 0.25);
+  ball.lattices[0].missing = 3, ball.lattices[0].vectors = {};
+  const GoldenCase hit = golden_case(ball, {{-1, 0.125, 0}, {1, 0, 0.03125}, {}}),
+                   inside = golden_case(ball, {{0.125, 0, 0}, {1, 0.5, 0}, {}}),
+                   graze = golden_case(ball, {{-1, 0.25 - 0x1p-54, 0}, {1, 0, 0}, {}});
+  for (const GoldenCase& c : {hit, inside, graze}) {
+    REQUIRE(c.record.expect.exit_time);
+    const std::string no_exit = "is not left at the exit_time given";
+    require_flaws(c, {{no_exit, [](Record& r) { r.expect.exit_time = stepped(*r.expect.exit_time, 1); }},
+                      {no_exit, [](Record& r) { r.expect.exit_time = stepped(*r.expect.exit_time, -1); }},
+                      {no_exit, [](Record& r) { r.expect.exit_time = -*r.expect.exit_time; }},
+                      {no_exit, [](Record& r) { r.expect.exit_time = r.expect.time.value_or(0); }}});
+    GoldenCase without = c;
+    without.record.expect.exit_time.reset();
+    CHECK(flaw(without) == "");
+  }
+  CHECK(*hit.record.expect.time < *hit.record.expect.exit_time);
+  CHECK_FALSE(golden_case(ball, {{-1, 0.25, 0}, {1, 0, 0}, {}}).record.expect.exit_time);
+  Scene two = ball;
+  two.lattices[0].atoms.push_back({{9, 9, 9}, 0.25});
+  CHECK_FALSE(golden_case(two, *hit.query).record.expect.exit_time);
+  CHECK_FALSE(hit_case().record.expect.exit_time);
 }
 
 TEST_CASE("Golden: each kind of tampering with inside, never and an error is named", "[golden]") {

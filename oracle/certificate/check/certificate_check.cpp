@@ -384,8 +384,8 @@ class Check {
     }
   }
 
-  /// Reads the claim, and checks it for the answer's obstacle itself: the obstacle is not `from`, and it is
-  /// entered at this time or contains x.
+  /// Reads the claim, and checks it for the answer's obstacle itself: the obstacle is not `from`, it is
+  /// entered at this time or contains x, and it is left at the exit_time, if there is one.
   Conclusion claim_of(const Query& query, const Answer& answer, const Flight& flight) const {
     Conclusion claim{answer.outcome};
     if (query.from) claim.from = read_obstacle(*query.from);
@@ -402,6 +402,8 @@ class Check {
     const bool contains_x = s * s < d;
     if (contains_x != (answer.outcome == Outcome::inside))
       refute(name + (contains_x ? " contains x" : " does not contain x"));
+    if (answer.exit_time && !rounds_to(ProofTime{s, d, view.v2, true}, *answer.exit_time))
+      refute(name + " is not left at the exit_time given");
     if (contains_x) return claim;
     if (s <= 0) refute(name + " lies behind");
     claim.time = {s, d, view.v2};

@@ -25,9 +25,10 @@ int compare(const ProofTime& a, const ProofTime& b) {
   return sign_of(b.q * a.s - a.q * b.s, a.q * a.q * b.d, b.q * b.q * a.d);
 }
 
-// Multiplied by q m: m (s - sqrt(d)) - n q.
+// Multiplied by q m: m (s -+ sqrt(d)) - n q.
 int ProofTime::compare(const Z& n, const Z& m) const {
-  return sign_of(m * s - n * q, 0, m * m * d);
+  const Z rest = m * s - n * q, root2 = m * m * d;
+  return is_exit ? sign_of(rest, root2, 0) : sign_of(rest, 0, root2);
 }
 
 int ProofTime::compare_dyadic(const Z& n, long k) const {
