@@ -2,11 +2,13 @@
 """Does this ray hit this ball, and when? Four formulas that people use, judged (docs/ray_and_ball.md).
 
     ray_ball.py engine FORMULA       answers a query stream: textbook, q-form, nearest-point or projection
+                                     (with --binary32: each operation is rounded to binary32)
     ray_ball.py questions KIND N     N rays beside the unit ball, of one kind
     ray_ball.py table [--write]      what each formula gets wrong, by kind of question
     ray_ball.py chart [--write]      the same against the distance of the ball, as SVG
+    ray_ball.py binary32 [--write]   the same in binary32, as a table
 
-In plain binary64, as a ray tracer would have them; none knows a tolerance.
+In plain binary64 or binary32, as a ray tracer would have them; none knows a tolerance.
 """
 import argparse
 import json
@@ -14,12 +16,32 @@ import math
 import pathlib
 import random
 import re
+import struct
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PAGE = ROOT / "docs/ray_and_ball.md"
 BEGIN, END = "<!-- formulas: begin -->\n", "<!-- formulas: end -->\n"
+BEGIN_32, END_32 = "<!-- binary32: begin -->\n", "<!-- binary32: end -->\n"
+
+
+class Single(float):
+    """A binary32. A sum, product, quotient or root of two of them is rounded once: binary64 has more than twice the bits."""
+
+    def __new__(cls, value):
+        return super().__new__(cls, struct.unpack("f", struct.pack("f", value))[0])
+
+    def __add__(self, other): return Single(float(self) + float(other))
+    def __sub__(self, other): return Single(float(self) - float(other))
+    def __mul__(self, other): return Single(float(self) * float(other))
+    def __rmul__(self, other): return self * other
+    def __truediv__(self, other): return Single(float(self) / float(other))
+    def __neg__(self): return Single(-float(self))
+
+
+def root(a):
+    return type(a)(math.sqrt(a))
 
 
 # ---- The formulas: the time at which x + t v enters the ball of radius r around the origin, or nothing.
@@ -32,7 +54,7 @@ def textbook(x, v, r):
     """(-b - sqrt(b^2 - 4 a c)) / 2 a."""
     a, b, c = dot(v, v), 2 * dot(x, v), dot(x, x) - r * r
     square = b * b - 4 * a * c
-    return (-b - math.sqrt(square)) / (2 * a) if square > 0 else None
+    return (-b - root(square)) / (2 * a) if square > 0 else None
 
 
 def q_form(x, v, r):
@@ -41,16 +63,16 @@ def q_form(x, v, r):
     square = b * b - a * c
     if not square > 0:
         return None
-    q = -(b + math.copysign(math.sqrt(square), b))
+    q = -(b + root(square)) if b >= 0 else -(b - root(square))
     return c / q if b < 0 else q / a
 
 
 def nearest_point(x, v, r):
     """The distance to the centre along the line; the squared distance beside it is |x|^2 - along^2."""
-    speed = math.sqrt(dot(v, v))
+    speed = root(dot(v, v))
     along = -dot(x, v) / speed
     square = r * r - (dot(x, x) - along * along)
-    return (along - math.sqrt(square)) / speed if square > 0 else None
+    return (along - root(square)) / speed if square > 0 else None
 
 
 def projection(x, v, r):
@@ -58,7 +80,7 @@ def projection(x, v, r):
     a, b, c = dot(v, v), dot(x, v), dot(x, x) - r * r
     across = [p - b / a * w for p, w in zip(x, v)]
     square = a * (r * r - dot(across, across))
-    return c / (math.sqrt(square) - b) if square > 0 and b < 0 else None
+    return c / (root(square) - b) if square > 0 and b < 0 else None
 
 
 FORMULAS = {"textbook": textbook, "q-form": q_form, "nearest-point": nearest_point, "projection": projection}
@@ -80,7 +102,7 @@ def in_space(a):
     return [float(c) if not isinstance(c, str) else float.fromhex(c) for c in a] + [0.0] * (3 - len(a))
 
 
-def engine(formula):
+def engine(formula, number=float):
     ball = None
     for line in sys.stdin:
         query = json.loads(line)
@@ -95,7 +117,7 @@ def engine(formula):
             said = {"outcome": "never"}
         else:
             x = [a - c for a, c in zip(in_space(query["x"]), in_space(ball["position"]))]
-            said = answer(formula, x, in_space(query["v"]), float(ball["radius"]))
+            said = answer(formula, *([number(c) for c in part] for part in (x, in_space(query["v"]))), number(ball["radius"]))
         print(json.dumps({"id": query.get("id"), **said}), flush=True)
 
 
@@ -141,38 +163,53 @@ def from_afar(power):
     return lambda rng: aimed(rng, 10 ** power, rng.uniform(0, 1.5))
 
 
-def questions(kind, count):
+def questions(kind, count, number=float):
     rng, draw = (random.Random(kind), KINDS[kind]) if kind in KINDS else (random.Random(str(kind)), from_afar(kind))
     scene = {"dimension": 3, "lattices": [{"vectors": [], "atoms": [{"position": [0, 0, 0], "radius": 1}]}]}
     yield {"scene": scene}
     for i in range(count):
         x, v = draw(rng)
-        yield {"id": i, "x": x, "v": v}
+        yield {"id": i, "x": [*map(number, x)], "v": [*map(number, v)]}
 
 
 # ---- The table.
 
-def judged(lorentz, kind, count):
+def judged(lorentz, kind, count, precision="binary64"):
     """The results of `compare` by formula. A number as `kind`: rays from 10 to that power radii away."""
-    stream = "".join(json.dumps(line) + "\n" for line in questions(kind, count))
-    command = [lorentz, "compare", "--queries", "-", "--json"]
+    number, option = (Single, " --binary32") if precision == "binary32" else (float, "")
+    stream = "".join(json.dumps(line) + "\n" for line in questions(kind, count, number))
+    command = [lorentz, "compare", "--queries", "-", "--json", "--precision", precision]
     for name in FORMULAS:
-        command += ["--engine", f"cmd:exec {sys.executable} {__file__} engine {name}"]
+        command += ["--engine", f"cmd:exec {sys.executable} {__file__} engine {name}{option}"]
     done = subprocess.run(command, input=stream, capture_output=True, text=True, check=False)
     if done.returncode not in (0, 1):
         sys.exit(done.stderr)
     return json.loads(done.stdout)["engines"]
 
 
-def table(lorentz, count):
-    lines = ["| rays | " + " | ".join(FORMULAS) + " |", "|---" * (len(FORMULAS) + 1) + "|"]
-    for kind in KINDS:
+DISTANCES = (10, 1000, 4000, 10_000, 1_000_000)  # in radii: in binary32
+
+
+def table(lorentz, count, first="rays", kinds=tuple((kind, kind) for kind in KINDS), precision="binary64"):
+    lines = [f"| {first} | " + " | ".join(FORMULAS) + " |", "|---" * (len(FORMULAS) + 1) + "|"]
+    for name_of_kind, kind in kinds:
         cells = []
-        for one in judged(lorentz, kind, count):
+        for one in judged(lorentz, kind, count, precision):
             share = [f"{100 * one[name] / one['queries']:.3g}" for name in ("wrong", "wrong_time")]
             cells.append(" and ".join(share))
-        lines.append(f"| {kind} | " + " | ".join(cells) + " |")
+        lines.append(f"| {name_of_kind} | " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
+
+
+def table_32(lorentz, count):
+    kinds = [(f"{distance} radii", math.log10(distance)) for distance in DISTANCES]
+    return table(lorentz, count, "from", kinds, "binary32")
+
+
+def put(text, begin, end):
+    page = PAGE.read_text(encoding="utf-8")
+    PAGE.write_text(re.sub(re.escape(begin) + ".*?" + re.escape(end), lambda _: begin + text + end, page, flags=re.DOTALL),
+                    encoding="utf-8")
 
 
 # ---- The chart.
@@ -218,18 +255,21 @@ def chart(lorentz, count):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parts = parser.add_subparsers(dest="part", required=True)
-    parts.add_parser("engine").add_argument("formula", choices=FORMULAS)
+    answering = parts.add_parser("engine")
+    answering.add_argument("formula", choices=FORMULAS)
+    answering.add_argument("--binary32", action="store_true")
     asked = parts.add_parser("questions")
     asked.add_argument("kind", choices=KINDS)
     asked.add_argument("count", type=int)
-    for part, count, place in (("table", 10_000, "docs/ray_and_ball.md"), ("chart", 1000, "docs/ray_and_ball.svg")):
+    for part, count, place in (("table", 10_000, "docs/ray_and_ball.md"), ("chart", 1000, "docs/ray_and_ball.svg"),
+                               ("binary32", 1000, "docs/ray_and_ball.md")):
         drawn = parts.add_parser(part)
         drawn.add_argument("--lorentz", default=str(ROOT / "build/lorentz"))
         drawn.add_argument("--count", type=int, default=count, help=f"rays of each kind ({count})")
         drawn.add_argument("--write", action="store_true", help=f"put it into {place}")
     given = parser.parse_args()
     if given.part == "engine":
-        engine(FORMULAS[given.formula])
+        engine(FORMULAS[given.formula], Single if given.binary32 else float)
     elif given.part == "questions":
         for line in questions(given.kind, given.count):
             print(json.dumps(line))
@@ -239,13 +279,13 @@ def main():
             PAGE.with_suffix(".svg").write_text(svg, encoding="utf-8")
         else:
             print(svg, end="")
-    elif given.write:
-        text = PAGE.read_text(encoding="utf-8")
-        made = BEGIN + table(given.lorentz, given.count) + END
-        PAGE.write_text(re.sub(re.escape(BEGIN) + ".*?" + re.escape(END), lambda _: made, text, flags=re.DOTALL),
-                        encoding="utf-8")
     else:
-        print(table(given.lorentz, given.count), end="")
+        make, begin, end = (table, BEGIN, END) if given.part == "table" else (table_32, BEGIN_32, END_32)
+        made = make(given.lorentz, given.count)
+        if given.write:
+            put(made, begin, end)
+        else:
+            print(made, end="")
 
 
 if __name__ == "__main__":
