@@ -5,6 +5,7 @@
 #include "cli/app.hpp"
 #include "cli/first_hit.hpp"
 #include "cli/help_texts.hpp"
+#include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/query_stream.hpp"
 #include "cli/terminal.hpp"
@@ -21,7 +22,7 @@ namespace {
 
 struct FirstHitOptions {
   std::string queries = "-", engine = "oracle", format = "ndjson";
-  std::optional<std::string> scene;
+  std::optional<std::string> scene, x, v;
   std::optional<double> radius, max_time, timeout;
   std::optional<std::uint64_t> digits, jobs;
   bool detail = false, strict = false, prove = false, records = false;
@@ -77,6 +78,28 @@ class AnswerOrder {
   bool waits_ = false;              // first_ waits for its answer
   std::deque<WaitingLine> others_;  // behind it
 };
+
+Vec vector_in(const std::string& list, const char* option, int dimension) {
+  const std::vector<double> numbers = numbers_in(list, option);
+  if (numbers.size() != static_cast<std::size_t>(dimension))
+    throw InputError(
+        fmt::format("{}: has {} numbers; the scene has dimension {}", option, numbers.size(), dimension));
+  Vec vector{};
+  std::ranges::copy(numbers, vector.begin());
+  return vector;
+}
+
+// The queries of the stream, or the one of --x and --v.
+QueryStream queries_of(const FirstHitOptions& options, const std::optional<Scene>& scene,
+                       UnknownKeys unknown) {
+  if (!options.x) return QueryStream(options.queries, scene, unknown);
+  std::string line;
+  append_query_line(
+      line, "null",
+      {vector_in(*options.x, "--x", scene->dimension), vector_in(*options.v, "--v", scene->dimension), {}},
+      *scene);
+  return QueryStream(line, "--x and --v", scene, unknown);
+}
 
 constexpr std::size_t kMaxWaiting = 100'000;  // lines: bounds the bad lines behind a query
 
@@ -140,7 +163,7 @@ int act_on_lines(const FirstHitOptions& options) {
     GivenQueries queries(options.queries, initial, unknown);
     return write_records(queries, options.queries);
   }
-  QueryStream stream(options.queries, initial, unknown);
+  QueryStream stream = queries_of(options, initial, unknown);
   if (options.prove) return answer_with_proofs(stream, *answerer);
   Output output;
   AnswerOrder order(output.buffer());
@@ -182,8 +205,21 @@ void check_proving(const FirstHitOptions& options) {
                      ": not with --prove, which proves the whole answer, with 40 digits");
 }
 
+void check_one_query(const FirstHitOptions& options) {
+  if (options.x.has_value() != options.v.has_value())
+    throw InputError(options.x ? "--x: needs --v, the velocity" : "--v: needs --x, the position");
+  if (!options.x) return;
+  if (!options.scene) throw InputError("--x and --v: need --scene");
+  if (options.queries != "-")
+    throw InputError("--x and --v: ask one query; leave them out, or the file " + options.queries);
+  if (options.format != "ndjson" || options.records)
+    throw InputError("--x and --v: ask one query, without columns or records; leave " +
+                     std::string(options.records ? "--records" : "--format") + " out");
+}
+
 int act(const FirstHitOptions& options) {
   check_proving(options);
+  check_one_query(options);
   const std::size_t format = index_of_name(options.format, {"ndjson", "csv", "npy"}, "--format");
   using Format = ColumnOrder::Format;
   return format == 0 ? act_on_lines(options)
@@ -203,6 +239,8 @@ Command first_hit_command() {
           {"--scene", &options->scene, "SCENE",
            "scene before the first scene line: a file, or a name of the catalogue"},
           {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
+          {"--x", &options->x, "X1,X2,..", "ask one query of --scene, without a stream: the position"},
+          {"--v", &options->v, "V1,V2,..", "its velocity"},
           {"--digits", Whole{&options->digits, 1, kMostDigits}, "N",
            "also print the time with N significant decimal digits (oracle)"},
           {"--max-time", Positive{&options->max_time}, "T",
@@ -223,6 +261,7 @@ Command first_hit_command() {
       },
 
       "Examples:\n"
+      "  lorentz first-hit --scene square --radius 0.1 --x 0,0.445 --v 1,0.0175\n"
       R"(  echo '{"id":1,"x":[0,0.445],"v":[1,0.0175]}' | lorentz first-hit --scene square )"
       "--radius 0.1\n  printf 'x1,x2,v1,v2\\n0,0.445,1,0.0175\\n' | lorentz first-hit --scene square "
       "--format csv\n  lorentz first-hit --scene square --format npy --engine batch --jobs 2 queries.npy > "

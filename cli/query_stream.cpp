@@ -49,6 +49,11 @@ SceneStream<AnItem, AScene>::SceneStream(const std::string& path, std::optional<
 }
 
 template <class AnItem, class AScene>
+SceneStream<AnItem, AScene>::SceneStream(std::string_view text, const std::string& name,
+                                         std::optional<AScene> initial, UnknownKeys unknown)
+    : lines_(text, name), keys_(name, unknown), scene_(std::move(initial)), initial_(scene_.has_value()) {}
+
+template <class AnItem, class AScene>
 void SceneStream<AnItem, AScene>::complain(std::size_t line, const std::string& message) {
   if (++complaints_ <= kMaxComplaints) say("{}:{}: {}", lines_.name(), line, message);
 }

@@ -206,6 +206,39 @@ TEST_CASE("The paper's example has a direction that is not what it seems", "[cli
   CHECK(contains(published.out, R"({"id":45,"outcome":"never"})"));
 }
 
+TEST_CASE("first-hit --x --v asks one query", "[cli][first_hit_command]") {
+  const Folder folder;
+  const std::string square = "--scene square --radius 0.1 ", asked = square + "--x 0,0.445 --v 1,0.0175 ",
+                    streamed = square + folder.write("q", R"({"x":[0,0.445],"v":[1,0.0175]})");
+  for (const std::string more :
+       {"", "--detail ", "--digits 30 ", "--max-time 9 ", "-e reduction ", "--prove "}) {
+    const Run run = folder.lorentz("first-hit " + more + asked);
+    INFO(more << run.err);
+    CHECK(run.status == 0);
+    CHECK(run.out == folder.lorentz("first-hit " + more + streamed).out);
+    CHECK(contains(run.out, more.starts_with("--max") ? R"("outcome":"later")" : R"("cell":[26,1])"));
+  }
+  CHECK(contains(folder.lorentz("first-hit --scene square --x -0.5,0x1p-3 --v=-1,0").out,
+                 R"("outcome":"never")"));
+  CHECK(contains(folder.lorentz("first-hit --scene ball --x -2,0,0 --v 1,0,0").out, R"("time":1})"));
+  const auto refused = [&](const std::string& options, const std::string& why) {
+    const Run run = folder.lorentz("first-hit " + options);
+    INFO(options << '\n' << run.err);
+    CHECK(run.status == 2);
+    CHECK(contains(run.err, why));
+  };
+  refused(square + "--x 0,0.5", "--x: needs --v, the velocity");
+  refused(square + "--v 0,0.5", "--v: needs --x, the position");
+  refused("--x 0,0.5 --v 1,0", "--x and --v: need --scene");
+  refused(asked + folder.file("q"), "leave them out, or the file " + folder.file("q"));
+  refused(asked + "--format csv", "leave --format out");
+  refused(asked + "--prove --records", "leave --records out");
+  refused(square + "--x 0,0.5,0 --v 1,0", "--x: has 3 numbers; the scene has dimension 2");
+  refused(square + "--x 0,0.5 --v 1", "--v: has 1 numbers; the scene has dimension 2");
+  refused(square + "--x 0,soon --v 1,0", "--x: ");
+  refused(square + "--x 0,0.5 --v 0,0", "--x and --v:1: ");
+}
+
 TEST_CASE("Answers with their proofs, and golden sets of them", "[cli][first_hit_command]") {
   const Folder folder;
   const std::string row =
