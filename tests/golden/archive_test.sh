@@ -21,4 +21,6 @@ cd "$folder"/lorentz-golden-*
 (cd data/golden && sha256sum --quiet -c SHA256SUMS)
 python3 data/check.py data/golden/ties.ndjson data/golden/smoke/smoke.ndjson
 python3 "$links" . 7
+python3 docs/examples/golden/runner.py data/golden/smoke/smoke.ndjson data/golden/smoke/answers/15-digits.ndjson >verdicts
+cut -f 1,4 data/golden/smoke/answers/verdicts.tsv | tail -n +2 | tr '\t' ' ' | diff - verdicts
 test -f README.md && test -f docs/examples/golden/runner.py && test -f docs/golden.md && test -f LICENSE

@@ -3,6 +3,7 @@ are wrong in different ways.
 
 runners_test.py LORENTZ WORK [--all]: the runners that can be made here are made in the folder WORK; --all: all sets.
 """
+import collections
 import contextlib
 import json
 import math
@@ -159,12 +160,40 @@ def require_statuses(programs, work):
                 sys.exit(f"{language}, {words}: status {done.returncode}, {done.stderr}")
 
 
+def require_known_verdicts(lorentz, programs, work):
+    """Of the answers of data/golden/smoke/answers: they are what make.py makes, and have the verdicts that stand beside them."""
+    folder, path = SETS / "smoke/answers", SETS / "smoke/smoke.ndjson"
+    made = work / "made"
+    made.mkdir(exist_ok=True)
+    subprocess.run([sys.executable, folder / "make.py", made], check=True)
+    for file in made.iterdir():
+        if file.read_bytes() != (folder / file.name).read_bytes():
+            sys.exit(f"{folder / file.name} is not what make.py makes")
+    names, *rows = [line.split("\t") for line in (folder / "verdicts.tsv").read_text().splitlines()]
+    for column, name in enumerate(names[1:], 1):
+        known = {row[0]: row[column] for row in rows}
+        answers = folder / f"{name}.ndjson"
+        departing, unanswered = compared(lorentz, path, answers, "binary64", work)
+        if departing != {key: word for key, word in known.items() if word in ("wrong", "ill-posed", "wrong-time")}:
+            sys.exit(f"{answers}: compare says {departing}")
+        if unanswered != {word: [*known.values()].count(word) for word in UNANSWERED}:
+            sys.exit(f"{answers}: compare says {unanswered}")
+        for language, command in programs.items():
+            done = subprocess.run([*command, path, answers], capture_output=True, text=True, check=False)
+            if dict(line.split() for line in done.stdout.splitlines()) != known:
+                sys.exit(f"{language}, {answers}: {done.stdout}")
+    words = collections.Counter(word for row in rows for word in row[1:])
+    if len(rows) != 100 or len(names) != 7 or len(words) != 8 or min(words.values()) < 10:
+        sys.exit(f"the known verdicts are {words}")
+
+
 def main():
     lorentz, work = sys.argv[1], pathlib.Path(sys.argv[2])
     work.mkdir(parents=True, exist_ok=True)
     programs = runners(work)
     require_statuses(programs, work)
-    every = sorted(str(path.relative_to(SETS))[:-7] for path in SETS.glob("**/*.ndjson") if "itineraries" not in path.parts)
+    require_known_verdicts(lorentz, programs, work)
+    every = sorted(str(path.relative_to(SETS))[:-7] for path in SETS.glob("**/*.ndjson") if not {"itineraries", "answers"} & {*path.parts})
     judged = needing = 0
     seen = {}
     for name in [name for name in every if name != "bad-queries"] if "--all" in sys.argv else FEW:
