@@ -235,8 +235,8 @@ def alone(library):
                              (HERE / library / "alone.cpp", ["./alone"])):
         if program.exists():
             printed = subprocess.run(command, cwd=program.parent, capture_output=True, text=True, check=True).stdout
-            return (f"[{program.name}](../examples/engines/{library}/{program.name}), the library alone, without lorentz and "
-                    f"without a walk, prints\n\n```\n{printed}```\n\n")
+            return (f"[{program.name}](../examples/engines/{library}/{program.name}), the library alone, "
+                    f"prints\n\n```\n{printed}```\n\n")
     return ""
 
 
