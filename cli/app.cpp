@@ -212,8 +212,7 @@ Command program() {
           "Exit status: 0 done, 1 a wrong answer was found, 2 bad usage or bad input, 3 the work could not "
           "be done.\n"
           "Example: what is hit first from (0, 0.445) along (1, 0.0175), among discs of radius 0.1?\n"
-          R"(  echo '{"id":1,"x":[0,0.445],"v":[1,0.0175]}' | lorentz first-hit --scene square )"
-          "--radius 0.1",
+          "  lorentz first-hit --scene square --radius 0.1 --x 0,0.445 --v 1,0.0175",
       {},
       {first_hit_command(), compare_command(), judge_command(), convergents_command(), horizon_command(),
        sample_command(), demo_command(), bench_command(), scene_command(), golden_command(), fuzz_command(),
