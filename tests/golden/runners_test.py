@@ -161,14 +161,14 @@ def require_statuses(programs, work):
 
 
 def require_known_verdicts(lorentz, programs, work):
-    """Of the answers of data/golden/smoke/answers: they are what make.py makes, and have the verdicts that stand beside them."""
+    """Of the answers of data/golden/smoke/answers: they are what make makes, and have the verdicts that stand beside them."""
     folder, path = SETS / "smoke/answers", SETS / "smoke/smoke.ndjson"
     made = work / "made"
     made.mkdir(exist_ok=True)
-    subprocess.run([sys.executable, folder / "make.py", made], check=True)
+    subprocess.run([sys.executable, folder / "make", made], check=True)
     for file in made.iterdir():
         if file.read_bytes() != (folder / file.name).read_bytes():
-            sys.exit(f"{folder / file.name} is not what make.py makes")
+            sys.exit(f"{folder / file.name} is not what make makes")
     names, *rows = [line.split("\t") for line in (folder / "verdicts.tsv").read_text().splitlines()]
     for column, name in enumerate(names[1:], 1):
         known = {row[0]: row[column] for row in rows}
