@@ -114,10 +114,10 @@ class Retold {
 RowWords words_of(Retelling how) {
   constexpr RowWords kWords[] = {
       {"plain", "starts in the first cell, |v| = 1; the next rows ask the same flights in other words"},
-      {"moved", "the same flights, up to 2^30 cells away; single obstacles, moved with the start"},
-      {"mirrored", "the same flights with x, v and the obstacles negated"},
-      {"at another speed", "the same flights with v times 2^-10 to 2^10"},
-      {"limited", "the same flights, until 1/4 to 4 times their times (max_time)"}};
+      {"plain moved", "the same flights, up to 2^30 cells away; single obstacles, moved with the start"},
+      {"plain mirrored", "the same flights with x, v and the obstacles negated"},
+      {"plain at other speeds", "the same flights with v times 2^-10 to 2^10"},
+      {"plain limited", "the same flights, until 1/4 to 4 times their times (max_time)"}};
   return kWords[static_cast<std::size_t>(how)];
 }
 

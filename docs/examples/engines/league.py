@@ -83,7 +83,7 @@ def kept_of(entry):
 # ---- Counting
 
 def kind_of(name):
-    if name.startswith("drawn ") or name == "free paths":
+    if name.startswith(("drawn ", "plain")) or name == "free paths":
         return "drawn"
     return "far" if name.removesuffix("-binary32") in FAR else "hard"
 
