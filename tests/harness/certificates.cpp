@@ -45,6 +45,7 @@ void hold_against_oracle(const Scene& scene, const Query& query, const Answer& c
   oracle::Request request;
   const DecimalDigits claimed(claim.time_decimal);
   request.digits = claim.outcome == Outcome::hit ? claimed.written : 0;
+  request.detail = claim.exit_time.has_value();
   const Answer exact = oracle::Oracle(scene).first_hit(query, request);
   const auto same = [&](bool holds, const char* what) {
     require(holds, "what the checker accepts is the oracle's answer", std::string(what) + " of\n" + text);
@@ -52,6 +53,7 @@ void hold_against_oracle(const Scene& scene, const Query& query, const Answer& c
   same(claim.outcome == exact.outcome, "the outcome");
   if (exact.outcome == Outcome::never) return;
   same(claim.obstacle == exact.obstacle, "the obstacle");
+  if (claim.exit_time) same(claim.exit_time == exact.exit_time, "the exit");
   if (exact.outcome != Outcome::hit) return;
   same(claim.time == exact.time, "the time");
   if (request.digits > 0) same(claimed == DecimalDigits(exact.time_decimal), "the decimal time");
