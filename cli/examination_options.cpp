@@ -75,6 +75,7 @@ std::vector<Option> rows_of_engines(O& o) {
 std::vector<Option> rows_of_sinks(O& o) {
   return {
       {"--json", &o.json, "", "writes JSON instead of tables, one object per line"},
+      {"--all", &o.all, "", "prints all findings in full, with examples and commands, and the table"},
       {"--failures", Whole{&o.failures, 0, 1'000'000}, "N", "shows at most N failures of each engine"},
       {"--disagreements", &o.disagreements, "FILE",
        "writes each wrong or ill-posed answer (with --times each wrong time) to FILE, as a query stream",

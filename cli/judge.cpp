@@ -101,6 +101,14 @@ std::string golden_set_of(const JudgeReport& report) {
   return made_set(given).first;
 }
 
+// Where the rest of the report is.
+std::string words_of_more(const ExaminationOptions& options) {
+  std::string text = "more:    --all prints the table, and each finding with an example and commands";
+  for (const auto& file : {options.html, options.golden, options.files.junit, options.files.baseline})
+    if (file) text += "; " + printable(*file);
+  return text + '\n';
+}
+
 int act(const ExaminationOptions& options) {
   JudgeOrder order = order_of(options);
   if (const auto option = options.files.first_option(); option && !options.questions)
@@ -114,9 +122,10 @@ int act(const ExaminationOptions& options) {
   order.on_progress = shown(order);
   const JudgeReport report = judge::judged(order, Interrupt::came());
   order.on_progress = {};  // removes the bar before anything is printed
-  print(options.json ? report.json() : report.text());
+  print(options.json ? report.json() : report.text(options.all));
   html.write([&] { return report::page(report.json()); });
   golden.write([&] { return golden_set_of(report); });
+  if (!options.json && !options.all) print(words_of_more(options));
   if (Interrupt::came()) {
     say("{}: this is what was found so far", Interrupt::what());
     return kFailed;
@@ -134,9 +143,10 @@ Command judge_command() {
       "judge",
       "Judges one engine: drawn and hard flights, golden sets, a campaign, speed; one verdict and its "
       "reasons.",
-      options->rows({"--engine", "--quick", "--time", "--questions", "--seed", "--jobs", "--ulps",
-                     "--precision", "--time-tolerance", "--domain", "--starts-inside", "--timeout", "--html",
-                     "--golden", "--json", "--baseline", "--junit", "--times", "--strict"}),
+      options->rows({"--engine",        "--quick",    "--time",      "--questions",      "--seed",
+                     "--jobs",          "--ulps",     "--precision", "--time-tolerance", "--domain",
+                     "--starts-inside", "--timeout",  "--html",      "--golden",         "--json",
+                     "--all",           "--baseline", "--junit",     "--times",          "--strict"}),
 
       "docs/judge.md says what is asked, what --timeout means without --questions, and what the verdict "
       "means. "

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
 #include "cli/terminal.hpp"
+#include "judge/diagnosis.hpp"
 #include "judge/golden/record.hpp"
 #include "question/race.hpp"
 #include "report/reason.hpp"
@@ -30,14 +30,12 @@ std::optional<double> margin_of(const Question& question) {
   return decision ? std::optional(decision->margin) : std::nullopt;
 }
 
-// True if the time, of the right obstacle, is when the line leaves it: a thousand times nearer to that than to
-// the entry. The line turned round meets its exit first.
-bool is_exit(const Question& question, const Answer& given) {
-  const Query& query = question.query;
-  const Query turned{query.x, {-query.v[0], -query.v[1], -query.v[2]}, {}};
-  const std::string time = question.place->margins().crossing(turned, question.exact.obstacle).time_decimal;
-  const double exit = -std::strtod(time.c_str(), nullptr);
-  return 1000 * std::fabs(*given.time - exit) < std::fabs(*given.time - *question.exact.time);
+// What the time of the right obstacle is.
+std::string words_of_time(const Question& question, const Answer& given, bool other_quantity) {
+  const std::string_view quantity = judge::quantity_of(question, given);
+  if (!quantity.empty()) return fmt::format("{}, not the time of the entry", quantity);
+  return other_quantity ? "another quantity than the time of that collision"
+                        : "a wrong time of the right obstacle";
 }
 
 // What is wrong with the answer.
@@ -47,10 +45,7 @@ std::string fault_of(const Judged& judged) {
   if (judgement.verdict == Verdict::missing) return "there is no answer";
   if (given.outcome == Outcome::hit && exact.outcome == Outcome::hit && given.obstacle == exact.obstacle)
     return fmt::format("{}: off by {:.3g} times what an ulp in each input makes of the time",
-                       is_exit(question, given) ? "the time of the exit from that obstacle, not of the entry"
-                       : judgement.other_quantity ? "another quantity than the time of that collision"
-                                                  : "a wrong time of the right obstacle",
-                       judgement.departs);
+                       words_of_time(question, given, judgement.other_quantity), judgement.departs);
   if (std::isfinite(judgement.departs) && judgement.verdict == Verdict::wrong)
     return fmt::format("right only if the inputs moved by {:.4g} ulps", judgement.departs);
   return judgement.verdict == Verdict::error ? "the question is a good one"

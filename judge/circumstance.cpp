@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <lorentz/geometry.hpp>
 #include "question/radii.hpp"
@@ -48,7 +49,7 @@ std::optional<ObstacleId> lone_obstacle(const Scene& scene) {
   return is_lone ? std::optional(ObstacleId{}) : std::nullopt;
 }
 
-// Sets the distance from x to the obstacle's centre, in its radii (for an ellipsoid, the smallest semiaxis).
+// Sets what is about the obstacle in question. Its radius, for an ellipsoid, is the smallest semiaxis.
 void measure_from(const Question& question, const ObstacleId& obstacle, Features& its) {
   const Scene& scene = question.place->scene();
   const Lattice& lattice = scene.lattices[static_cast<std::size_t>(obstacle.lattice)];
@@ -58,6 +59,48 @@ void measure_from(const Question& question, const ObstacleId& obstacle, Features
     centre = plus(centre, as_double(obstacle.cell[i]), lattice.vectors[i]);
   const Vec away = plus(centre, -1, question.query.x);
   its.distance = std::hypot(away[0], away[1], away[2]) / smallest_semiaxis(atom, scene.dimension);
+  its.centre = std::hypot(centre[0], centre[1], centre[2]);
+  const oracle::Approach approach = question.place->margins().approach(question.query, obstacle);
+  its.start_gap = std::fabs(approach.start_gap);
+  if (question.exact.outcome == Outcome::hit && question.exact.obstacle == obstacle)
+    its.depth = -approach.gap;
+}
+
+// Sets where x lies among the cells of the first lattice that repeats; among single obstacles only the signs.
+void measure_cell(const Question& question, Features& its) {
+  const Scene& scene = question.place->scene();
+  const Vec& x = question.query.x;
+  for (int i = 0; i < scene.dimension; ++i) its.negative_start |= x[i] < 0;
+  const auto repeating = std::ranges::find_if(scene.lattices, [&](const Lattice& lattice) {
+    return lattice.rank(scene.dimension) == scene.dimension;
+  });
+  if (repeating == scene.lattices.end()) return;
+  its.negative_start = false;
+  const Vec cell = coordinates(dual_of(repeating->vectors, scene.dimension), x);
+  for (int i = 0; i < scene.dimension; ++i) {
+    its.negative_start |= cell[i] < 0;
+    its.outside_first_cell |= cell[i] < 0 || cell[i] >= 1;
+  }
+}
+
+void measure_velocity(const Query& query, int dimension, Features& its) {
+  constexpr double kUnit = 1e-9;
+  for (int i = 0; i < dimension; ++i) {
+    its.zero_component |= query.v[i] == 0;
+    its.negative[static_cast<std::size_t>(i)] = query.v[i] < 0;
+  }
+  its.speed = std::hypot(query.v[0], query.v[1], query.v[2]);
+  its.is_unit_speed = std::fabs(its.speed - 1) <= kUnit;
+}
+
+double largest_coordinate(const Scene& scene, const Query& query) {
+  double largest = 0;
+  const auto see = [&](const Vec& a) {
+    for (const double component : a) largest = std::max(largest, std::fabs(component));
+  };
+  see(query.x);
+  for_each_atom(scene, [&](const Atom& atom) { see(atom.position); });
+  return largest;
 }
 
 }  // namespace
@@ -70,127 +113,219 @@ Features features_of(const Question& question, const std::optional<ObstacleId>& 
   const double unit = repeats ? shortest_vector(scene) : Features::kNone;
   Features its;
   its.in_space = scene.dimension == 3;
-  for (int i = 0; i < scene.dimension; ++i) its.zero_component |= query.v[i] == 0;
+  measure_velocity(query, scene.dimension, its);
+  measure_cell(question, its);
+  its.coordinates = largest_coordinate(scene, query);
   its.leaving = query.from.has_value();
   its.several_lattices = scene.lattices.size() > 1;
   for (const Lattice& lattice : scene.lattices) its.several_atoms |= lattice.atoms.size() > 1;
   for_each_atom(scene, [&](const Atom& atom) { its.ellipsoids |= !atom.is_ball(); });
   its.other_cell = !is_unit_scene(scene);
-  its.never = question.exact.outcome == Outcome::never;
+  its.outcome = question.exact.outcome;
   its.radius = smallest_radius(scene) / unit;
   its.start = length(query.x) / unit;
   its.cell = largest_number(question);
-  its.speed = length(query.v);
   if (const auto obstacle = in_question ? in_question : lone_obstacle(scene))
     measure_from(question, *obstacle, its);
   if (question.exact.outcome != Outcome::hit) return its;
-  const double flown = question.exact.time.value_or(Features::kNone) * its.speed;
+  its.time = question.exact.time.value_or(Features::kNone);
+  const double flown = its.time * its.speed;
   its.flight = flown / unit;
   const ObstacleId& hit = question.exact.obstacle;
   const Atom& atom =
       scene.lattices[static_cast<std::size_t>(hit.lattice)].atoms[static_cast<std::size_t>(hit.atom)];
   its.flight_in_radii = flown / smallest_semiaxis(atom, scene.dimension);
-  its.depth = -question.place->margins().approach(query, question.exact.obstacle).gap;
+  if (std::isnan(its.depth))
+    its.depth = -question.place->margins().approach(query, question.exact.obstacle).gap;
+  its.chord =
+      2 * smallest_semiaxis(atom, scene.dimension) * std::sqrt(its.depth * std::max(0.0, 2 - its.depth));
   return its;
 }
 
 namespace {
 
 constexpr double kCommon = 0.5, kByChance = 1e-3;
+// If some failing questions lack it, it must be rare among right answers, and failures without it must be rarer by a
+// factor. A power of ten takes in right questions on the near side of the true limit.
+constexpr double kRare = 0.1, kRareLimit = 0.35, kLessOften = 5;
+constexpr double kBetter = 1.1;  // by this factor a property must outweigh those before it in the tables
+constexpr std::size_t kFewestRight = 20;
 
-using Holds = std::function<bool(const Features&)>;
+using Holds = bool (*)(const Features&);
 
-std::vector<Circumstance> plain_circumstances() {
-  const std::pair<const char*, Holds> all[] = {
-      {"in 3D", [](const Features& f) { return f.in_space; }},
-      {"in 2D", [](const Features& f) { return !f.in_space; }},
-      {"where a component of v is zero", [](const Features& f) { return f.zero_component; }},
-      {"of particles that leave an obstacle (from)", [](const Features& f) { return f.leaving; }},
-      {"in scenes of several lattices", [](const Features& f) { return f.several_lattices; }},
-      {"in scenes of several atoms a cell", [](const Features& f) { return f.several_atoms; }},
-      {"among ellipses or ellipsoids", [](const Features& f) { return f.ellipsoids; }},
-      {"in cells other than the unit square or cube", [](const Features& f) { return f.other_cell; }},
-      {"where nothing is ever hit", [](const Features& f) { return f.never; }}};
-  std::vector<Circumstance> circumstances;
-  for (const auto& [text, holds] : all) circumstances.push_back({.text = text, .holds = holds});
-  return circumstances;
-}
+// Properties without a limit, with what a question needs to have them.
+struct Property {
+  const char *name, *text;
+  Holds holds;
+  double Features::*quantity = nullptr;
+};
+constexpr Property kProperties[] = {
+    {"on-surface", "where x lies on the surface of the obstacle in question",
+     [](const Features& f) { return f.start_gap == 0; }, &Features::start_gap},
+    {"at-once", "where the exact time is 0", [](const Features& f) { return f.time == 0; }, &Features::time},
+    {"extreme-speed", "where v.v leaves the range of binary64",
+     [](const Features& f) { return f.speed < 1e-154 || f.speed > 1e154; }},
+    {"speed-not-1", "where |v| is not 1", [](const Features& f) { return !f.is_unit_speed; }},
+    {"centre", "where the obstacle's centre is not at 0", [](const Features& f) { return f.centre > 0; },
+     &Features::centre},
+    {"x-negative", "where a coordinate of x is negative", [](const Features& f) { return f.negative_start; }},
+    {"x-outside", "where x lies outside of the first cell",
+     [](const Features& f) { return f.outside_first_cell; }},
+    {"from", "of particles that leave an obstacle (from)", [](const Features& f) { return f.leaving; }},
+    {"v-zero", "where a component of v is zero", [](const Features& f) { return f.zero_component; }},
+    {"v-negative", "where v[0] is negative", [](const Features& f) { return f.negative[0]; }},
+    {"v-negative", "where v[1] is negative", [](const Features& f) { return f.negative[1]; }},
+    {"v-negative", "where v[2] is negative", [](const Features& f) { return f.negative[2]; }},
+    {"v-negative", "where a component of v is negative",
+     [](const Features& f) { return f.negative[0] || f.negative[1] || f.negative[2]; }},
+    {"several-lattices", "in scenes of several lattices",
+     [](const Features& f) { return f.several_lattices; }},
+    {"several-atoms", "in scenes of several atoms a cell", [](const Features& f) { return f.several_atoms; }},
+    {"ellipsoids", "among ellipses or ellipsoids", [](const Features& f) { return f.ellipsoids; }},
+    {"other-cell", "in cells other than the unit square or cube",
+     [](const Features& f) { return f.other_cell; }},
+    {"in-3d", "in 3D", [](const Features& f) { return f.in_space; }},
+    {"in-2d", "in 2D", [](const Features& f) { return !f.in_space; }},
+    {"never", "where nothing is ever hit", [](const Features& f) { return f.outcome == Outcome::never; }}};
 
-// A limit on a quantity: the least power of ten above all failing questions, the greatest power of ten that
-// they reach, or the greatest power of two, for lengths in radii, if it is far, because nothing cancels
-// nearby.
+// A limit on a quantity: a power of ten above the failing questions, one that they reach, or a power of two that
+// they reach, for lengths in radii, if it is far, because nothing cancels nearby.
 enum class LimitSide { below, from, from_afar };
 struct Limit {
+  const char* name;
   double Features::*quantity;
   LimitSide bound;
+  double telling;    // the largest, or the smallest, limit that says something; of radii the exponent
   const char* text;  // with the limit, or with the exponent of two
 };
 constexpr Limit kLimits[] = {
-    {&Features::depth, LimitSide::below, "where the line enters the obstacle by less than {:g} of its radii"},
-    {&Features::radius, LimitSide::below, "at radii below {:g} lattice vectors"},
-    {&Features::radius, LimitSide::from, "at radii of {:g} lattice vectors or more"},
-    {&Features::flight, LimitSide::from, "after flights of {:g} lattice vectors or more"},
-    {&Features::flight, LimitSide::below, "on flights shorter than {:g} lattice vectors"},
-    {&Features::start, LimitSide::from, "from starts {:g} lattice vectors or more from the origin"},
-    {&Features::cell, LimitSide::from, "in far cells, with numbers of {:g} or more"},
-    {&Features::distance, LimitSide::from_afar,
+    {"depth", &Features::depth, LimitSide::below, 0.1,
+     "where the line enters the obstacle by less than {:g} of its radii"},
+    {"short-chord", &Features::chord, LimitSide::below, 1,
+     "where the chord in the obstacle is shorter than {:g}"},
+    {"near-surface", &Features::start_gap, LimitSide::below, 0.01,
+     "where x lies within {:g} radii of the surface of the obstacle in question"},
+    {"short-time", &Features::time, LimitSide::below, 0.1, "where the exact time is below {:g}"},
+    {"small-radius", &Features::radius, LimitSide::below, 0.1, "at radii below {:g} lattice vectors"},
+    {"large-radius", &Features::radius, LimitSide::from, 0.1, "at radii of {:g} lattice vectors or more"},
+    {"long-flight", &Features::flight, LimitSide::from, 1, "after flights of {:g} lattice vectors or more"},
+    {"short-flight", &Features::flight, LimitSide::below, 10, "on flights shorter than {:g} lattice vectors"},
+    {"far-start", &Features::start, LimitSide::from, 10,
+     "from starts {:g} lattice vectors or more from the origin"},
+    {"far-cell", &Features::cell, LimitSide::from, 100, "in far cells, with numbers of {:g} or more"},
+    {"far-obstacle", &Features::distance, LimitSide::from_afar, 10,
      "from starts 2^{:g} radii or more from the obstacle in question"},
-    {&Features::flight_in_radii, LimitSide::from_afar, "after flights of 2^{:g} radii or more"},
-    {&Features::speed, LimitSide::below, "at velocities shorter than {:g}"},
-    {&Features::speed, LimitSide::from, "at velocities of length {:g} or more"}};
+    {"long-flight-in-radii", &Features::flight_in_radii, LimitSide::from_afar, 10,
+     "after flights of 2^{:g} radii or more"},
+    {"low-speed", &Features::speed, LimitSide::below, 0.1, "at velocities shorter than {:g}"},
+    {"high-speed", &Features::speed, LimitSide::from, 10, "at velocities of length {:g} or more"}};
 
-// The exponent of the limit, for the largest or the smallest of the failing questions.
-double exponent_of(LimitSide bound, double extreme) {
-  if (bound == LimitSide::from_afar) return std::ilogb(extreme);
-  return std::floor(std::log10(extreme)) + (bound == LimitSide::below ? 1 : 0);
+// The exponent of the limit that just takes in this value.
+double exponent_of(LimitSide bound, double value) {
+  if (bound == LimitSide::from_afar) return std::ilogb(value);
+  return std::floor(std::log10(value)) + (bound == LimitSide::below ? 1 : 0);
 }
 
-// Nothing if a failing question lacks the quantity, or if the limit says nothing: that a line enters by less
-// than a radius, or that something near is far.
-std::optional<Circumstance> circumstance_for(const Limit& its, const std::vector<Features>& failing) {
-  constexpr double kFar = 10;
+// Nothing if the limit says nothing.
+std::optional<Circumstance> circumstance_with(const Limit& its, double exponent) {
   const auto quantity = its.quantity;
-  const bool is_below = its.bound == LimitSide::below, is_far = its.bound == LimitSide::from_afar,
-             is_of_depth = quantity == &Features::depth;
-  double least = std::numeric_limits<double>::infinity(), most = 0;
-  for (const Features& f : failing) {
-    if (!(f.*quantity >= 0)) return std::nullopt;
-    least = std::min(least, f.*quantity), most = std::max(most, f.*quantity);
+  const bool is_below = its.bound == LimitSide::below, is_far = its.bound == LimitSide::from_afar;
+  const double limit = std::pow(is_far ? 2 : 10, exponent), said = is_far ? exponent : limit;
+  if (is_below ? said > its.telling * (1 + 1e-9) : said < its.telling * (1 - 1e-9)) return std::nullopt;
+  Circumstance one;
+  one.name = its.name;
+  one.text = fmt::format(fmt::runtime(its.text), said);
+  one.holds = [=](const Features& f) { return is_below ? f.*quantity < limit : f.*quantity >= limit; };
+  one.quantity = quantity;
+  one.is_limit = true;
+  return one;
+}
+
+// Limits at quantiles of the failing questions: that of all, and those that leave a part of them out.
+void add_limits(const Limit& its, const std::vector<Features>& failing, std::vector<Circumstance>& all) {
+  constexpr double kParts[] = {1, 0.97, kNearlyAll, 0.75, 0.5, 0.25, kClearPart};
+  std::vector<double> values;
+  for (const Features& f : failing)
+    if (f.*its.quantity >= 0) values.push_back(f.*its.quantity);
+  if (its.bound == LimitSide::below)
+    std::ranges::sort(values);
+  else
+    std::ranges::sort(values, std::greater());
+  std::set<double> exponents;
+  for (const double part : kParts) {
+    const auto number = static_cast<std::size_t>(std::ceil(part * static_cast<double>(failing.size())));
+    if (number == 0 || number > values.size()) continue;
+    const double value = values[number - 1];
+    if (!(value > 0) || !std::isfinite(value)) continue;
+    const double exponent = exponent_of(its.bound, value);
+    if (!exponents.insert(exponent).second) continue;
+    if (auto one = circumstance_with(its, exponent)) all.push_back(std::move(*one));
   }
-  const double extreme = is_below ? most : least;
-  if (!(extreme > 0) || !std::isfinite(extreme)) return std::nullopt;
-  const double exponent = exponent_of(its.bound, extreme), limit = std::pow(is_far ? 2 : 10, exponent);
-  if ((is_of_depth && limit >= 1) || (is_far && exponent < kFar)) return std::nullopt;
-  return Circumstance{
-      .text = fmt::format(fmt::runtime(its.text), is_far ? exponent : limit),
-      .is_of_depth = is_of_depth,
-      .holds = [=](const Features& f) { return is_below ? f.*quantity < limit : f.*quantity >= limit; }};
 }
 
 std::vector<Circumstance> circumstances_for(const std::vector<Features>& failing) {
-  std::vector<Circumstance> all = plain_circumstances();
-  for (const Limit& limit : kLimits)
-    if (const auto one = circumstance_for(limit, failing)) all.push_back(*one);
+  std::vector<Circumstance> all;
+  for (const Property& its : kProperties) {
+    Circumstance& one = all.emplace_back();
+    one.name = its.name, one.text = its.text, one.holds = its.holds, one.quantity = its.quantity;
+  }
+  for (const Limit& limit : kLimits) add_limits(limit, failing, all);
   return all;
+}
+
+// D(q || p), the exponent of Chernoff's bound; below 0 if q is no larger than p.
+double divergence(double q, double p) {
+  if (q <= p) return -1;
+  return q * std::log(q / p) + (q < 1 ? (1 - q) * std::log((1 - q) / (1 - p)) : 0);
+}
+
+// The right answers to compare with: those with the exact outcome that nearly all failing questions have.
+std::vector<Features> comparable(const std::vector<Features>& failing, std::vector<Features> right) {
+  for (const Outcome outcome : {Outcome::hit, Outcome::never, Outcome::inside}) {
+    const auto number = std::ranges::count(failing, outcome, &Features::outcome);
+    if (static_cast<double>(number) >= kNearlyAll * static_cast<double>(failing.size()))
+      std::erase_if(right, [=](const Features& f) { return f.outcome != outcome; });
+  }
+  return right;
+}
+
+// The share of failing questions, within a circumstance or without.
+double rate(double failing, double right) {
+  return failing == 0 ? 0 : failing / (failing + right);
+}
+
+// Counts the questions that have it, and weighs them. False if it says too little.
+bool weigh(Circumstance& one, const std::vector<Features>& failing, const std::vector<Features>& right) {
+  const auto has = [&](const Features& f) { return one.can_hold(f) && one.holds(f); };
+  const auto all_right = std::ranges::count_if(right, [&](const Features& f) { return one.can_hold(f); });
+  if (all_right < static_cast<std::ptrdiff_t>(kFewestRight)) return false;
+  const auto all = static_cast<double>(all_right),
+             those = static_cast<double>(std::ranges::count_if(right, has));
+  one.number = static_cast<std::size_t>(std::ranges::count_if(failing, has));
+  one.of = failing.size();
+  one.share = those / all;
+  // With this number of right answers, a share that was not seen may still be this large.
+  const double exponent = divergence(one.part(), std::max(one.share, 3 / all));
+  one.weight = one.part() * exponent;
+  if (one.share > kCommon || exponent * static_cast<double>(one.of) < -std::log(kByChance)) return false;
+  if (one.part() == 1) return true;
+  const auto within = static_cast<double>(one.number), without = static_cast<double>(one.of - one.number);
+  return one.share <= (one.is_limit ? kRareLimit : kRare) &&
+         kLessOften * rate(without, all - those) <= rate(within, those);
 }
 
 }  // namespace
 
 std::optional<Circumstance> circumstance_of(const std::vector<Features>& failing,
-                                            const std::vector<Features>& right) {
-  if (failing.empty() || right.empty()) return std::nullopt;
-  std::optional<Circumstance> rarest;
-  for (Circumstance& one : circumstances_for(failing)) {
-    if (!std::all_of(failing.begin(), failing.end(), one.holds)) continue;
-    const auto number = std::count_if(right.begin(), right.end(), one.holds);
-    const double share = static_cast<double>(number) / static_cast<double>(right.size());
-    // With this number of right answers, a share that was not seen may still be this large.
-    const double possible = std::max(share, 3 / static_cast<double>(right.size()));
-    if (share > kCommon || std::pow(possible, failing.size()) > kByChance) continue;
-    one.share = share;
-    if (!rarest || share < rarest->share) rarest = std::move(one);
-  }
-  return rarest;
+                                            const std::vector<Features>& right, double least) {
+  if (failing.empty()) return std::nullopt;
+  const std::vector<Features> compared = comparable(failing, right);
+  std::optional<Circumstance> heaviest;
+  for (Circumstance& one : circumstances_for(failing))
+    if (weigh(one, failing, compared) && one.part() >= least &&
+        (!heaviest || one.weight > kBetter * heaviest->weight))
+      heaviest = std::move(one);
+  return heaviest;
 }
 
 }  // namespace lorentz::judge

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "fuzz/campaign/tie.hpp"
 #include "question/radii.hpp"
@@ -127,13 +128,36 @@ const CauseWords& words_for(Cause cause) {
 // The answer names the right obstacle, with a wrong time.
 Diagnosis of_wrong_time(const Question& question, const Answer& given, bool other_quantity) {
   return {other_quantity ? Cause::not_the_time : Cause::wrong_time, Severity::wrong_time,
-          question::radii_off(question, given)};
+          question::radii_off(question, given), quantity_of(question, given)};
+}
+
+// When the line leaves the obstacle that is hit: turned round, it meets its exit first.
+double exit_time(const Question& question) {
+  const Query& query = question.query;
+  const Query turned{query.x, {-query.v[0], -query.v[1], -query.v[2]}, {}};
+  const std::string time = question.place->margins().crossing(turned, question.exact.obstacle).time_decimal;
+  return -std::strtod(time.c_str(), nullptr);
 }
 
 }  // namespace
 
 bool names_obstacle(const Answer& answer) {
   return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
+}
+
+std::string_view quantity_of(const Question& question, const Answer& given) {
+  const auto &entry = question.exact.time, &its = given.time;
+  if (question.exact.outcome != Outcome::hit || !entry || !its || !std::isfinite(*its)) return {};
+  const double same = question.place->claim().precision == NumberFormat::binary64 ? 1e-6 : 1e-4;
+  const auto is = [&](double quantity) {
+    const double size = std::fabs(quantity);
+    return std::fabs(*its - quantity) <= same * size && std::fabs(*entry - quantity) > 10 * same * size;
+  };
+  const Vec& v = question.query.v;
+  if (is(*entry * std::hypot(v[0], v[1], v[2]))) return kDistance;
+  if (question.has_limit() && is(*entry / question.max_time)) return kFraction;
+  const double exit = exit_time(question);
+  return is(exit) ? kExit : is(*entry / 2 + exit / 2) ? kNearest : std::string_view();
 }
 
 std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& given,

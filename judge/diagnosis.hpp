@@ -54,11 +54,22 @@ struct Diagnosis {
   /// By how many of its radii the obstacle in question is entered or missed, or x lies inside or outside it.
   /// For a wrong time: radii_off.
   std::optional<double> by_radii = {};
+  std::string_view quantity = {};  ///< for a wrong time: quantity_of
 
   Blame blame() const;
 };
 
 bool names_obstacle(const Answer& answer);
+
+/// Quantities that are given in place of the time of the entry.
+inline constexpr std::string_view kDistance = "the distance (|v| times the time)",
+                                  kExit = "the time of the exit from that obstacle",
+                                  kNearest = "the time midway between entry and exit",
+                                  kFraction = "the fraction of the limit (the time over max_time)";
+
+/// For an answer with the right obstacle: what its time is, to 1e-6 of itself (in binary32, 1e-4), if that is another
+/// quantity than the time; else empty.
+std::string_view quantity_of(const Question& question, const Answer& given);
 
 /// The diagnosis of an answer that departs from the exact one, has a wrong time, is an error, or is missing;
 /// nothing for any other answer. If several obstacles are in question, it is about the one that the judgement

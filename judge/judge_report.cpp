@@ -157,12 +157,19 @@ std::optional<report::Primitive> primitive_for(const Example& example) {
   return report::primitive_of(place.margins(), place.scene(), example.question.query, *obstacle);
 }
 
+// The finding in three lines.
+std::string lines_of(const Finding& finding, int number) {
+  const std::string why = finding.severity() == Severity::ill_posed ? "" : finding.why();
+  return fmt::format("{}. {}: {}\n   {}\n", number, name_of(finding.severity()), title_of(finding.cause()),
+                     finding.explanation()) +
+         (why.empty() ? "" : fmt::format("   likely: {}\n", why));
+}
+
 // The finding in full, but shorter if rounding of the inputs explains it.
 std::string text_of(const Finding& finding, const JudgeReport& report, int number) {
   const Example& example = finding.simplest;
   const Components dimension = components_of(example);
-  std::string text = fmt::format("\n{}. {}: {}\n   {}\n", number, name_of(finding.severity()),
-                                 title_of(finding.cause()), finding.explanation());
+  std::string text = '\n' + lines_of(finding, number);
   text += fmt::format("   {} {}: {}\n", finding.count, finding.count == 1 ? "answer" : "answers",
                       often(finding, report));
   if (finding.severity() == Severity::ill_posed) return text;
@@ -206,10 +213,10 @@ std::optional<double> ulps_of(const Example& example) {
 void add_finding(json::Members& object, const Finding& finding, const JudgeReport& report) {
   const Example& example = finding.simplest;
   const Components dimension = components_of(example);
-  object.add("cause", name_of(finding.cause()), "explanation", finding.explanation(), "count", finding.count,
-             "share_of_plain", finding.share_of_plain, "share_of_hard", finding.share_of_hard, "often",
-             often(finding, report), "where", finding.where, "shrunk", finding.was_shrunk, "verdict",
-             name_of(finding.severity()));
+  object.add("cause", name_of(finding.cause()), "explanation", finding.explanation(), "why", finding.why(),
+             "count", finding.count, "share_of_plain", finding.share_of_plain, "share_of_hard",
+             finding.share_of_hard, "often", often(finding, report), "where", finding.where, "shrunk",
+             finding.was_shrunk, "verdict", name_of(finding.severity()));
   object.add("scene", example.question.place->scene(), "query", json::Raw{'{' + members_of(example) + '}'},
              "given", json_of(example.given, dimension), "exact", json_of(exact_of(example), dimension));
   const auto primitive = primitive_for(example);
@@ -304,25 +311,43 @@ void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& r
              t.speed.ns_per_query > 0 ? json::finite(t.speed.ns_per_query) : std::nullopt);
 }
 
-}  // namespace
-
-std::string JudgeReport::text() const {
-  const ThreeLines its = summary();
-  std::string text =
-      fmt::format("what:    {}\nhow bad: {}\nworst:   {}\n\n", printable(its.what), its.how_bad, its.worst);
-  text += fmt::format("Seed {}.\n\n{}", seed, table_of(*this));
-  for (const FlownScene& scene : flown) text += "Free paths: " + scene.text() + ".\n";
-  if (ns_per_query) text += fmt::format("Speed: {}.\n", speed_of);
-  if (start_up >= kSlowStart)
-    text += fmt::format("Start: {:.2g} s until the first answer, which is in no other figure.\n", start_up);
-  if (misbehaved && total()[Count::missing] == 0)
+// The table, and each finding in full.
+std::string details_of(const JudgeReport& report) {
+  std::string text = fmt::format("\nSeed {}.\n\n{}", report.seed, table_of(report));
+  for (const FlownScene& scene : report.flown) text += "Free paths: " + scene.text() + ".\n";
+  if (report.ns_per_query) text += fmt::format("Speed: {}.\n", report.speed_of);
+  if (report.start_up >= kSlowStart)
+    text += fmt::format("Start: {:.2g} s until the first answer, which is in no other figure.\n",
+                        report.start_up);
+  if (report.misbehaved && report.total()[Count::missing] == 0)
     text += "It did what it should not, and lost no answer by it: stderr has it.\n";
   int number = 0;
   for (const Blame group : kBlames) {
-    const std::string its = text_of(group, *this, number);
+    const std::string its = text_of(group, report, number);
     if (!its.empty()) text += fmt::format("\n-- {}\n", title_of(group)) + its;
   }
-  return text + '\n' + line() + '\n';
+  return text;
+}
+
+// The first findings in three lines each: what it is, in which circumstance, and why.
+std::string first_findings(const JudgeReport& report) {
+  constexpr std::size_t kFirst = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kFirst, report.findings.size()); ++i)
+    text += lines_of(report.findings[i], static_cast<int>(i + 1));
+  if (report.findings.size() > kFirst) text += fmt::format("and {} more\n", report.findings.size() - kFirst);
+  return text.empty() ? text : '\n' + text;
+}
+
+}  // namespace
+
+std::string JudgeReport::text(bool all) const {
+  const ThreeLines its = summary();
+  std::string text =
+      fmt::format("what:    {}\nhow bad: {}\nworst:   {}\n", printable(its.what), its.how_bad, its.worst);
+  text += all ? details_of(*this) : first_findings(*this);
+  for (const std::string& step : its.next) text += "\nnext:    " + step;
+  return text + (its.next.empty() ? "\n" : "\n\n") + line() + '\n';
 }
 
 std::string JudgeReport::json() const {
@@ -339,7 +364,7 @@ std::string JudgeReport::json() const {
     page.add("summary", [this](json::Members& object) {
       const ThreeLines its = summary();
       object.add("what", its.what, "how_bad", its.how_bad, "worst", its.worst, "finding",
-                 its.finding ? std::optional(its.finding - findings.data()) : std::nullopt);
+                 its.finding ? std::optional(its.finding - findings.data()) : std::nullopt, "next", its.next);
     });
     page.add("queries", t.queries, "outside_domain", outside);
     question::add_counts(page, t.counts, Counted::judge);

@@ -12,11 +12,12 @@
 
 namespace lorentz::judge {
 
-/// What readers should see first, one line each.
+/// What readers should see first, one line each, and what they can do.
 struct ThreeLines {
   std::string what;                  ///< the engine, and what it was judged by
   std::string how_bad;               ///< shares of drawn flights and of hard ones
   std::string worst;                 ///< the worst fault
+  std::vector<std::string> next;     ///< what to do next
   const Finding* finding = nullptr;  ///< this fault; null if there is none
 };
 
@@ -32,9 +33,11 @@ struct JudgeReport : JudgeOrder {
   std::optional<double> ns_per_query = {}, ns_of_reduction = {};            ///< on the same drawn flights
   std::optional<double> processor_ns = {}, processor_ns_of_reduction = {};  ///< the same in processor time
   std::string speed_of = {};                                                ///< which flights these were
-  std::size_t outside = 0;   ///< questions that were not asked: they are outside of the engine's domain
-  bool misbehaved = false;   ///< an external engine failed or misbehaved at least once
-  bool was_stopped = false;  ///< before all questions were asked
+  std::size_t outside = 0;  ///< questions that were not asked: they are outside of the engine's domain
+  std::size_t times_in_binary32 = 0;       ///< Results::all_in_binary32
+  std::optional<Domain> free_domain = {};  ///< Findings::domain_without_fault, unless a domain is claimed
+  bool misbehaved = false;                 ///< an external engine failed or misbehaved at least once
+  bool was_stopped = false;                ///< before all questions were asked
 
   /// "Ball 1.2", if the engine reports its name.
   std::optional<std::string> library() const;
@@ -55,7 +58,9 @@ struct JudgeReport : JudgeOrder {
 
   ThreeLines summary() const;
 
-  std::string text() const;
+  /// The summary, the first findings in three lines each, and the verdict line; with `all`, the table and each finding
+  /// in full.
+  std::string text(bool all) const;
   std::string json() const;
 };
 

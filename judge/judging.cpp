@@ -120,10 +120,6 @@ void find_simplest(std::vector<Finding>& findings, TimedExamination& examination
     const Question& left = finding.simplest.question;
     finding.was_shrunk = left.place->scene() != met.place->scene() || left.query.x != met.query.x ||
                          left.query.v != met.query.v || left.query.from != met.query.from;
-    // A circumstance that the simpler case lacks is not essential.
-    if (finding.circumstance && finding.simplest.question.is_query() &&
-        !finding.circumstance->holds(features_in(finding.simplest)))
-      finding.circumstance.reset();
   }
 }
 
@@ -246,6 +242,9 @@ JudgeReport judged(const JudgeOrder& order, const std::atomic<bool>& stop) {
   report.rows = examination->results().rows;
   report.findings = examination->results().all_findings();
   report.curves = examination->results().curves;
+  report.times_in_binary32 = examination->results().all_in_binary32();
+  if (order.claim.domain == Domain())
+    report.free_domain = examination->results().findings.domain_without_fault();
   if (!stop) simplify(report.findings, *examination, terms, report.first_answer);
   report.misbehaved = examination->failed();
   examination->finish();

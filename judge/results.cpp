@@ -1,6 +1,7 @@
 #include "judge/results.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "question/radii.hpp"
 
@@ -10,6 +11,10 @@ namespace {
 // Number of questions of each row that are examined closely: the features of right answers, and how close the
 // calls were.
 constexpr std::size_t kCompared = 500;
+
+bool is_binary32(double a) {
+  return rounded(a, NumberFormat::binary32) == a;
+}
 
 }  // namespace
 
@@ -36,12 +41,18 @@ void Results::take(const Judged& judged, const std::optional<Example>& example, 
   else
     row.count(judged);
   if (example) findings.add(*example, row.name);
+  const auto& given = reply.answer.time;
+  if (reply.answer.outcome == Outcome::hit && given && std::isfinite(*given) && question.exact.time &&
+      !is_binary32(*question.exact.time)) {
+    ++times;
+    times_in_binary32 += is_binary32(*given);
+  }
   const auto off = judgement.ulps ? question::radii_off(question, reply.answer) : std::nullopt;
   if (off) row.max_radii = std::max(row.max_radii.value_or(0), *off);
   if (!question.is_query() || is_slowness || row.tally.queries > kCompared) return;
   const Features features = features_of(
       question, names_obstacle(question.exact) ? std::optional(question.exact.obstacle) : std::nullopt);
-  if (!example && judgement.verdict == oracle::Verdict::agree) findings.add_right(features);
+  if (judgement.verdict == oracle::Verdict::agree) findings.add_right(features, !judgement.wrong_time);
   const bool is_about_another = example && !judgement.wrong_time && example->diagnosis.by_radii;
   const double call = is_about_another ? *example->diagnosis.by_radii : features.depth;
   const double sizes[kMeasures.size()] = {call, features.distance, features.flight, features.start,
@@ -58,6 +69,7 @@ void Results::add(const Results& other) {
   findings.add(other.findings);
   for (std::size_t i = 0; i < curves.size(); ++i) curves[i].add(other.curves[i]);
   failed |= other.failed;
+  times += other.times, times_in_binary32 += other.times_in_binary32;
 }
 
 }  // namespace lorentz::judge

@@ -31,6 +31,8 @@ struct Results {
   Findings findings = {};
   Curves curves = {};   ///< of the first questions of each row, limited in number so that rows weigh alike
   bool failed = false;  ///< an external engine failed or misbehaved at least once
+  /// Times of hits whose exact time is not a binary32 number, and those of them that were given as one.
+  std::size_t times = 0, times_in_binary32 = 0;
 
   /// The row of this name; a row without results is added if there is none.
   ExaminedRow& row(const ExaminedRow& like);
@@ -44,6 +46,8 @@ struct Results {
 
   /// All findings; unsupported questions do not count as asked.
   std::vector<Finding> all_findings() const { return findings.all(rows); }
+  /// The number of times if there are at least 20 and all are binary32 numbers; else 0.
+  std::size_t all_in_binary32() const { return times >= 20 && times == times_in_binary32 ? times : 0; }
 };
 
 /// Sets the row's mean time from its seconds.

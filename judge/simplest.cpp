@@ -9,8 +9,10 @@
 namespace lorentz::judge {
 namespace {
 
-bool is_alike(const Example& a, const Example& b, const std::optional<double>& by_radii) {
-  if (by_radii && a.diagnosis.by_radii > by_radii) return false;
+bool is_alike(Example& a, const Example& b, const Finding& finding) {
+  if (finding.by_radii && a.diagnosis.by_radii > finding.by_radii) return false;
+  a.features = features_in(a);
+  if (!finding.is_about(a)) return false;
   return a.diagnosis.cause == b.diagnosis.cause && a.diagnosis.severity == b.diagnosis.severity &&
          a.given.outcome == b.given.outcome && a.question.exact.outcome == b.question.exact.outcome;
 }
@@ -33,7 +35,7 @@ Example simplest(const Finding& finding, TimedExamination& examination, double s
         last = example_of(
             {.place = place, .query = query, .exact = place->exact(query), .where = example.question.where},
             examination);
-        return last && is_alike(*last, example, finding.by_radii);
+        return last && is_alike(*last, example, finding);
       });
   const auto flight = [&] {
     const Question& question = last->question;

@@ -233,6 +233,36 @@ std::string nothing_wrong_text(const JudgeReport& report) {
                      two_digits(100 * report::bound_of_none(drawn.counts.answers())));
 }
 
+// " at speeds from 0.001 to 1000 and coordinates up to 1e+06"
+std::string words_of(const Domain& domain) {
+  const auto range = [](const char* what, const Domain::Range& its) {
+    return its == Domain::Range() ? std::string()
+           : its.low == 0         ? fmt::format("{} up to {:g}", what, its.high)
+           : std::isinf(its.high) ? fmt::format("{} from {:g} on", what, its.low)
+                                  : fmt::format("{} from {:g} to {:g}", what, its.low, its.high);
+  };
+  const std::string speed = range("speeds", domain.speed),
+                    coordinates = range("coordinates", domain.coordinates);
+  return speed + (speed.empty() || coordinates.empty() ? "" : " and ") + coordinates;
+}
+
+std::vector<std::string> next_steps(const JudgeReport& report) {
+  std::vector<std::string> steps;
+  if (report.times_in_binary32 > 0 && report.claim.precision == NumberFormat::binary64)
+    steps.push_back(fmt::format(
+        "all {} times are binary32 numbers: if it computes in binary32, judge it so, --precision binary32 "
+        "(docs/judging_yours.md#if-your-engine-cannot-do-all-of-this)",
+        report.times_in_binary32));
+  if (report.free_domain)
+    steps.push_back(
+        fmt::format("no fault was found at {}: if more is not needed, declare it,{} "
+                    "(docs/judging_yours.md#what-it-is-made-for)",
+                    words_of(*report.free_domain), report::arguments_of({.domain = *report.free_domain})));
+  if (worst_of(report))
+    steps.push_back("mend the first, and judge again: one line of code often makes several findings");
+  return steps;
+}
+
 }  // namespace
 
 question::Tally JudgeReport::total() const {
@@ -281,7 +311,8 @@ std::string JudgeReport::line() const {
 
 ThreeLines JudgeReport::summary() const {
   const Finding* worst = worst_of(*this);
-  return {what_text(*this), how_bad_text(*this), worst ? worst->summary() : nothing_wrong_text(*this), worst};
+  return {what_text(*this), how_bad_text(*this), worst ? worst->summary() : nothing_wrong_text(*this),
+          next_steps(*this), worst};
 }
 
 }  // namespace lorentz::judge

@@ -157,7 +157,7 @@ py::tuple judge_function(const py::object& function, const std::string& engine, 
   }
   const lorentz::judge::JudgeReport report = report_of(order, run);
   if (html) write_page(*html, report.json());
-  return py::make_tuple(report.json(), report.text());
+  return py::make_tuple(report.json(), report.text(true));
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ class Reports(unittest.TestCase):
                 self.assertEqual(sorted(beyond.values(), reverse=True), list(beyond.values()))
 
     def test_judge(self):
-        out = lorentz("judge", "--quick", "--time", 2, "--engine", "reduction")
+        out = lorentz("judge", "--quick", "--time", 2, "--all", "--engine", "reduction")
         rows = columns(out[out.index("questions  "):].split("\n\n")[0])
         self.assertTrue(rows)
         outcomes = ("agree", "ill-posed", "wrong", "undecided", "unsupported", "error", "missing")

@@ -33,7 +33,7 @@ TEST_CASE("judge names the one fault of an engine, and each command that it prin
           "[judge][judge_command]") {
   const Folder folder;
   const Run run =
-      folder.lorentz(std::string("judge --quick --time 5 --engine cmd:") + LORENTZ_TOLERANT_ENGINE);
+      folder.lorentz(std::string("judge --quick --time 5 --all --engine cmd:") + LORENTZ_TOLERANT_ENGINE);
   INFO(run.out << run.err);
   CHECK(run.status == 1);
   CHECK(contains(run.out,
@@ -148,7 +148,7 @@ TEST_CASE("judge: an engine that breaks, bad usage, places that cannot be writte
 TEST_CASE("judge: a fault that comes with a count is told, and the command that is printed makes it again",
           "[judge][judge_command]") {
   const Folder folder;
-  const Run run = folder.lorentz(std::string("judge --quick --time 4 --engine 'cmd:") +
+  const Run run = folder.lorentz(std::string("judge --quick --time 4 --all --engine 'cmd:") +
                                  LORENTZ_TOLERANT_ENGINE + " dies 50'");
   INFO(run.out << run.err);
   CHECK(run.status == 3);
@@ -169,7 +169,7 @@ TEST_CASE("judge ends in its time, and at once when it is told to, whatever the 
            " hangs " + std::to_string(at) + "'";
   };
   // Each silence costs 2 s, of which there are 3.
-  const Run often = folder.lorentz("judge --quick --time 3 --engine " + hangs(9));
+  const Run often = folder.lorentz("judge --quick --time 3 --all --engine " + hangs(9));
   INFO(often.out << often.err);
   CHECK(often.status == 3);
   CHECK(contains(often.out, "no-answer") == false);  // causes are for programs
@@ -205,7 +205,8 @@ TEST_CASE("judge ends in its time, and at once when it is told to, whatever the 
 TEST_CASE("judge: starting takes no part in the speed, free paths that are cut show where",
           "[judge][judge_command]") {
   const Folder folder;
-  const std::string judge = std::string("judge --quick --time 6 --engine 'cmd:") + LORENTZ_TOLERANT_ENGINE;
+  const std::string judge =
+      std::string("judge --quick --time 6 --all --engine 'cmd:") + LORENTZ_TOLERANT_ENGINE;
   const Run slow = folder.lorentz(judge + " starts 700' --timeout 60");
   INFO(slow.out << slow.err);
   CHECK(slow.status == 0);
@@ -237,6 +238,10 @@ TEST_CASE("judge --golden: the simplest case of each fault is a set", "[judge][j
                                                              line.find("\"tags\":[") - 8)));
     }
   CHECK(records >= 4);
+  const Run brief = folder.lorentz("judge --engine published-float --questions 4 --golden " + set);
+  CHECK(contains(brief.out, "\n1. wrong: "));
+  CHECK(brief.out.ends_with(
+      "\nmore:    --all prints the table, and each finding with an example and commands; " + set + "\n"));
   CHECK(contains(check.out, "\"agree\":"));
 }
 

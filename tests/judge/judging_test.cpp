@@ -416,9 +416,9 @@ TEST_CASE("What sets failures apart is true of all that were added up, equal one
 TEST_CASE("A grazing fault says once that it is about grazing", "[judge][examination]") {
   for (const Cause cause : {Cause::never_for_grazing, Cause::passed_over_grazing, Cause::never_for_hit}) {
     Finding finding{example_in(2, cause), "here", 1, 3e-10};
-    finding.circumstance = Circumstance{"where the line enters", 0, true};
+    finding.circumstance = Circumstance{"depth", "where the line enters"};
     CHECK((finding.summary().find(", only") == std::string::npos) == (cause != Cause::never_for_hit));
-    finding.circumstance = Circumstance{"in 3D", 0, false};
+    finding.circumstance = Circumstance{"in-3d", "in 3D"};
     CHECK(finding.summary().ends_with(", only in 3D"));
   }
 }
@@ -509,4 +509,19 @@ TEST_CASE("The simplest case keeps what was said, and what is true", "[judge][si
   CHECK(simplest_of(engine, {{0.123456789, 0.0123, 0}, {1, 0.3333, 0}, {}}).given.outcome == Outcome::hit);
   CHECK(simplest_of(liar, {{0.123456789, 0.5, 0}, {1, 0, 0}, {}}).question.exact.outcome == Outcome::never);
   CHECK(simplest_of(liar, {{0.5123456, 0.01, 0}, {1, 0.001, 0}, {}}).question.exact.outcome == Outcome::hit);
+}
+
+TEST_CASE("The simplest case keeps the circumstance that its finding states", "[judge][simplest]") {
+  const auto never =
+      guest("never", [](const Scene&, const Query&, Answer& answer) { answer = Answer::never(); });
+  const std::atomic<bool> stop = false;
+  TimedExamination examination(order_of(never), {}, stop);
+  const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
+  const Query query{{0.512345, 0.01, 0}, {3.1, 0.07, 0}, {}};
+  const auto example = example_of({place, query, place->oracle().first_hit(query), "here", ""}, examination);
+  REQUIRE(example);
+  Finding finding{*example, "here", 1, 1e300};
+  CHECK(length(simplest(finding, examination, 1e9).question.query.v) == 1);
+  finding.circumstance.emplace().holds = [](const Features& f) { return !f.is_unit_speed; };
+  CHECK(length(simplest(finding, examination, 1e9).question.query.v) != 1);
 }

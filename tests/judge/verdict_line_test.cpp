@@ -1,6 +1,8 @@
 // The verdict in one line: which fault comes first, and how numbers are written.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 #include "judge/judge_report.hpp"
 #include "tests/support/command_line.hpp"
 
@@ -81,8 +83,8 @@ TEST_CASE("The verdict line: wrong times are told with the share of answers, and
   CHECK(report.line() ==
         "right: no wrong answer in 1000; wrong times 0.2 %, by up to 0.003 radii along the ray");
   report.rows[0].tally.ulps = {1e132};  // of a time near 0
-  CHECK(contains(report.text(), "0.003   > 2^20"));
-  CHECK_FALSE(contains(report.text(), "e+132"));
+  CHECK(contains(report.text(true), "0.003   > 2^20"));
+  CHECK_FALSE(contains(report.text(true), "e+132"));
   CHECK(report.verdict() == "right");
   report.times = true;
   CHECK(report.verdict() == "wrong");
@@ -122,7 +124,7 @@ TEST_CASE("The verdict line names the first fault that condemns, and counts the 
 TEST_CASE("Three lines come first: what, how bad, and the worst of it", "[judge][verdict_line]") {
   JudgeReport report = report_of({row(false, 46000), row(true, 3210)});
   const auto begins = [&](const std::string& how_bad, const std::string& worst) {
-    const std::string text = report.text();
+    const std::string text = report.text(false);
     INFO(text);
     return text.starts_with("what:    cmd:it; judged in binary64, times to 4 ulps of the inputs\nhow bad: " +
                             how_bad + "\nworst:   " + worst + "\n\n");
@@ -142,7 +144,7 @@ TEST_CASE("Three lines come first: what, how bad, and the worst of it", "[judge]
                "says never where an obstacle is hit (entered by up to 0.5 of its radii)"));
   CHECK(contains(
       report.json(),
-      R"x("worst":"says never where an obstacle is hit (entered by up to 0.5 of its radii)","finding":1})x"));
+      R"x("worst":"says never where an obstacle is hit (entered by up to 0.5 of its radii)","finding":1,"next":["mend the first)x"));
   report.findings.pop_back();
   CHECK(report.summary().finding == report.findings.data());  // nothing condemns, but not all is well
   report.claim = {NumberFormat::binary32, 1e-4};
@@ -165,7 +167,7 @@ TEST_CASE("Findings are told in groups, the engine's own faults first", "[judge]
   report.findings.back().simplest.last_words = "Segmentation \x1b[31mfault";
   add(judge::Cause::bad_line, judge::Severity::error);
   add(judge::Cause::passed_over, judge::Severity::ill_posed);
-  const std::string text = report.text();
+  const std::string text = report.text(true);
   INFO(text);
   std::size_t at = 0;
   for (const char* next : {"-- the engine's own faults", "1. wrong: misses what it hits", "-- died or silent",
@@ -203,11 +205,44 @@ TEST_CASE("What was unsupported, what there was no time for, and what was given 
   turn(report.rows[3], Count::missing, 5);
   report.rows[3].scenes_given_up = 2;
   report.rows[3].last_failure = "cmd died (exit 3) on this query";
-  CHECK(contains(report.text(),
+  CHECK(contains(report.text(true),
                  "\nunsupported: ellipses\nnot asked, no time: ties\n"
                  "given up in scenes of: far starts (2); cmd died (exit 3) on this query\n"));
   CHECK(report.line() ==
         "right: no wrong answer in 1002; 5 of 1037 answers missing; given up in 1 of 4 rows");
   for (const char* state : {"asked", "unsupported", "no time", "given up"})
     CHECK(contains(report.json(), R"("state":")" + std::string(state) + '"'));
+}
+
+TEST_CASE("The first twenty lines have three findings with what to do, and the verdict",
+          "[judge][verdict_line]") {
+  JudgeReport report = report_of({row(false, 1000)});
+  turn(report.rows[0], Count::wrong, 5);
+  const auto place = std::make_shared<question::Place>(unit_scene(2, 0.25));
+  const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
+  const judge::Question question{
+      .place = place, .query = query, .exact = place->exact(query), .where = "here"};
+  for (const judge::Cause cause : {judge::Cause::never_for_hit, judge::Cause::behind, judge::Cause::tie,
+                                   judge::Cause::false_hit, judge::Cause::inside_unseen})
+    report.findings.push_back(finding(question, cause, judge::Severity::wrong));
+  report.times_in_binary32 = 40;
+  report.free_domain.emplace().speed = {1e-3, 1e3};
+  const std::string text = report.text(false);
+  INFO(text);
+  CHECK(std::ranges::count(text, '\n') <= 20);
+  CHECK(contains(
+      text, "\n3. wrong: names the other of a tie\n   names one of several obstacles that are entered "));
+  CHECK(contains(text,
+                 "\n   likely: of hits at the same time name the smallest obstacle (lattice, atom, cell) "
+                 "(docs/formats.md#answers)\nand 2 more\n"));
+  CHECK_FALSE(contains(text, "4. wrong"));
+  CHECK(contains(text, "\nnext:    all 40 times are binary32 numbers: "));
+  CHECK(contains(text, "\nnext:    no fault was found at speeds from 0.001 to 1000: "));
+  CHECK(contains(text, " --domain speed=0.001..1000 ("));
+  CHECK(text.ends_with("\n\n" + report.line() + '\n'));
+  CHECK(contains(report.json(), R"("why":"of hits at the same time )"));
+  CHECK(contains(report.json(), R"("next":["all 40 times are )"));
+  report.claim.precision = NumberFormat::binary32;
+  CHECK_FALSE(contains(report.text(false), "are binary32 numbers"));
+  CHECK(contains(report.text(true), "5. wrong: starts inside unseen"));
 }

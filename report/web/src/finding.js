@@ -50,6 +50,7 @@ export function findingCard(finding, i, total) {
         ),
     ),
     finding.explanation && h("p", { class: "explanation" }, finding.explanation),
+    finding.why && h("p", { class: "explanation" }, `Likely: ${finding.why}`),
     h("p", { class: "facts" }, facts(finding, i, total)),
     h(
       "div",

@@ -45,6 +45,7 @@ function threeLines({ summary, findings }) {
     ["What", summary.what],
     ["How bad", summary.how_bad],
     ["Worst", summary.worst],
+    ...(summary.next ?? []).map((step) => ["Next", step]),
   ];
   return h(
     "div",
