@@ -125,7 +125,7 @@ std::vector<Domain> domains_offered() {
   std::vector<Domain> speeds, coordinates, both;
   for (const int exponent : kExponents) {
     const double most = std::pow(10, exponent);
-    const Domain::Range speed{1 / most, most}, coordinate{0, most};
+    const Domain::Range speed{std::pow(10, -exponent), most}, coordinate{0, most};
     speeds.emplace_back().speed = speed;
     coordinates.emplace_back().coordinates = coordinate;
     both.emplace_back().speed = speed, both.back().coordinates = coordinate;

@@ -196,9 +196,10 @@ std::string Finding::summary() const {
       quantity.empty()
           ? sentence_of(cause(), by_radii)
           : fmt::format("names the right obstacle, with {} in place of the time of the entry", quantity);
-  // The sentence of a grazing cause says this already.
-  const bool is_said = (cause() == Cause::passed_over_grazing || cause() == Cause::never_for_grazing) &&
-                       circumstance && circumstance->name == "depth";
+  // The sentences of some causes say this already.
+  const std::string_view name = circumstance ? circumstance->name : "";
+  const bool is_grazing = cause() == Cause::passed_over_grazing || cause() == Cause::never_for_grazing,
+             is_said = (is_grazing && name == "depth") || (cause() == Cause::leaving && name == "from");
   if (!circumstance || is_said) return is_part ? text + ", in other cases" : text;
   const char* how = circumstance->part() == 1 ? "only" : is_part ? "in part" : "nearly always";
   return fmt::format("{}, {} {}", text, how, circumstance->text);
@@ -206,7 +207,7 @@ std::string Finding::summary() const {
 
 std::string Finding::explanation() const {
   std::vector<std::string> numbers;
-  if (!quantity.empty()) numbers.push_back(number_of(of_quantity, examples.size()));
+  if (!quantity.empty()) numbers.push_back(number_of(of_quantity, examples.size()) + " times");
   if (circumstance) {
     numbers.push_back(number_of(circumstance->number, circumstance->of) + ", and " +
                       share_text(circumstance->share));

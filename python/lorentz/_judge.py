@@ -59,7 +59,7 @@ def judge(engine: Union[str, FirstHitFunction], *, name: str | None = None, vect
     Returns:
         The report of `lorentz judge --json`: ``verdict``, ``line`` (the verdict in one line),
         ``difficulties`` (rows with the questions and their results), ``findings`` (faults, each with its
-        simplest case); and ``text``, the output of `lorentz judge`, with the number of calls with many
+        simplest case); and ``text``, the output of `lorentz judge --all`, with the number of calls with many
         queries that failed.
 
     Raises:

@@ -266,7 +266,7 @@ TEST_CASE("Times that are another quantity are a finding of their own, and nine 
   REQUIRE(nearly.size() == 1);
   CHECK(contains(nearly[0].explanation(),
                  "names the right obstacle, with the time of the exit from that obstacle in "
-                 "place of the time of the entry (36 of 40)"));
+                 "place of the time of the entry (36 of 40 times)"));
   CHECK(nearly[0].simplest.diagnosis.quantity == kExit);
   CHECK(contains(nearly[0].why(), "the larger root is taken"));
   const auto two = all(20);
@@ -309,6 +309,7 @@ TEST_CASE("A domain without a fault is offered if half of the right answers are 
   REQUIRE(domain(0x1p40, 0.5, 0, 1));
   CHECK((domain(0x1p40, 0.5, 0, 1)->speed == Domain::Range{1e-10, 1e10}));
   CHECK((domain(0x1p40, 0.5, 0, 1)->coordinates == Domain::Range()));
+  CHECK(domain(0x1p120, 0.5, 0, 1)->speed.low == 1e-30);
   CHECK(domain(0x1p40, 0.5, 10, 1e20));
   CHECK_FALSE(domain(0x1p40, 0.5, 11, 1e20));
   REQUIRE(domain(1, 0x1p40 + 0.5, 0, 1));

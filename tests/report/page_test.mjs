@@ -180,6 +180,7 @@ test("Three lines are the first screen, the worst of it drawn beside, and the lo
         summary.what,
         summary.how_bad,
         summary.worst,
+        ...(summary.next ?? []),
       ]);
       const box = await page.locator(".first .paper svg").boundingBox();
       assert.ok(box.x >= 0 && box.x + box.width <= width && box.y + box.height <= 900, JSON.stringify(box));
@@ -238,6 +239,7 @@ test("Findings are told in groups, by names that people use; no ulps beyond 2^20
     );
     assert.doesNotMatch(await page.locator("main").innerText(), /10¹³²|e\+?132/);
     assert.match(await page.locator(".finding").first().innerText(), /stderr: warning: 3 rays were clamped/);
+    assert.match(await page.locator(".finding").first().innerText(), /Likely: b\^2 - a c cancels at the edge/);
   });
 });
 
