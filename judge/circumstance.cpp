@@ -279,13 +279,20 @@ double divergence(double q, double p) {
   return q * std::log(q / p) + (q < 1 ? (1 - q) * std::log((1 - q) / (1 - p)) : 0);
 }
 
-// The right answers to compare with: those with the exact outcome that nearly all failing questions have.
+// The right answers to compare with: those with what a cause implies, the exact outcome and that an obstacle is grazed,
+// if nearly all failing questions have it. (Few right answers may graze; then all are compared.)
 std::vector<Features> comparable(const std::vector<Features>& failing, std::vector<Features> right) {
+  const auto nearly_all = [&](const auto& has) {
+    return static_cast<double>(std::ranges::count_if(failing, has)) >=
+           kNearlyAll * static_cast<double>(failing.size());
+  };
   for (const Outcome outcome : {Outcome::hit, Outcome::never, Outcome::inside}) {
-    const auto number = std::ranges::count(failing, outcome, &Features::outcome);
-    if (static_cast<double>(number) >= kNearlyAll * static_cast<double>(failing.size()))
-      std::erase_if(right, [=](const Features& f) { return f.outcome != outcome; });
+    const auto has = [=](const Features& f) { return f.outcome == outcome; };
+    if (nearly_all(has)) std::erase_if(right, std::not_fn(has));
   }
+  const auto grazes = [](const Features& f) { return f.depth < kGrazing; };
+  if (nearly_all(grazes) && std::ranges::count_if(right, grazes) >= static_cast<std::ptrdiff_t>(kFewestRight))
+    std::erase_if(right, std::not_fn(grazes));
   return right;
 }
 

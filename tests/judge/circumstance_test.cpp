@@ -144,6 +144,30 @@ TEST_CASE("Limits are compared with right answers that have the quantity, and wi
   CHECK_FALSE(circumstance_of(failing, right));
 }
 
+TEST_CASE("What a cause implies is no circumstance: right answers are compared that have it, too",
+          "[judge][circumstance]") {
+  const auto grazing = alike(20, [](Features& f) { f.depth = 1e-9, f.negative_start = true; });
+  std::vector<Features> right = alike(200);
+  REQUIRE(circumstance_of(grazing, right));
+  CHECK(circumstance_of(grazing, right)->name == "x-negative");  // an earlier one than the depth, as rare
+  const auto add = [&](std::size_t number, const Change& change) {
+    const auto more = alike(number, change);
+    right.insert(right.end(), more.begin(), more.end());
+  };
+  add(120, [](Features& f) { f.negative_start = true; });
+  REQUIRE(circumstance_of(grazing, right));
+  CHECK(circumstance_of(grazing, right)->name == "depth");
+  add(20, [](Features& f) { f.depth = 1e-9; });
+  REQUIRE(circumstance_of(grazing, right));
+  CHECK(circumstance_of(grazing, right)->name == "x-negative");
+  // An outcome.
+  const auto inside = alike(20, [](Features& f) { f.outcome = Outcome::inside, f.in_space = true; });
+  CHECK_FALSE(circumstance_of(inside, alike(100)));
+  const auto both = alike(100, [](Features& f) { f.outcome = Outcome::inside; });
+  REQUIRE(circumstance_of(inside, both));
+  CHECK(circumstance_of(inside, both)->name == "in-3d");
+}
+
 TEST_CASE("Features of a question: its speed, its cell, the surface, the centre, and its chord",
           "[judge][features]") {
   const Scene square = unit_scene(2, 0.25);
