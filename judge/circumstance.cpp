@@ -148,7 +148,8 @@ constexpr double kCommon = 0.5, kByChance = 1e-3;
 // If some failing questions lack it, it must be rare among right answers, and failures without it must be rarer by a
 // factor. A power of ten takes in right questions on the near side of the true limit.
 constexpr double kRare = 0.1, kRareLimit = 0.35, kLessOften = 5;
-constexpr double kBetter = 1.1;  // by this factor a property must outweigh those before it in the tables
+// By this factor a property must outweigh those before it in the tables.
+constexpr double kBetter = 1.1, kBetterOfScene = 2;
 constexpr std::size_t kFewestRight = 20;
 
 using Holds = bool (*)(const Features&);
@@ -178,6 +179,10 @@ constexpr Property kProperties[] = {
     {"v-negative", "where v[2] is negative", [](const Features& f) { return f.negative[2]; }},
     {"v-negative", "where a component of v is negative",
      [](const Features& f) { return f.negative[0] || f.negative[1] || f.negative[2]; }},
+    {"never", "where nothing is ever hit", [](const Features& f) { return f.outcome == Outcome::never; }}};
+
+// Properties of scenes, which questions of one row often share by accident.
+constexpr Property kSceneProperties[] = {
     {"several-lattices", "in scenes of several lattices",
      [](const Features& f) { return f.several_lattices; }},
     {"several-atoms", "in scenes of several atoms a cell", [](const Features& f) { return f.several_atoms; }},
@@ -185,8 +190,7 @@ constexpr Property kProperties[] = {
     {"other-cell", "in cells other than the unit square or cube",
      [](const Features& f) { return f.other_cell; }},
     {"in-3d", "in 3D", [](const Features& f) { return f.in_space; }},
-    {"in-2d", "in 2D", [](const Features& f) { return !f.in_space; }},
-    {"never", "where nothing is ever hit", [](const Features& f) { return f.outcome == Outcome::never; }}};
+    {"in-2d", "in 2D", [](const Features& f) { return !f.in_space; }}};
 
 // A limit on a quantity: a power of ten above the failing questions, one that they reach, or a power of two that
 // they reach, for lengths in radii, if it is far, because nothing cancels nearby.
@@ -238,6 +242,7 @@ std::optional<Circumstance> circumstance_with(const Limit& its, double exponent)
   one.holds = [=](const Features& f) { return is_below ? f.*quantity < limit : f.*quantity >= limit; };
   one.quantity = quantity;
   one.is_limit = true;
+  one.better = kBetter;
   return one;
 }
 
@@ -265,11 +270,14 @@ void add_limits(const Limit& its, const std::vector<Features>& failing, std::vec
 
 std::vector<Circumstance> circumstances_for(const std::vector<Features>& failing) {
   std::vector<Circumstance> all;
-  for (const Property& its : kProperties) {
+  const auto add = [&](const Property& its, double better) {
     Circumstance& one = all.emplace_back();
     one.name = its.name, one.text = its.text, one.holds = its.holds, one.quantity = its.quantity;
-  }
+    one.better = better;
+  };
+  for (const Property& its : kProperties) add(its, kBetter);
   for (const Limit& limit : kLimits) add_limits(limit, failing, all);
+  for (const Property& its : kSceneProperties) add(its, kBetterOfScene);
   return all;
 }
 
@@ -330,7 +338,7 @@ std::optional<Circumstance> circumstance_of(const std::vector<Features>& failing
   std::optional<Circumstance> heaviest;
   for (Circumstance& one : circumstances_for(failing))
     if (weigh(one, failing, compared) && one.part() >= least &&
-        (!heaviest || one.weight > kBetter * heaviest->weight))
+        (!heaviest || one.weight > one.better * heaviest->weight))
       heaviest = std::move(one);
   return heaviest;
 }

@@ -144,6 +144,19 @@ TEST_CASE("Limits are compared with right answers that have the quantity, and wi
   CHECK_FALSE(circumstance_of(failing, right));
 }
 
+TEST_CASE("A property of scenes must weigh twice as much as one of the question", "[judge][circumstance]") {
+  const auto failing = alike(20, [](Features& f) { f.in_space = f.zero_component = true; });
+  const auto among = [&](std::size_t zeros, std::size_t in_space) {
+    std::vector<Features> right = alike(1000);
+    for (std::size_t i = 0; i < zeros; ++i) right[i].zero_component = true;
+    for (std::size_t i = 0; i < in_space; ++i) right[i].in_space = true;
+    return std::string(circumstance_of(failing, right)->name);
+  };
+  CHECK(among(100, 100) == "v-zero");
+  CHECK(among(100, 12) == "v-zero");  // 0.012 is more than the square of 0.1
+  CHECK(among(100, 8) == "in-3d");
+}
+
 TEST_CASE("What a cause implies is no circumstance: right answers are compared that have it, too",
           "[judge][circumstance]") {
   const auto grazing = alike(20, [](Features& f) { f.depth = 1e-9, f.negative_start = true; });
