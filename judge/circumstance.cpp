@@ -242,7 +242,6 @@ std::optional<Circumstance> circumstance_with(const Limit& its, double exponent)
   one.holds = [=](const Features& f) { return is_below ? f.*quantity < limit : f.*quantity >= limit; };
   one.quantity = quantity;
   one.is_limit = true;
-  one.better = kBetter;
   return one;
 }
 
@@ -270,14 +269,14 @@ void add_limits(const Limit& its, const std::vector<Features>& failing, std::vec
 
 std::vector<Circumstance> circumstances_for(const std::vector<Features>& failing) {
   std::vector<Circumstance> all;
-  const auto add = [&](const Property& its, double better) {
+  const auto add = [&](const Property& its, bool is_of_scene) {
     Circumstance& one = all.emplace_back();
     one.name = its.name, one.text = its.text, one.holds = its.holds, one.quantity = its.quantity;
-    one.better = better;
+    one.is_of_scene = is_of_scene;
   };
-  for (const Property& its : kProperties) add(its, kBetter);
+  for (const Property& its : kProperties) add(its, false);
   for (const Limit& limit : kLimits) add_limits(limit, failing, all);
-  for (const Property& its : kSceneProperties) add(its, kBetterOfScene);
+  for (const Property& its : kSceneProperties) add(its, true);
   return all;
 }
 
@@ -338,7 +337,7 @@ std::optional<Circumstance> circumstance_of(const std::vector<Features>& failing
   std::optional<Circumstance> heaviest;
   for (Circumstance& one : circumstances_for(failing))
     if (weigh(one, failing, compared) && one.part() >= least &&
-        (!heaviest || one.weight > one.better * heaviest->weight))
+        (!heaviest || one.weight > (one.is_of_scene ? kBetterOfScene : kBetter) * heaviest->weight))
       heaviest = std::move(one);
   return heaviest;
 }

@@ -142,7 +142,8 @@ void add_parts(Finding finding, const std::vector<Features>& right, int most, st
     return add_parts(std::move(parts->second), right, most - 1, all);
   }
   const std::vector<Features> failing = features_of_all(finding.examples);
-  const auto of_all = circumstance_of(failing, right);
+  auto of_all = circumstance_of(failing, right);
+  if (of_all && of_all->is_of_scene && finding.by_row.size() == 1) of_all.reset();
   const auto part = most > 1 && finding.quantity.empty() ? clear_part(failing, right, of_all) : std::nullopt;
   if (!part) {
     finding.circumstance = of_all;

@@ -64,7 +64,7 @@ struct Circumstance {
   std::function<bool(const Features&)> holds = [](const Features&) { return true; };
   double Features::*quantity = nullptr;  ///< what a question needs to be compared; null: nothing
   bool is_limit = false;                 ///< on the quantity
-  double better = 1;                     ///< by this factor it must outweigh those before it
+  bool is_of_scene = false;              ///< which all questions of a row may share by accident
 
   double part() const { return of == 0 ? 1 : static_cast<double>(number) / static_cast<double>(of); }
   bool can_hold(const Features& f) const { return !quantity || f.*quantity >= 0; }

@@ -385,15 +385,18 @@ TEST_CASE("What another program failed in, and what was nonsense, is added up, t
 
 TEST_CASE("What sets failures apart is true of all that were added up, equal ones keep their order",
           "[judge][examination]") {
-  Findings flat, solid;
+  Findings flat, solid, of_one_row;
   for (int i = 0; i < 20; ++i) {
     flat.add(example_in(2, Cause::never_for_hit), "row");
-    solid.add(example_in(3, Cause::never_for_hit), "row");
+    solid.add(example_in(3, Cause::never_for_hit), i % 2 == 0 ? "row" : "other row");
+    of_one_row.add(example_in(3, Cause::never_for_hit), "row");
     Features right = features_of(example_in(2, Cause::tie).question);
     flat.add_right(right);
     right.in_space = true;
     solid.add_right(right);
+    of_one_row.add_right(features_of(example_in(2, Cause::tie).question));
   }
+  CHECK_FALSE(of_one_row.all({})[0].circumstance);  // the row may have been in 3D by accident
   std::deque<ExaminedRow> asked(1);
   asked[0].name = "row", asked[0].is_hard = false, asked[0].tally.queries = 100;
   Findings both = solid;
