@@ -13,7 +13,8 @@ namespace {
 constexpr const char *kFormulas = "docs/ray_and_ball.md#a-ray-and-a-ball",
                      *kRemedies = "docs/ray_and_ball.md#what-to-do",
                      *kLimited = "docs/judging_yours.md#if-your-engine-cannot-do-all-of-this",
-                     *kDomains = "docs/judging_yours.md#what-it-is-made-for",
+                     *kMaxTime = "docs/judging_yours.md#limits",
+                     *kInside = "docs/judging_yours.md#starts-inside",
                      *kProgram = "docs/judging_yours.md#a-program-in-any-language",
                      *kScenes = "docs/formats.md#scenes", *kAnswers = "docs/formats.md#answers";
 
@@ -90,6 +91,8 @@ constexpr Advice kAdvice[] = {
     {"passed-over",
      "the walk leaves out cells, or the first hit found is not the first in time: compare all times",
      kLimited},
+    {"later-for-hit", "the limit is compared with something else than t: a length, a number of cells",
+     kMaxTime},
     {"never-for-hit", "the walk leaves out cells or ends too early, or a root is lost", kLimited},
     {"false-hit", "the discriminant is wrong: check a = v.v, the centre, and r^2", kFormulas},
     {"passed-over-grazing", "b^2 - a c cancels at the edge, or a tolerance decides there: use the projection",
@@ -100,7 +103,7 @@ constexpr Advice kAdvice[] = {
      kRemedies},
     {"behind", "a negative time counts as a hit: both roots are negative behind the start", kFormulas},
     {"inside-unseen", "|x - c| < r is not asked; if that is on purpose, declare it (--starts-inside)",
-     kDomains},
+     kInside},
     {"inside-not-so", "|x - c| < r is asked with a tolerance, or of the obstacle from", kRemedies},
     {"inside-another", "of several obstacles name the smallest (lattice, atom, cell)", kAnswers},
     {"tie", "of hits at the same time name the smallest obstacle (lattice, atom, cell)", kAnswers},

@@ -148,6 +148,8 @@ constexpr double kCommon = 0.5, kByChance = 1e-3;
 // If some failing questions lack it, it must be rare among right answers, and failures without it must be rarer by a
 // factor. A power of ten takes in right questions on the near side of the true limit.
 constexpr double kRare = 0.1, kRareLimit = 0.35, kLessOften = 5;
+// What sets only a part of them apart must be rarer among right answers by this factor.
+constexpr double kRarer = 10;
 // By this factor a property must outweigh those before it in the tables.
 constexpr double kBetter = 1.1, kBetterOfScene = 2;
 constexpr std::size_t kFewestRight = 20;
@@ -323,6 +325,7 @@ bool weigh(Circumstance& one, const std::vector<Features>& failing, const std::v
   one.weight = one.part() * exponent;
   if (one.share > kCommon || exponent * static_cast<double>(one.of) < -std::log(kByChance)) return false;
   if (one.part() == 1) return true;
+  if (one.part() < kNearlyAll && kRarer * one.share > one.part()) return false;
   const auto within = static_cast<double>(one.number), without = static_cast<double>(one.of - one.number);
   return one.share <= (one.is_limit ? kRareLimit : kRare) &&
          kLessOften * rate(without, all - those) <= rate(within, those);

@@ -68,6 +68,7 @@ Diagnosis of_another_answer(const Question& question, const Answer& given,
   if (exact.outcome == Outcome::inside && approach.start_gap < 0)
     return of_wrong(Cause::inside_unseen, std::fabs(approach.start_gap));
   if (given.outcome == Outcome::hit) return of_false_hit(question, given, decisive);
+  if (given.outcome == Outcome::later) return of_wrong(Cause::later_for_hit);
   return graded(Cause::never_for_grazing, Cause::never_for_hit, approach.gap);
 }
 
@@ -89,6 +90,8 @@ constexpr CauseWords kCauseWords[]{
      SentenceEnd::below},
     {"never-for-hit", "misses what it hits", "says never where an obstacle is hit", SentenceEnd::part,
      "entered"},
+    {"later-for-hit", "misses a hit before the limit",
+     "says later, where an obstacle is entered before the limit (max_time)"},
     {"false-hit-grazing", "hits what it misses by a hair", "hits obstacles that the line misses",
      SentenceEnd::below},
     {"false-hit", "hits what it misses", "hits an obstacle that the line misses", SentenceEnd::part,

@@ -21,6 +21,7 @@ enum class Cause {
   never_for_grazing,  ///< the answer is `never`, but the line enters an obstacle by less than kGrazing of its
                       ///< radii
   never_for_hit,      ///< the same, but the line enters one by more
+  later_for_hit,      ///< the answer is `later`, but an obstacle is entered before the limit
   false_hit_grazing,  ///< the named obstacle is missed by the line by less than kGrazing of its radii
   false_hit,          ///< the same, but missed by more
   behind,             ///< the named obstacle lies behind the start

@@ -122,16 +122,15 @@ std::optional<std::pair<Finding, Finding>> split_by_quantity(Finding& finding) {
 
 // ---- Circumstances
 
-// The circumstance that sets a clear part of a finding apart, if none of nearly all questions does better. It must be
-// ten times rarer among right answers, and the part no accident of a few.
+// The circumstance that sets a clear part of a finding apart, if none of nearly all questions does better. The part
+// must be no accident of a few.
 std::optional<Circumstance> clear_part(const std::vector<Features>& failing,
                                        const std::vector<Features>& right,
                                        const std::optional<Circumstance>& of_all) {
-  constexpr double kBetter = 1.5, kRarer = 10;
+  constexpr double kBetter = 1.5;
   constexpr std::size_t kFewest = 4;
   const auto part = circumstance_of(failing, right, kClearPart);
-  if (!part || part->part() >= kNearlyAll || part->number < kFewest || kRarer * part->share > part->part())
-    return std::nullopt;
+  if (!part || part->part() >= kNearlyAll || part->number < kFewest) return std::nullopt;
   return of_all && part->weight < kBetter * of_all->weight ? std::nullopt : part;
 }
 

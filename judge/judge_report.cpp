@@ -30,13 +30,16 @@ Components components_of(const Example& example) {
 
 // An invalid question is shown as it was asked.
 std::string members_of(const Example& example) {
-  return example.question.is_query() ? report::query_members(example.question.query, components_of(example))
+  return example.question.is_query() ? report::query_members(example.question.query, components_of(example),
+                                                             example.question.max_time)
                                      : example.question.text;
 }
 
 std::string readable_query(const Example& example) {
   if (!example.question.is_query()) return fmt::format("{{{}}}", example.question.text);
-  return json::text_of(json_of(example.question.query, components_of(example)));
+  return json::text_of([&](json::Members& object) {
+    add_query(object, example.question.query, components_of(example), example.question.max_time);
+  });
 }
 
 Answer exact_of(const Example& example) {

@@ -17,6 +17,14 @@ bool is_alike(Example& a, const Example& b, const Finding& finding) {
          a.given.outcome == b.given.outcome && a.question.exact.outcome == b.question.exact.outcome;
 }
 
+// The limit of a simpler flight is as near to its end.
+double limit_like(const Question& question, const Answer& exact) {
+  const double before = question.exact.time.value_or(0), factor = exact.time.value_or(before) / before;
+  if (!question.has_limit() || !(factor > 0)) return question.max_time;
+  const double limit = rounded(question.max_time * factor, question.place->claim().precision);
+  return limit > 0 ? limit : question.max_time;
+}
+
 }  // namespace
 
 // A program that gives no answer is not asked thousands of times, because it would be given up.
@@ -32,9 +40,13 @@ Example simplest(const Finding& finding, TimedExamination& examination, double s
         return std::make_shared<Place>(scene, question::Truth::oracle, examination.order().claim);
       },
       [&](const std::shared_ptr<Place>& place, const Query& query) {
-        last = example_of(
-            {.place = place, .query = query, .exact = place->exact(query), .where = example.question.where},
-            examination);
+        const Answer exact = place->exact(query);
+        last = example_of({.place = place,
+                           .query = query,
+                           .exact = exact,
+                           .where = example.question.where,
+                           .max_time = limit_like(example.question, exact)},
+                          examination);
         return last && is_alike(*last, example, finding);
       });
   const auto flight = [&] {

@@ -229,8 +229,9 @@ std::string how_bad_text(const JudgeReport& report) {
 std::string nothing_wrong_text(const JudgeReport& report) {
   const question::Tally drawn = sum_of(report.rows, false);
   if (drawn.counts.answers() == 0) return "nothing wrong was found";
-  return fmt::format("nothing wrong was found: of all drawn flights fewer than {} % are wrong (with 95 %)",
-                     two_digits(100 * report::bound_of_none(drawn.counts.answers())));
+  return fmt::format(
+      "nothing wrong was found: of flights like the drawn ones fewer than {} % are wrong (with 95 %)",
+      two_digits(100 * report::bound_of_none(drawn.counts.answers())));
 }
 
 // " at speeds from 0.001 to 1000 and coordinates up to 1e+06"
@@ -256,7 +257,7 @@ std::vector<std::string> next_steps(const JudgeReport& report) {
   if (report.free_domain)
     steps.push_back(
         fmt::format("no fault was found at {}: if more is not needed, declare it,{} "
-                    "(docs/judging_yours.md#what-it-is-made-for)",
+                    "(docs/judging_yours.md#a-declared-domain)",
                     words_of(*report.free_domain), report::arguments_of({.domain = *report.free_domain})));
   if (worst_of(report))
     steps.push_back("mend the first, and judge again: one line of code often makes several findings");

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <lorentz/exchange.hpp>
 #include "report/files/messages.hpp"
 #include "src/exchange/exchange_write.hpp"
@@ -28,9 +30,11 @@ std::string hexadecimal_query(const Query& query, const Components& count) {
   });
 }
 
-std::string query_members(const Query& query, const Components& count) {
+std::string query_members(const Query& query, const Components& count, double max_time) {
   const std::string object = report::hexadecimal_query(query, count);
-  return object.substr(1, object.size() - 2);
+  const std::string limit =
+      std::isfinite(max_time) ? fmt::format(",\"max_time\":{}", json::text_of(max_time)) : "";
+  return object.substr(1, object.size() - 2) + limit;
 }
 
 std::string printed(const Scene& scene, const std::string& query_members, std::size_t times) {

@@ -1,6 +1,7 @@
 // Scenes and queries for people to copy, exact to the bit, in the exchange format.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ std::vector<std::string> hexadecimal(const Vec& a, int dimension);
 std::string hexadecimal_query(const Query& query, const Components& count);
 
 /// The same without braces.
-std::string query_members(const Query& query, const Components& count);
+std::string query_members(const Query& query, const Components& count,
+                          double max_time = std::numeric_limits<double>::infinity());
 
 /// The shell command that prints a query stream: the scene, and the query `times` times.
 std::string printed(const Scene& scene, const std::string& query_members, std::size_t times = 1);

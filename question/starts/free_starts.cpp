@@ -63,18 +63,9 @@ bool FreeStarts::is_free(const Query& start) const {
   return certified_.first_hit(start, at_once).outcome != Outcome::inside;
 }
 
-// Aims at an obstacle of cell 0, because few lines meet an obstacle if most of space is empty.
-void FreeStarts::aim(Random& random, Query& start) const {
-  const Lattice& lattice = scene_.lattices[random.below(scene_.lattices.size())];
-  const Atom& atom = lattice.atoms[random.below(lattice.atoms.size())];
-  const Vec aside = Surface(atom, scene_.dimension).point(random).offset;
-  const Vec aim = plus(sum(atom.position, scaled(aside, random.uniform())), -1, start.x);
-  if (aim != Vec{}) start.v = aim;
-}
-
 bool FreeStarts::make(Random& random, Query& start) const {
   if (kind_ == Kind::grazing) {
-    if (!is_crystal(scene_)) aim(random, start);
+    if (!is_crystal(scene_)) aim(random, scene_, start);
     const auto off_edge = [&] { return random.sign() * random.octave(1 - bits_of(format_), -10); };
     return cases::move_to_edge(off_edge, scene_, oracle_, start);
   }
@@ -87,6 +78,14 @@ bool FreeStarts::round(Query& start) const {
   if (format_ == NumberFormat::binary64) return true;
   start = rounded(start, format_);
   return !flaw_of(start, scene_) && is_free(start);
+}
+
+void aim(Random& random, const Scene& scene, Query& start) {
+  const Lattice& lattice = scene.lattices[random.below(scene.lattices.size())];
+  const Atom& atom = lattice.atoms[random.below(lattice.atoms.size())];
+  const Vec aside = Surface(atom, scene.dimension).point(random).offset;
+  const Vec aim = plus(sum(atom.position, scaled(aside, random.uniform())), -1, start.x);
+  if (aim != Vec{}) start.v = aim;
 }
 
 void FreeStarts::draw(std::uint64_t index, Query& start) const {

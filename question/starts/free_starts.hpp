@@ -61,7 +61,6 @@ class FreeStarts {
 
  private:
   bool is_free(const Query& start) const;
-  void aim(cases::Random& random, Query& start) const;
   /// True if the candidate could be made into a start of the kind.
   bool make(cases::Random& random, Query& start) const;
   /// True if the start is valid after rounding, too.
@@ -75,6 +74,10 @@ class FreeStarts {
   oracle::Oracle oracle_;
   oracle::Certified certified_;
 };
+
+/// Aims at a point in an obstacle of cell 0, because few lines meet an obstacle if most of space is empty. v then has
+/// the length of the way there.
+void aim(cases::Random& random, const Scene& scene, Query& start);
 
 /// The first `count` starts of a scene.
 inline std::vector<Query> free_starts(const Scene& scene, Kind kind, std::uint64_t seed, std::size_t count,

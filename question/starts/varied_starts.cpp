@@ -14,6 +14,15 @@ constexpr std::uint64_t kSeldom = 16;
 constexpr int kNear = 10, kFar = 30, kSpeed = 10;  // exponents of two
 constexpr double kFarVectors = 1000;
 
+// Keeps the speed. Starts on a surface keep their velocity, which leads away from it.
+bool aim_at_obstacle(Random& random, const Scene& scene, Query& query) {
+  if (query.from) return false;
+  const double speed = length(query.v);
+  aim(random, scene, query);
+  query.v = scaled(query.v, speed / length(query.v));
+  return true;
+}
+
 // Moves the start, and the obstacle that it leaves, by whole cells of the first lattice. In other lattices an obstacle
 // is elsewhere then: a start on the surface of one of these stays.
 bool move_by_cells(Random& random, const Scene& scene, Query& query) {
@@ -87,6 +96,8 @@ VariedStart VariedStarts::operator[](std::uint64_t index) const {
   VariedStart start{(random.one_in(kSeldom) ? surface_ : uniform_)[index]};
   Query& query = start.query;
   if (const auto inside = claim_.domain.bring_inside(query)) query = *inside;
+  if (!is_crystal(scene_) && random.one_in(2))
+    change(query, [&](Query& its) { return aim_at_obstacle(random, scene_, its); });
   change(query, [&](Query& its) { return move_by_cells(random, scene_, its); });
   change(query, [&](Query& its) { return flatten(random, scene_, its); });
   change(query, [&](Query& its) { return change_speed(random, its); });

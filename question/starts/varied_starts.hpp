@@ -22,6 +22,7 @@ struct VariedStart {
 
 /// Numbered starts for tests of engines; physics takes FreeStarts. Each is one of those, uniform or (1 in 16) on a
 /// surface, and then changed:
+/// - where most of space is empty (single obstacles, rows, layers), every other one is aimed at an obstacle;
 /// - it is moved by up to 2^10 cells (1 in 16: 2^30) along each vector of the first lattice;
 /// - in 1 of 16, one component of its velocity is made zero;
 /// - in 3 of 4, its speed is made 2^k (1 + u), k from -10 to 9, u from 0 to 1;

@@ -136,3 +136,18 @@ TEST_CASE("Varied starts stay in the claim's domain, and vary there", "[flights]
   const VariedStarts fast(scene, kSeed, claim);
   for (std::uint64_t i = 0; i < 100; ++i) REQUIRE(claim.domain.has(fast[i].query));
 }
+
+TEST_CASE("Every other varied start is aimed at an obstacle where most of space is empty",
+          "[flights][starts]") {
+  for (const char* name : {"ball", "two-balls"}) {
+    const Scene scene = all_scenes().at(name);
+    const oracle::Oracle oracle(scene);
+    const VariedStarts starts(scene, kSeed);
+    int hits = 0;
+    for (std::uint64_t i = 0; i < 1000; ++i)
+      hits += oracle.first_hit(starts[i].query).outcome == Outcome::hit;
+    CAPTURE(name, hits);
+    CHECK(hits > 400);  // of flights that are not aimed one in twenty meets something
+    CHECK(hits < 600);
+  }
+}

@@ -130,7 +130,7 @@ TEST_CASE("Three lines come first: what, how bad, and the worst of it", "[judge]
                             how_bad + "\nworst:   " + worst + "\n\n");
   };
   CHECK(begins("none wrong of 46 000 drawn; hard cases: none wrong (of 3 210)",
-               "nothing wrong was found: of all drawn flights fewer than 0.0065 % are wrong (with 95 %)"));
+               "nothing wrong was found: of flights like the drawn ones fewer than 0.0065 % are wrong (with 95 %)"));
   turn(report.rows[1], Count::wrong, 151);
   turn(report.rows[1], Count::undecided, 492);
   turn(report.rows[0], Count::unsupported, 6000);
