@@ -1,7 +1,7 @@
 """The mutants of small sources are the ones meant, run when they are switched on, and note that they were reached.
 What needs libclang is tested where it is installed: python3 tests/mutants/mutants_test.py"""
 
-import os, pathlib, subprocess, sys, tempfile, unittest
+import os, pathlib, re, subprocess, sys, tempfile, unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import ocaml_sites, python_sites, schemata, site_of  # noqa: E402
@@ -39,6 +39,17 @@ class Equivalent(unittest.TestCase):
             self.assertTrue(reason)
             source = (here.parents[1] / path).read_text()
             self.assertIn("".join(before.split()), "".join(source.split()), f"{path}: no such line any more")
+
+
+class Folders(unittest.TestCase):
+    def test_each_is_there(self):
+        """Of a folder that moved no mutant would be drawn, and none would survive."""
+        here = pathlib.Path(__file__).resolve().parent
+        listed = re.search(r"FOLDERS = \[(.*?)\]", (here / "run").read_text(), re.S)[1]
+        folders = re.findall(r'"([^"]+)"', listed)
+        self.assertGreater(len(folders), 20)
+        for folder in folders:
+            self.assertTrue((here.parents[1] / folder).is_dir(), f"{folder}: no such folder")
 
 
 class Sites(unittest.TestCase):
