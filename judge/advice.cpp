@@ -1,5 +1,5 @@
-// What to do about a finding: the likely line of code, the remedy, and the document that has more; and the domain in
-// which no fault was found.
+// What to do about a finding: the likely line of code, the remedy, and the document that has more; and the
+// domain in which no fault was found.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,8 @@ constexpr const char *kFormulas = "docs/ray_and_ball.md#a-ray-and-a-ball",
                      *kProgram = "docs/judging_yours.md#a-program-in-any-language",
                      *kScenes = "docs/formats.md#scenes", *kAnswers = "docs/formats.md#answers";
 
-// What advice is about: a quantity, a circumstance, a cause, or a cause and a circumstance ("cause+circumstance").
+// What advice is about: a quantity, a circumstance, a cause, or a cause and a circumstance
+// ("cause+circumstance").
 struct Advice {
   std::string_view about;
   const char *text, *document;

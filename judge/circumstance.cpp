@@ -145,8 +145,8 @@ Features features_of(const Question& question, const std::optional<ObstacleId>& 
 namespace {
 
 constexpr double kCommon = 0.5, kByChance = 1e-3;
-// If some failing questions lack it, it must be rare among right answers, and failures without it must be rarer by a
-// factor. A power of ten takes in right questions on the near side of the true limit.
+// If some failing questions lack it, it must be rare among right answers, and failures without it must be
+// rarer by a factor. A power of ten takes in right questions on the near side of the true limit.
 constexpr double kRare = 0.1, kRareLimit = 0.35, kLessOften = 5;
 // What sets only a part of them apart must be rarer among right answers by this factor.
 constexpr double kRarer = 10;
@@ -194,8 +194,8 @@ constexpr Property kSceneProperties[] = {
     {"in-3d", "in 3D", [](const Features& f) { return f.in_space; }},
     {"in-2d", "in 2D", [](const Features& f) { return !f.in_space; }}};
 
-// A limit on a quantity: a power of ten above the failing questions, one that they reach, or a power of two that
-// they reach, for lengths in radii, if it is far, because nothing cancels nearby.
+// A limit on a quantity: a power of ten above the failing questions, one that they reach, or a power of two
+// that they reach, for lengths in radii, if it is far, because nothing cancels nearby.
 enum class LimitSide { below, from, from_afar };
 struct Limit {
   const char* name;
@@ -288,8 +288,8 @@ double divergence(double q, double p) {
   return q * std::log(q / p) + (q < 1 ? (1 - q) * std::log((1 - q) / (1 - p)) : 0);
 }
 
-// The right answers to compare with: those with what a cause implies, the exact outcome and that an obstacle is grazed,
-// if nearly all failing questions have it. (Few right answers may graze; then all are compared.)
+// The right answers to compare with: those with what a cause implies, the exact outcome and that an obstacle
+// is grazed, if nearly all failing questions have it. (Few right answers may graze; then all are compared.)
 std::vector<Features> comparable(const std::vector<Features>& failing, std::vector<Features> right) {
   const auto nearly_all = [&](const auto& has) {
     return static_cast<double>(std::ranges::count_if(failing, has)) >=

@@ -156,6 +156,8 @@ std::string_view quantity_of(const Question& question, const Answer& given) {
     const double size = std::fabs(quantity);
     return std::fabs(*its - quantity) <= same * size && std::fabs(*entry - quantity) > 10 * same * size;
   };
+  // Nothing that is near to the time can be another quantity.
+  if (std::fabs(*its - *entry) <= 8 * same * std::fabs(*its)) return {};
   const Vec& v = question.query.v;
   if (is(*entry * std::hypot(v[0], v[1], v[2]))) return kDistance;
   if (question.has_limit() && is(*entry / question.max_time)) return kFraction;

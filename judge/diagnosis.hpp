@@ -68,8 +68,8 @@ inline constexpr std::string_view kDistance = "the distance (|v| times the time)
                                   kNearest = "the time midway between entry and exit",
                                   kFraction = "the fraction of the limit (the time over max_time)";
 
-/// For an answer with the right obstacle: what its time is, to 1e-6 of itself (in binary32, 1e-4), if that is another
-/// quantity than the time; else empty.
+/// For an answer with the right obstacle: what its time is, to 1e-6 of itself (in binary32, 1e-4), if that is
+/// another quantity than the time; else empty.
 std::string_view quantity_of(const Question& question, const Answer& given);
 
 /// The diagnosis of an answer that departs from the exact one, has a wrong time, is an error, or is missing;

@@ -26,8 +26,8 @@ bool is_everyday(const Question& question) {
   return all;
 }
 
-// Valid questions come before invalid ones, and numbers of every day before others. Invalid questions have no numbers,
-// so the shortest text is the simplest.
+// Valid questions come before invalid ones, and numbers of every day before others. Invalid questions have no
+// numbers, so the shortest text is the simplest.
 std::tuple<bool, bool, long> complexity_of(const Question& question) {
   if (!question.is_query()) return {true, false, static_cast<long>(question.text.size())};
   return {false, !is_everyday(question), fuzz::complexity(question.place->scene(), question.query)};
@@ -63,8 +63,8 @@ std::vector<Features> features_of_all(const std::vector<Example>& examples) {
 
 using Belongs = std::function<bool(const Example&)>;
 
-// The answers of a finding that belong together. Of each row, only the first are known; the others are shared out in
-// proportion.
+// The answers of a finding that belong together. Of each row, only the first are known; the others are shared
+// out in proportion.
 Finding part_of(const Finding& whole, const Belongs& belongs) {
   Finding part = whole;
   part.is_part = true;
@@ -101,7 +101,8 @@ std::pair<Finding, Finding> parts_of(const Finding& whole, const Belongs& belong
 
 // ---- Quantities
 
-// Sets what nearly all give in place of the time; or takes those apart that give it, if they are a clear part.
+// Sets what nearly all give in place of the time; or takes those apart that give it, if they are a clear
+// part.
 std::optional<std::pair<Finding, Finding>> split_by_quantity(Finding& finding) {
   constexpr std::size_t kFewest = 3;
   for (const std::string_view quantity : {kDistance, kExit, kNearest, kFraction}) {

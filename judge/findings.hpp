@@ -76,11 +76,12 @@ inline constexpr double kNearlyAll = 0.9;
 inline constexpr double kClearPart = 0.1;
 
 /// The property of at least a part `least` of the failing questions that chance explains least.
-///  - Right answers are compared if they have the quantity, and the exact outcome of nearly all failing questions; there
-///    must be 20 of them. At most half of them may have the property; fewer, if some failing questions lack it.
-///  - If each failing question had it with the probability p of a right one, a part q or more of n would have it with
-///    a probability of at most exp(-n D), D = q ln(q/p) + (1-q) ln((1-q)/(1-p)) (Chernoff's bound of the binomial
-///    tail; p^n if all have it). This must be at most 1 in 1000. The largest q D is chosen.
+///  - Right answers are compared if they have the quantity, and the exact outcome of nearly all failing
+///    questions; there must be 20 of them. At most half of them may have the property; fewer, if some failing
+///    questions lack it.
+///  - If each failing question had it with the probability p of a right one, a part q or more of n would have
+///    it with a probability of at most exp(-n D), D = q ln(q/p) + (1-q) ln((1-q)/(1-p)) (Chernoff's bound of
+///    the binomial tail; p^n if all have it). This must be at most 1 in 1000. The largest q D is chosen.
 ///  - Limits are powers of ten, or of two for lengths in radii, at quantiles of the failing questions.
 std::optional<Circumstance> circumstance_of(const std::vector<Features>& failing,
                                             const std::vector<Features>& right, double least = kNearlyAll);
@@ -157,13 +158,14 @@ class Findings {
   }
 
   /// All findings with their circumstances, group by group. Answers with one cause are several findings if a
-  /// circumstance sets a clear part of them apart. In each group the worst comes first, and of these the one with the
-  /// largest shares of plain and of hard flights; what is 20 times rarer than the most frequent comes last.
-  /// Unsupported questions of the rows do not count as asked.
+  /// circumstance sets a clear part of them apart. In each group the worst comes first, and of these the one
+  /// with the largest shares of plain and of hard flights; what is 20 times rarer than the most frequent
+  /// comes last. Unsupported questions of the rows do not count as asked.
   std::vector<Finding> all(const std::deque<question::ExaminedRow>& rows) const;
 
-  /// The domain of speeds, of coordinates, or of both, between powers of ten, that has at least half of the right
-  /// answers and no wrong one, nor a wrong time; nothing if there is none, or if not all wrong answers are known.
+  /// The domain of speeds, of coordinates, or of both, between powers of ten, that has at least half of the
+  /// right answers and no wrong one, nor a wrong time; nothing if there is none, or if not all wrong answers
+  /// are known.
   std::optional<Domain> domain_without_fault() const;
 
  private:

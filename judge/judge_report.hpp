@@ -58,8 +58,8 @@ struct JudgeReport : JudgeOrder {
 
   ThreeLines summary() const;
 
-  /// The summary, the first findings in three lines each, and the verdict line; with `all`, the table and each finding
-  /// in full.
+  /// The summary, the first findings in three lines each, and the verdict line; with `all`, the table and
+  /// each finding in full.
   std::string text(bool all) const;
   std::string json() const;
 };
