@@ -241,6 +241,8 @@ std::optional<Circumstance> circumstance_with(const Limit& its, double exponent)
   Circumstance one;
   one.name = its.name;
   one.text = fmt::format(fmt::runtime(its.text), said);
+  constexpr std::string_view kOne = " 1 lattice vectors";
+  if (const auto at = one.text.find(kOne); at != std::string::npos) one.text.erase(at + kOne.size() - 1, 1);
   one.holds = [=](const Features& f) { return is_below ? f.*quantity < limit : f.*quantity >= limit; };
   one.quantity = quantity;
   one.is_limit = true;
