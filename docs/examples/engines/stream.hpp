@@ -125,6 +125,7 @@ struct Scene {
 struct Query {
   Vec x, v;
   std::optional<Name> from;
+  double max_time = INFINITY;
 };
 
 // The result of an engine: the ball that contains the start, or the ball that is entered first.
@@ -149,6 +150,7 @@ struct Claim {
 inline Query query_of(const json& item, const Scene& scene) {
   Query query{vec(item.at("x"), scene.dimension), vec(item.at("v"), scene.dimension), {}};
   if (query.v == Vec{}) throw std::runtime_error("v is zero");
+  if (item.contains("max_time") && item["max_time"] != "inf") query.max_time = number(item["max_time"]);
   if (!item.contains("from")) return query;
   const json& from = item["from"];
   const auto index = [&](const char* key, std::size_t size) {
@@ -173,7 +175,9 @@ inline Scene scene_of(const json& item, const std::vector<int>& dimensions) {
   return scene;
 }
 
-inline json answer_of(const Found& found, const Scene& scene) {
+inline json answer_of(const Found& found, const Scene& scene, double max_time) {
+  const bool in_time = found.hit && found.hit->first < max_time;
+  if (!found.inside && !in_time && !found.undecided && std::isfinite(max_time)) return {{"outcome", "later"}};
   if (!found.inside && found.undecided) return {{"outcome", "undecided"}};
   if (!found.inside && !found.hit) return {{"outcome", "never"}};
   const auto& [lattice, atom, n] = found.inside ? *found.inside : found.hit->second;
@@ -226,6 +230,10 @@ class Server {
             {"dimensions", claim_.dimensions}};
   }
 
+  json answer_to(const Query& query) {
+    return answer_of(engine_.first(*scene_, query), *scene_, query.max_time);
+  }
+
   bool take(const std::string& line) {  // true if it was a query
     json id, answer;
     try {
@@ -233,7 +241,7 @@ class Server {
       if (item.contains("golden")) return false;
       if (item.contains("scene")) return take_scene(item["scene"]), false;
       if (item.contains("id")) id = item["id"];
-      answer = scene_ ? answer_of(engine_.first(*scene_, query_of(item, *scene_)), *scene_) : trouble_;
+      answer = scene_ ? answer_to(query_of(item, *scene_)) : trouble_;
     } catch (const Unsupported& error) {
       answer = error_of(error, true);
     } catch (const std::exception& error) {  // an invalid line does not end the stream

@@ -130,7 +130,7 @@ class Walk {
         const Vec c = in_cells_ ? centre : add(corner, centre);
         if (name != query.from) ball(p, query.v, begin, at.leave, c, r, at.number == 0, name, found);
       }
-      if (found.inside || (found.hit && found.hit->first <= at.leave)) return;
+      if (found.inside || (found.hit && found.hit->first <= at.leave) || at.leave >= query.max_time) return;
     }
     found.undecided = true;
   }

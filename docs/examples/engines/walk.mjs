@@ -167,7 +167,7 @@ class Walk {
     return found;
   }
 
-  crystal(lattice, index, { x, v, from }, found) {
+  crystal(lattice, index, { x, v, from, maxTime }, found) {
     const y = lattice.dual.map((w) => dot(w, x));
     const s = lattice.dual.map((w) => dot(w, v));
     const cell = y.map((c, k) => (k < lattice.rank ? Math.floor(c) : 0));
@@ -186,7 +186,7 @@ class Walk {
         const c = this.inCells ? centre : add(corner, centre);
         if (!from || !isSame(name, from)) this.ball(p, v, begin, leave, c, r, step === 0, name, found);
       }
-      if (found.inside || (found.hit && found.time <= leave)) return;
+      if (found.inside || (found.hit && found.time <= leave) || leave >= maxTime) return;
       enter = leave;
       cell[axis] += s[axis] > 0 ? 1 : -1;
     }
@@ -225,8 +225,9 @@ function latticesOf(scene, library) {
 }
 
 function queryOf(item, { dimension, lattices }) {
-  const query = { x: vector(item.x, dimension), v: vector(item.v, dimension), from: undefined };
+  const query = { x: vector(item.x, dimension), v: vector(item.v, dimension), from: undefined, maxTime: Infinity };
   if (query.v.every((c) => c === 0)) throw Error("v is zero");
+  if (item.max_time !== undefined && item.max_time !== "inf") query.maxTime = number(item.max_time);
   if (item.from === undefined) return query;
   const { lattice, atom, cell } = item.from;
   const its = lattices[lattice];
@@ -237,7 +238,9 @@ function queryOf(item, { dimension, lattices }) {
   return query;
 }
 
-function answerOf(found, lattices) {
+function answerOf(found, lattices, { maxTime }) {
+  const inTime = found.hit && found.time < maxTime;
+  if (!found.inside && !inTime && !found.undecided && Number.isFinite(maxTime)) return { outcome: "later" };
   if (!found.inside && found.undecided) return { outcome: "undecided" };
   if (!found.inside && !found.hit) return { outcome: "never" };
   const [lattice, atom, ...n] = found.inside ?? found.hit;
@@ -283,7 +286,8 @@ export async function walk(library) {
       if (item.golden) return;
       if (item.scene) return takeScene(item.scene);
       id = item.id ?? null;
-      answer = scene ? answerOf(engine.first(scene.lattices, queryOf(item, scene)), scene.lattices) : trouble;
+      const query = scene && queryOf(item, scene);
+      answer = scene ? answerOf(engine.first(scene.lattices, query), scene.lattices, query) : trouble;
     } catch (error) {
       answer = errorOf(error); // an invalid line does not end the stream
     }
