@@ -144,7 +144,8 @@ Features features_of(const Question& question, const std::optional<ObstacleId>& 
 
 namespace {
 
-constexpr double kCommon = 0.5, kByChance = 1e-3;
+// About 50 circumstances are tried: together they hold by chance in 1 of 1000 cases.
+constexpr double kCommon = 0.5, kByChance = 1e-3 / 50;
 // If some failing questions lack it, it must be rare among right answers, and failures without it must be
 // rarer by a factor. A power of ten takes in right questions on the near side of the true limit.
 constexpr double kRare = 0.1, kRareLimit = 0.35, kLessOften = 5;

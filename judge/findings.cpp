@@ -63,8 +63,8 @@ std::vector<Features> features_of_all(const std::vector<Example>& examples) {
 
 using Belongs = std::function<bool(const Example&)>;
 
-// The answers of a finding that belong together. Of each row, only the first are known; the others are shared
-// out in proportion.
+// The answers of a finding that belong together. Only the first of each row are known; the others are shared out
+// in proportion.
 Finding part_of(const Finding& whole, const Belongs& belongs) {
   Finding part = whole;
   part.is_part = true;
@@ -128,11 +128,11 @@ std::optional<std::pair<Finding, Finding>> split_by_quantity(Finding& finding) {
 std::optional<Circumstance> clear_part(const std::vector<Features>& failing,
                                        const std::vector<Features>& right,
                                        const std::optional<Circumstance>& of_all) {
-  constexpr double kBetter = 1.5;
+  constexpr double kClearlyBetter = 1.5;
   constexpr std::size_t kFewest = 4;
   const auto part = circumstance_of(failing, right, kClearPart);
   if (!part || part->part() >= kNearlyAll || part->number < kFewest) return std::nullopt;
-  return of_all && part->weight < kBetter * of_all->weight ? std::nullopt : part;
+  return of_all && part->weight < kClearlyBetter * of_all->weight ? std::nullopt : part;
 }
 
 // Adds the finding with its circumstance; as several, if circumstances set clear parts apart, up to `most`.
@@ -249,7 +249,7 @@ void Findings::add(const std::pair<Severity, Cause>& key, const Finding& other) 
 std::vector<Finding> Findings::all(const std::deque<question::ExaminedRow>& rows) const {
   std::vector<Finding> all;
   constexpr int kMostParts = 3;
-  constexpr std::size_t kRare = 20;
+  constexpr std::size_t kFewTimes = 20;
   // An engine whose times are wrong has few right answers. If they tell nothing, all right obstacles may.
   std::vector<Features> right_obstacles = right_;
   right_obstacles.insert(right_obstacles.end(), mistimed_.begin(), mistimed_.end());
@@ -272,7 +272,7 @@ std::vector<Finding> Findings::all(const std::deque<question::ExaminedRow>& rows
   }
   const auto rank = [&](const Finding& finding) {
     const Blame blame = finding.simplest.diagnosis.blame();
-    const bool is_rare = kRare * finding.count < largest[blame];
+    const bool is_rare = kFewTimes * finding.count < largest[blame];
     return std::make_tuple(blame, is_rare, finding.severity(),
                            -finding.share_of_plain - finding.share_of_hard);
   };

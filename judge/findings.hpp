@@ -81,7 +81,7 @@ inline constexpr double kClearPart = 0.1;
 ///    questions lack it.
 ///  - If each failing question had it with the probability p of a right one, a part q or more of n would have
 ///    it with a probability of at most exp(-n D), D = q ln(q/p) + (1-q) ln((1-q)/(1-p)) (Chernoff's bound of
-///    the binomial tail; p^n if all have it). This must be at most 1 in 1000. The largest q D is chosen.
+///    the binomial tail; p^n if all have it). This must be at most 1 in 50 000. The largest q D is chosen.
 ///  - Limits are powers of ten, or of two for lengths in radii, at quantiles of the failing questions.
 std::optional<Circumstance> circumstance_of(const std::vector<Features>& failing,
                                             const std::vector<Features>& right, double least = kNearlyAll);

@@ -103,7 +103,7 @@ JudgePlan::JudgePlan(const JudgeOrder& order) : order_(order) {
   for (const Retelling how :
        {Retelling::plain, Retelling::moved, Retelling::mirrored, Retelling::faster, Retelling::limited})
     add(JudgePart::drawn,
-        {.name = words_of(how).name, .explanation = words_of(how).explanation, .is_hard = false},
+        {.name = row_words_of(how).name, .explanation = row_words_of(how).explanation, .is_hard = false},
         retold(plain_places_, how, order_.seed, number, outside_));
   for (std::size_t i = 0; i < kSceneries.size(); ++i) {
     add(JudgePart::drawn,

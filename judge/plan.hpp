@@ -59,7 +59,7 @@ enum class Retelling { plain, moved, mirrored, faster, limited };
 struct RowWords {
   const char *name, *explanation;
 };
-RowWords words_of(Retelling how);
+RowWords row_words_of(Retelling how);
 
 /// `count` plain flights, told in this way; as for drawn().
 Source retold(const std::vector<NamedPlace>& places, Retelling how, std::uint64_t seed, std::size_t count,

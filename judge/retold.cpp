@@ -90,8 +90,9 @@ class Retold {
   std::optional<Question> asked(std::size_t which, std::size_t index, const Query& plain) {
     const std::shared_ptr<Place>& place = retold_[which];
     Random random(seed_, "retold flights", index);
-    auto question = question_in(place, retold(random, *place, plain),
-                                fmt::format("{}, {}", words_of(how_).name, places_[which].name), outside_);
+    auto question =
+        question_in(place, retold(random, *place, plain),
+                    fmt::format("{}, {}", row_words_of(how_).name, places_[which].name), outside_);
     if (!question || how_ != Retelling::limited) return question;
     const double time = question->exact.time.value_or(1 / length(plain.v));
     question->max_time = rounded(time * random.octave(-2, 2), place->claim().precision);
@@ -111,7 +112,7 @@ class Retold {
 
 }  // namespace
 
-RowWords words_of(Retelling how) {
+RowWords row_words_of(Retelling how) {
   constexpr RowWords kWords[] = {
       {"plain", "starts in the first cell, |v| = 1; the next rows ask the same flights in other words"},
       {"plain moved", "the same flights, up to 2^30 cells away; single obstacles, moved with the start"},

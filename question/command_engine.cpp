@@ -17,6 +17,7 @@
 #include "question/external_answerer.hpp"
 #include "question/library_program.hpp"
 #include "question/process.hpp"
+#include "question/scene_engine.hpp"
 #include "src/exchange/json_writer.hpp"
 #include "src/problem/safe_text.hpp"
 

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "question/examine.hpp"
-#include "question/instruction_counter.hpp"
 
 namespace lorentz::question {
 namespace {
@@ -21,7 +20,6 @@ struct Round {
   double total_ns = 0;
   std::size_t asked = 0;
   std::vector<double> block_means;
-  std::optional<std::uint64_t> instructions = {};
   std::optional<double> processor_ns = {};
 
   double ns_per_query() const { return asked ? total_ns / static_cast<double>(asked) : 0; }
@@ -59,21 +57,17 @@ Round run_round(Questions questions, const std::vector<const SceneEngine*>& engi
   std::vector<oracle::Request> requests(questions.size());
   for (std::size_t i = 0; i < questions.size(); ++i)
     if (questions[i].has_limit()) requests[i].max_time = questions[i].max_time;
-  InstructionCounter instructions;
   double spent = 0;
   round.time_blocks(questions.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-    instructions.resume();
     spent -= thread_ns();
     const auto start = SteadyClock::now();
     for (std::size_t i = begin; i < end; ++i)
       engines[i]->ask(questions[i].query, requests[i], replies[i - begin]);
     const double ns = ns_since(start);
     spent += thread_ns();
-    instructions.pause();
     report(listener, name, end, questions.size());
     return ns;
   });
-  round.instructions = instructions.count();
   round.processor_ns = spent;
   return round;
 }
@@ -103,19 +97,15 @@ Round run_round(const std::deque<ColumnsThere>& all, const std::string& name, co
   constexpr std::size_t kTogether = 1024;  // their columns stay in the cache
   Round round;
   FlightTable flights;
-  InstructionCounter instructions;
   for (const ColumnsThere& there : all)
     round.time_blocks(there.queries.size(), kTogether, [&](std::size_t begin, std::size_t end) {
       const QueryColumns queries = there.queries.columns().part(begin, end - begin);
-      instructions.resume();
       const auto start = SteadyClock::now();
       there.engine.fly(queries, flights);
       const double ns = ns_since(start);
-      instructions.pause();
       return ns;
     });
   report(listener, name, round.asked, round.asked);
-  round.instructions = instructions.count();
   return round;
 }
 
@@ -200,8 +190,6 @@ class Entrant {
     speed.ns_per_query = middle.ns_per_query();
     if (middle.processor_ns && middle.asked)
       speed.processor_ns = *middle.processor_ns / static_cast<double>(middle.asked);
-    if (middle.instructions)
-      speed.instructions = static_cast<double>(*middle.instructions) / static_cast<double>(middle.asked);
     speed.ns_median = quantile(middle.block_means, 0.5);
     speed.ns_low = quantile(middle.block_means, 0.25);
     speed.ns_high = quantile(middle.block_means, 0.75);

@@ -19,10 +19,8 @@ struct Speed {
                          ///< library); for a command, whose answers come at irregular times, the mean
   double ns_low = 0, ns_high = 0;           ///< the quartiles of these means
   std::optional<double> processor_ns = {};  ///< ns_per_query in processor time, if known
-  std::optional<double> instructions =
-      {};                             ///< per query, if InstructionCounter counts; not for an external engine
-  std::optional<double> own_ns = {};  ///< per query, in the engine's own calls, as it reports (OwnTime)
-  bool failed = false;                ///< an external engine that broke on the way
+  std::optional<double> own_ns = {};        ///< per query, in the engine's own calls, as it reports (OwnTime)
+  bool failed = false;                      ///< an external engine that broke on the way
 };
 
 /// What one engine did over some questions.

@@ -211,7 +211,7 @@ std::string bench_csv(const std::vector<Cell>& cells) {
       "scene,radius,difficulty,engine,queries,ns_mean,ns_median,ns_quartile_1,ns_quartile_3,undecided,wrong,"
       "wrong_time,mean_ulp,ulp_99_percent,max_ulp,path_mean,ill_posed,undecided_low,undecided_high,"
       "ill_posed_low,ill_posed_high,wrong_low,wrong_high,wrong_time_low,wrong_time_high,"
-      "condition_99_percent,max_condition,instructions\n";
+      "condition_99_percent,max_condition\n";
   for (const Cell& cell : cells) {
     if (cell.skipped) continue;
     csv += fmt::format(
@@ -226,9 +226,7 @@ std::string bench_csv(const std::vector<Cell>& cells) {
       const Share share = share_of(cell.counts[count], cell.queries);
       csv += fmt::format(",{:.4g},{:.4g}", share.low, share.high);
     }
-    csv += fmt::format(
-        ",{:.4g},{:.4g},{}\n", cell.conditions.p99, cell.conditions.max,
-        cell.speed && cell.speed->instructions ? fmt::format("{:.1f}", *cell.speed->instructions) : "");
+    csv += fmt::format(",{:.4g},{:.4g}\n", cell.conditions.p99, cell.conditions.max);
   }
   return csv;
 }

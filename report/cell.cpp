@@ -65,7 +65,6 @@ void append_json(std::string& out, const Cell& cell) {
                cell.speed && !cell.skipped
                    ? std::optional([&](json::Members& ns) { add_times(ns, *cell.speed); })
                    : std::nullopt,
-               "instructions", cell.speed && !cell.skipped ? cell.speed->instructions : std::nullopt,
                "mean_path", measured(cell.mean_path), "ulps", measured(members_of(cell.ulps)), "conditions",
                measured(members_of(cell.conditions)), "calls", measured(cell.calls), "worst",
                cell.worst && !cell.skipped

@@ -23,18 +23,17 @@ std::vector<std::string> hexadecimal(const Vec& a, int dimension) {
   return texts;
 }
 
-std::string hexadecimal_query(const Query& query, const Components& count) {
+std::string hexadecimal_query(const Query& query, const Components& count, double max_time) {
   return json::text_of([&](json::Members& object) {
     object.add("x", hexadecimal(query.x, count.of_vectors()), "v", hexadecimal(query.v, count.of_vectors()));
     if (query.from) object.add("from", [&](json::Members& from) { add_obstacle(from, *query.from, count); });
+    if (std::isfinite(max_time)) object.add("max_time", max_time);
   });
 }
 
 std::string query_members(const Query& query, const Components& count, double max_time) {
-  const std::string object = report::hexadecimal_query(query, count);
-  const std::string limit =
-      std::isfinite(max_time) ? fmt::format(",\"max_time\":{}", json::text_of(max_time)) : "";
-  return object.substr(1, object.size() - 2) + limit;
+  const std::string object = report::hexadecimal_query(query, count, max_time);
+  return object.substr(1, object.size() - 2);
 }
 
 std::string printed(const Scene& scene, const std::string& query_members, std::size_t times) {

@@ -17,7 +17,8 @@ std::string scene_line(const Scene& scene);
 std::vector<std::string> hexadecimal(const Vec& a, int dimension);
 
 /// {"x":["0x1.8p-1","0x0p+0"],"v":[..]}, with `from` if the query has it. A 2D query has two components.
-std::string hexadecimal_query(const Query& query, const Components& count);
+std::string hexadecimal_query(const Query& query, const Components& count,
+                              double max_time = std::numeric_limits<double>::infinity());
 
 /// The same without braces.
 std::string query_members(const Query& query, const Components& count,

@@ -6,7 +6,6 @@
 #include <lorentz/engine.hpp>
 #include <lorentz/exchange.hpp>
 #include "question/engines.hpp"
-#include "question/instruction_counter.hpp"
 #include "src/exchange/nearest_name.hpp"
 
 using namespace lorentz;
@@ -100,19 +99,6 @@ TEST_CASE("Columns: each row leaves its own obstacle, also one in a far cell of 
     CHECK((answers.stage[i] == AnswerRows::kNoStage) == (i % 2 == 1));
     CHECK(answers.time[i] == 0.25);
   }
-}
-
-TEST_CASE("Instructions are counted, or it is said that they cannot be", "[compare][engines]") {
-  InstructionCounter counter;
-  CHECK_FALSE(counter.count());
-  counter.resume();
-  volatile double sum = 0;
-  for (int i = 0; i < 10'000; ++i) sum = sum + i;
-  counter.pause();
-  const auto first = counter.count();
-  if (!first) return;
-  CHECK(*first > 10'000);
-  CHECK(counter.count() == first);  // it pauses
 }
 
 TEST_CASE("An engine that answers many at a time does so scene by scene, and soon", "[compare][engines]") {

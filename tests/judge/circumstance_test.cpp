@@ -88,7 +88,7 @@ TEST_CASE("Each property that failing questions share has its sentence", "[judge
         "where x lies on the surface of the obstacle in question");
   CHECK(told([](Features& f) { f.start_gap = 3e-13; }) ==
         "where x lies within 1e-12 radii of the surface of the obstacle in question");
-  CHECK(told([](Features& f) { f.start_gap = 0.5; }) == "");  // that is no surface
+  CHECK(told([](Features& f) { f.start_gap = 0.5; }) == "");  // the surface is far
   CHECK(told([](Features&) {}, [](Features& f) { f.centre = 0; }) ==
         "where the obstacle's centre is not at 0");
   CHECK(told([](Features& f) { f.time = f.flight = 0; }) == "where the exact time is 0");
@@ -157,7 +157,7 @@ TEST_CASE("A property of scenes must weigh twice as much as one of the question"
   CHECK(among(100, 8) == "in-3d");
 }
 
-TEST_CASE("What a cause implies is no circumstance: right answers are compared that have it, too",
+TEST_CASE("What a cause implies does not count: right answers are compared that have it, too",
           "[judge][circumstance]") {
   const auto grazing = alike(20, [](Features& f) { f.depth = 1e-9, f.negative_start = true; });
   std::vector<Features> right = alike(200);

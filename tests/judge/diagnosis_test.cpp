@@ -34,6 +34,20 @@ std::string cause(const Question& question, const Answer& given) {
 
 }  // namespace
 
+TEST_CASE("later, though an obstacle is entered before the limit, is a cause of its own",
+          "[judge][diagnosis]") {
+  Question along = asked(0.25, {0.5, 0, 0}, {1, 0, 0});  // the disc (1, 0) is hit at 0.25
+  const auto cause_of = [&](const Answer& given) {
+    const auto its = diagnosis_of(along, given, question::judgement_of(along, given, 4));
+    return its ? std::string(name_of(its->cause)) : "none";
+  };
+  along.max_time = 1;
+  CHECK(cause_of(Answer::later()) == "later-for-hit");
+  CHECK(cause_of(Answer::never()) == "never-for-hit");
+  along.max_time = 0.125;
+  CHECK(cause_of(Answer::later()) == "none");
+}
+
 TEST_CASE("Each way of being wrong has its name", "[judge][diagnosis]") {
   // Midway between two discs, along the row: the disc (1, 0) is hit at 0.25.
   const Question along = asked(0.25, {0.5, 0, 0}, {1, 0, 0});

@@ -97,7 +97,7 @@ TEST_CASE("Exact answers to retold flights are those of the plain ones, retold",
       const std::vector<Question> told = all_of(how, places);
       REQUIRE(told.size() == plain.size());
       for (std::size_t i = 0; i < told.size(); ++i) {
-        CAPTURE(words_of(how).name, i, plain[i].where);
+        CAPTURE(row_words_of(how).name, i, plain[i].where);
         REQUIRE(told[i].place->has_numbers_for(told[i].query));
         const bool repeats = plain[i].where.find("ball") == std::string::npos;
         if (how == Retelling::moved)

@@ -65,3 +65,41 @@ TEST_CASE("The simplest case keeps the cause, where simpler ones go wrong in ano
   CHECK(fuzz::complexity(kept.question.place->scene(), kept.question.query) <
         fuzz::complexity(place->scene(), example.question.query));
 }
+
+namespace {
+
+// Compares the limit with the length of the flight instead of its time.
+class ByLength final : public question::Answerer {
+ public:
+  void ask(const Id&, const Query& query) override { deliver({oracle_->first_hit(query)}); }
+  void ask_until(const Id&, const Query& query, double max_time) override {
+    const Answer exact = oracle_->first_hit(query);
+    deliver({exact.time && *exact.time * length(query.v) > max_time ? Answer::later() : exact});
+  }
+
+ private:
+  void enter(const Scene& scene) override { oracle_.emplace(scene); }
+  std::optional<oracle::Oracle> oracle_;
+};
+
+}  // namespace
+
+TEST_CASE("The simplest case keeps its limit, as near to the hit", "[judge][simplest]") {
+  const auto engine = question::guest_engine(
+      "by length", [](const question::AnswererOptions&) { return std::make_unique<ByLength>(); });
+  const std::atomic<bool> stop = false;
+  TimedExamination examination(order_of(engine), {}, stop);
+  const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
+  const Query query{{0.4375 + 0x1p-20, 0.0625, 0}, {3.25 + 0x1p-20, 0.125, 0}, {}};
+  const Answer exact = place->exact(query);
+  const auto example = example_of(
+      {.place = place, .query = query, .exact = exact, .where = "here", .max_time = 2 * *exact.time},
+      examination);
+  REQUIRE(example);
+  REQUIRE(example->diagnosis.cause == Cause::later_for_hit);
+  const Example kept = simplest({*example, "here", 1, {}}, examination, 60);
+  CHECK(kept.diagnosis.cause == Cause::later_for_hit);
+  CHECK(kept.question.max_time == Approx(2 * *kept.question.exact.time));
+  CHECK(fuzz::complexity(kept.question.place->scene(), kept.question.query) <
+        fuzz::complexity(place->scene(), query));
+}

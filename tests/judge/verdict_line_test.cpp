@@ -129,8 +129,9 @@ TEST_CASE("Three lines come first: what, how bad, and the worst of it", "[judge]
     return text.starts_with("what:    cmd:it; judged in binary64, times to 4 ulps of the inputs\nhow bad: " +
                             how_bad + "\nworst:   " + worst + "\n\n");
   };
-  CHECK(begins("none wrong of 46 000 drawn; hard cases: none wrong (of 3 210)",
-               "nothing wrong was found: of flights like the drawn ones fewer than 0.0065 % are wrong (with 95 %)"));
+  CHECK(begins(
+      "none wrong of 46 000 drawn; hard cases: none wrong (of 3 210)",
+      "nothing wrong was found: of flights like the drawn ones fewer than 0.0065 % are wrong (with 95 %)"));
   turn(report.rows[1], Count::wrong, 151);
   turn(report.rows[1], Count::undecided, 492);
   turn(report.rows[0], Count::unsupported, 6000);

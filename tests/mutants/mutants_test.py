@@ -43,7 +43,7 @@ class Equivalent(unittest.TestCase):
 
 class Folders(unittest.TestCase):
     def test_each_is_there(self):
-        """Of a folder that moved no mutant would be drawn, and none would survive."""
+        """No mutant would be drawn of a folder that moved, and none would survive."""
         here = pathlib.Path(__file__).resolve().parent
         listed = re.search(r"FOLDERS = \[(.*?)\]", (here / "run").read_text(), re.S)[1]
         folders = re.findall(r'"([^"]+)"', listed)

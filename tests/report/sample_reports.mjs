@@ -272,7 +272,6 @@ function cell(draw, scene, radius, difficulty, [engine, ns, wrong, slope, ulps])
     queries,
     skipped: false,
     ns: { median, q1: median * 0.93, q3: median * 1.12, mean: median * 1.04 },
-    instructions: Math.round(median * 7.1),
     mean_path: 1 / (2 * radius),
     undecided: share(engine === "reduction" ? 4 : 0, queries),
     ill_posed: share(0, queries),

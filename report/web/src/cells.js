@@ -106,7 +106,6 @@ export function cellsSection(report, looks) {
     ),
     figureColumn("max ulps", (c) => c.ulps?.max),
     { name: "worst input", value: (c) => c.worst?.ulps ?? null, cell: worst },
-    figureColumn("instructions", (c) => c.instructions, number, "a query"),
     figureColumn("mean path", (c) => c.mean_path),
     figureColumn("queries", (c) => c.queries, count),
   ].filter(

@@ -19,15 +19,6 @@ const COSTS = [
     low: (c) => c.ns?.q1,
     high: (c) => c.ns?.q3,
   },
-  {
-    value: "instructions",
-    text: "instructions",
-    axis: "instructions a query",
-    show: number,
-    of: (c) => c.instructions,
-    low: () => null,
-    high: () => null,
-  },
 ];
 
 const signed = (value) => value.toFixed(3).replace("-", "−");
@@ -81,7 +72,7 @@ export function timeRadius(report, looks) {
         high: cost.high(cell) ?? null,
       }));
     if (!points.length) return null;
-    const fits = fitsOf(points, cost.value === "ns" ? (report.fits ?? []) : []),
+    const fits = fitsOf(points, report.fits ?? []),
       look = (p) => looks.get(p.cell.engine);
     const svg = plot({
       width,
@@ -161,7 +152,7 @@ function shown(svg, points, fits, cost, looks) {
       lines: [
         p.cell.engine,
         nameOfCell(p.cell),
-        `${cost.show(p.y)} ${cost.value === "ns" ? "a query" : "instructions"}`,
+        `${cost.show(p.y)} a query`,
         ...(isNumber(p.low) ? [`quartiles ${cost.show(p.low)} and ${cost.show(p.high)}`] : []),
         `fit: ${fitText(fitOf(p.cell.engine))}`,
       ],
