@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 
+#include <lorentz/geometry.hpp>
 #include "fuzz/campaign/shrink.hpp"
 #include "question/starts/free_starts.hpp"
 
