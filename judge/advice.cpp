@@ -18,6 +18,18 @@ constexpr const char *kFormulas = "docs/ray_and_ball.md#a-ray-and-a-ball",
                      *kProgram = "docs/judging_yours.md#a-program-in-any-language",
                      *kScenes = "docs/formats.md#scenes", *kAnswers = "docs/formats.md#answers";
 
+// What several faults have in common.
+constexpr const char *kEnds =
+                         "the walk ends after a fixed number of cells: answer undecided there, or declare "
+                         "it (--domain flight=..N)",
+                     *kCancelsFar =
+                         "b^2 - a c cancels far from the obstacle: use the projection, p = x - (b / a) v",
+                     *kAtEdge =
+                         "b^2 - a c cancels at the edge, or a tolerance decides there: compare p.p with "
+                         "r^2, p = x - (b / a) v",
+                     *kEarly =
+                         "a least time (t > t_min) drops early hits: leave out the obstacle from by its name";
+
 // What advice is about: a quantity, a circumstance, a cause, or a cause and a circumstance
 // ("cause+circumstance").
 struct Advice {
@@ -31,14 +43,8 @@ constexpr Advice kAdvice[] = {
     {kNearest, "half the chord is missing: subtract sqrt((r^2 - p.p) / a) from -b / a", kFormulas},
     {kFraction, "the root counts in lengths of the segment: multiply it by max_time", kLimited},
 
-    {"never-for-hit+long-flight",
-     "the walk ends after a fixed number of cells: answer undecided there, or declare it (--domain "
-     "flight=..N)",
-     kLimited},
-    {"never-for-grazing+long-flight",
-     "the walk ends after a fixed number of cells: answer undecided there, or declare it (--domain "
-     "flight=..N)",
-     kLimited},
+    {"never-for-hit+long-flight", kEnds, kLimited},
+    {"never-for-grazing+long-flight", kEnds, kLimited},
     {"wrong-time+long-flight", "the time is added up (t += dt): compute it from x, v and the obstacle alone",
      kRemedies},
 
@@ -49,10 +55,8 @@ constexpr Advice kAdvice[] = {
      "the start is on the surface within rounding, where a sign or a tolerance decides: decide by from",
      kRemedies},
     {"at-once", "a hit at time 0 is lost: take t >= 0 where the line goes inwards, (x - c).v < 0", kRemedies},
-    {"short-time",
-     "a least time (t > t_min) drops early hits: leave out the obstacle from by its name instead", kRemedies},
-    {"short-flight",
-     "a least time or length drops early hits: leave out the obstacle from by its name instead", kRemedies},
+    {"short-time", kEarly, kRemedies},
+    {"short-flight", kEarly, kRemedies},
     {"speed-not-1",
      "the formula takes v for a unit vector: divide by v.v, or normalise v and divide t by |v|", kLimited},
     {"x-negative", "the cell of x is truncated, which rounds negative numbers up: use floor", kLimited},
@@ -68,13 +72,9 @@ constexpr Advice kAdvice[] = {
     {"ellipsoids", "an ellipsoid is a ball in other coordinates: both x and v must be changed to them",
      kScenes},
     {"other-cell", "x and v must be changed to the coordinates of the cell, v without the origin", kScenes},
-    {"depth",
-     "b^2 - a c cancels at the edge, or a tolerance decides there: compare p.p with r^2, p = x - (b / a) v",
-     kRemedies},
-    {"far-obstacle", "b^2 - a c cancels far from the obstacle: use the projection, p = x - (b / a) v",
-     kRemedies},
-    {"long-flight-in-radii", "b^2 - a c cancels far from the obstacle: use the projection, p = x - (b / a) v",
-     kRemedies},
+    {"depth", kAtEdge, kRemedies},
+    {"far-obstacle", kCancelsFar, kRemedies},
+    {"long-flight-in-radii", kCancelsFar, kRemedies},
     {"long-flight", "positions or times are added up from cell to cell: compute each anew from x and v",
      kLimited},
     {"far-start", "far from the origin x - c is rounded: subtract the cell of x first, which is exact",
@@ -96,10 +96,8 @@ constexpr Advice kAdvice[] = {
      kMaxTime},
     {"never-for-hit", "the walk leaves out cells or ends too early, or a root is lost", kLimited},
     {"false-hit", "the discriminant is wrong: check a = v.v, the centre, and r^2", kFormulas},
-    {"passed-over-grazing", "b^2 - a c cancels at the edge, or a tolerance decides there: use the projection",
-     kRemedies},
-    {"never-for-grazing", "b^2 - a c cancels at the edge, or a tolerance decides there: use the projection",
-     kRemedies},
+    {"passed-over-grazing", kAtEdge, kRemedies},
+    {"never-for-grazing", kAtEdge, kRemedies},
     {"false-hit-grazing", "b^2 - a c cancels at the edge, or a line that only touches counts (>= for >)",
      kRemedies},
     {"behind", "a negative time counts as a hit: both roots are negative behind the start", kFormulas},

@@ -214,7 +214,6 @@ constexpr Limit kLimits[] = {
      "where x lies within {:g} radii of the surface of the obstacle in question"},
     {"short-time", &Features::time, LimitSide::below, 0.1, "where the exact time is below {:g}"},
     {"small-radius", &Features::radius, LimitSide::below, 0.1, "at radii below {:g} lattice vectors"},
-    {"large-radius", &Features::radius, LimitSide::from, 0.1, "at radii of {:g} lattice vectors or more"},
     {"long-flight", &Features::flight, LimitSide::from, 1, "after flights of {:g} lattice vectors or more"},
     {"short-flight", &Features::flight, LimitSide::below, 10, "on flights shorter than {:g} lattice vectors"},
     {"far-start", &Features::start, LimitSide::from, 10,

@@ -26,7 +26,6 @@ Starts starts_in(const Place& place, starts::Kind kind, std::uint64_t seed) {
              std::uint64_t index) { return starts::VariedStart{(*all)[index]}; };
 }
 
-// Starts of a kind in all places in turn.
 class Drawn {
  public:
   Drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count,

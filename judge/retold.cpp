@@ -24,10 +24,6 @@ int bits_to_move(NumberFormat format) {
   return std::min(kFarthest, bits_of(format) - grid_of(format) - 2);
 }
 
-Vec negated(const Vec& a) {
-  return scaled(a, -1);
-}
-
 class Retold {
  public:
   Retold(const std::vector<NamedPlace>& places, Retelling how, std::uint64_t seed, std::size_t count,
@@ -56,7 +52,7 @@ class Retold {
   Scene retold(Scene scene) const {
     const bool repeats = scene.lattices[0].rank(scene.dimension) > 0;
     for_each_atom(scene, [&](Atom& atom) {
-      if (how_ == Retelling::mirrored) atom.position = negated(atom.position);
+      if (how_ == Retelling::mirrored) atom.position = scaled(atom.position, -1);
       if (how_ == Retelling::moved && !repeats) atom.position = sum(atom.position, away_);
     });
     return scene;
@@ -75,7 +71,7 @@ class Retold {
   Query retold(Random& random, const Place& place, Query query) const {
     const Scene& scene = place.scene();
     const Lattice& lattice = scene.lattices[0];
-    if (how_ == Retelling::mirrored) query.x = negated(query.x), query.v = negated(query.v);
+    if (how_ == Retelling::mirrored) query.x = scaled(query.x, -1), query.v = scaled(query.v, -1);
     if (how_ == Retelling::faster) query.v = scaled(query.v, std::ldexp(1, random.exponent(-kSpeed, kSpeed)));
     if (how_ != Retelling::moved) return query;
     const int bits = random.exponent(0, bits_to_move(place.claim().precision)),

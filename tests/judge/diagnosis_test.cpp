@@ -180,13 +180,13 @@ TEST_CASE("A circumstance is true of all that fail, and of few that do not", "[j
   CHECK(circumstance_of(failing, right)->share == Approx(0.25));
   failing[4].in_space = false;
   CHECK_FALSE(circumstance_of(failing, right));  // not of all
-  failing.assign(4, failing[0]);
+  failing.assign(5, failing[0]);
   CHECK(circumstance_of(failing, right)->share == Approx(0.09));
   failing.resize(2);
   CHECK_FALSE(circumstance_of(failing, right));  // two of a tenth may be chance
   for (Features& f : failing) f.depth = 3e-10;
   CHECK_FALSE(circumstance_of(failing, {}));
-  failing.resize(3, failing[0]);
+  failing.resize(4, failing[0]);
   REQUIRE(circumstance_of(failing, right));
   CHECK(circumstance_of(failing, right)->name == "depth");
   // Less than a whole radius is every obstacle entered: that says nothing, even if it tells them apart.
@@ -199,14 +199,14 @@ TEST_CASE("A circumstance is true of all that fail, and of few that do not", "[j
   for (Features& f : right) f.depth = 0.5;
   REQUIRE(circumstance_of(failing, right));
   CHECK(circumstance_of(failing, right)->name == "depth");
-  // If 3 failures share something that no right answer has, as many right ones are needed as leave 1 in 1000
-  // to chance: (3 / n)^3 <= 1 / 1000.
+  // If 3 failures share something that no right answer has, as many right ones are needed as leave 1 in 50 000
+  // to chance: (3 / n)^3 <= 1 / 50 000.
   failing.assign(3, Features{}), failing[0].in_space = failing[1].in_space = failing[2].in_space = true;
-  CHECK_FALSE(circumstance_of(failing, std::vector<Features>(29)));
-  REQUIRE(circumstance_of(failing, std::vector<Features>(31)));
+  CHECK_FALSE(circumstance_of(failing, std::vector<Features>(110)));
+  REQUIRE(circumstance_of(failing, std::vector<Features>(111)));
   failing.resize(1);
-  CHECK_FALSE(circumstance_of(failing, std::vector<Features>(2999)));
-  CHECK(circumstance_of(failing, std::vector<Features>(3001)));
+  CHECK_FALSE(circumstance_of(failing, std::vector<Features>(149'999)));
+  CHECK(circumstance_of(failing, std::vector<Features>(150'001)));
 }
 
 TEST_CASE("What only touches the line is told of as that", "[judge][diagnosis]") {
