@@ -90,10 +90,10 @@ class Retold {
         question_in(place, retold(random, *place, plain),
                     fmt::format("{}, {}", row_words_of(how_).name, places_[which].name), outside_);
     if (!question || how_ != Retelling::limited) return question;
-    const double time = question->exact.time.value_or(1 / length(plain.v));
+    const double time = question->exact.time.value_or(1 / length(question->query.v));
     question->max_time = rounded(time * random.octave(-2, 2), place->claim().precision);
-    if (place->claim().domain.limits) return question;
-    return ++outside_, std::nullopt;
+    if (!place->claim().domain.limits) return ++outside_, std::nullopt;
+    return question->max_time > 0 ? question : std::nullopt;  // 0 is no limit
   }
 
   const std::vector<NamedPlace>& places_;

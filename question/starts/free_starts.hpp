@@ -59,8 +59,10 @@ class FreeStarts {
   /// The starts [first, first + count).
   std::vector<Query> some(std::uint64_t first, std::size_t count) const;
 
- private:
+  /// True if the start lies in no open obstacle except `from`. Exact.
   bool is_free(const Query& start) const;
+
+ private:
   /// True if the candidate could be made into a start of the kind.
   bool make(cases::Random& random, Query& start) const;
   /// True if the start is valid after rounding, too.
