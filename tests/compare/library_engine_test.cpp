@@ -513,7 +513,8 @@ TEST_CASE("A library may be named wherever an engine is", "[compare][library_eng
     CHECK(run.status <= 1);  // it is a naive engine
     CHECK(contains(run.out, says));
   };
-  works("compare --json --scene cubic --count 50", R"("queries":50,"agree":49,"ill_posed":0,"wrong":0,"wrong_time":0,)");
+  works("compare --json --scene cubic --count 50",
+        R"("queries":50,"agree":49,"ill_posed":0,"wrong":0,"wrong_time":0,)");
   works("golden check --json --first 20 generic-2d", R"("engine":"lib:)");
   works("fuzz --json -t generic-2d --count 64 --mutate 0 --reword 0", R"("lib:)");
   works("judge --json --quick --time 2", R"("engine":"lib:)");
