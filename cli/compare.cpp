@@ -157,15 +157,12 @@ Command compare_command() {
                      "--strict",    "--baseline",       "--junit"}),
 
       "wrong: another obstacle or outcome than any error of k ulps in the inputs explains. wrong time: the "
-      "right obstacle,\n"
-      "but the time is off by more than k times what such errors make of it (docs/verdicts.md).\n"
-      "Errors of t are in ulps from the correctly rounded time. Times are of the engine alone, on one "
-      "thread, over the\nfirst 10 000 queries; of a cmd: engine by the wall, pipes included; of a lib: "
-      "engine in its own calls.\n"
-      "Without --engine and --answers: classical and published. Exit status 1: an answer is wrong, an error "
-      "or "
-      "missing;\n3: a cmd: or lib: engine broke.\n"
-      "Example:\n  lorentz compare --scene cubic --radius 0.2 --count 20000 --engine published,classical",
+      "right obstacle,\nbut the time is off by more than k times what such errors make of it "
+      "(docs/verdicts.md).\nErrors of t are in ulps from the correctly rounded time. Times are of the engine "
+      "alone, on one thread, over the\nfirst 10 000 queries; of a cmd: engine by the wall, pipes included; "
+      "of a lib: engine in its own calls.\nWithout --engine and --answers: classical and published. Exit "
+      "status 1: an answer is wrong, an error or missing;\n3: a cmd: or lib: engine broke.\nExample:\n"
+      "  lorentz compare --scene cubic --radius 0.2 --count 20000 --engine published,classical",
       [options] { return act(*options); }};
 }
 

@@ -149,11 +149,9 @@ Command judge_command() {
                      "--all",           "--baseline", "--junit",     "--times",          "--strict"}),
 
       "docs/judge.md says what is asked, what --timeout means without --questions, and what the verdict "
-      "means. "
-      "--jobs: threads of the campaign; all else is asked on one. --baseline and --junit need --questions. "
-      "Exit "
-      "status 1: an answer is wrong or missing, or a valid question was called an error;\n3: a cmd: or lib: "
-      "engine broke, or was given up or too slow in a scene.\n"
+      "means. --jobs: threads of the campaign; all else is asked on one. --baseline and --junit need "
+      "--questions. Exit status 1: an answer is wrong or missing, or a valid question was called an error;\n"
+      "3: a cmd: or lib: engine broke, or was given up or too slow in a scene.\n"
       "Example:\n  lorentz judge --quick --engine 'cmd:python3 docs/examples/naive_engine.py'",
       [options] { return act(*options); }};
 }

@@ -26,9 +26,7 @@ constexpr const char *kEnds =
                          "b^2 - a c cancels far from the obstacle: use the projection, p = x - (b / a) v",
                      *kAtEdge =
                          "b^2 - a c cancels at the edge, or a tolerance decides there: compare p.p with "
-                         "r^2, p = x - (b / a) v",
-                     *kEarly =
-                         "a least time (t > t_min) drops early hits: leave out the obstacle from by its name";
+                         "r^2, p = x - (b / a) v";
 
 // What advice is about: a quantity, a circumstance, a cause, or a cause and a circumstance
 // ("cause+circumstance").
@@ -45,6 +43,7 @@ constexpr Advice kAdvice[] = {
 
     {"never-for-hit+long-flight", kEnds, kLimited},
     {"never-for-grazing+long-flight", kEnds, kLimited},
+    {"later-for-hit+long-flight", kEnds, kLimited},
     {"wrong-time+long-flight", "the time is added up (t += dt): compute it from x, v and the obstacle alone",
      kRemedies},
 
@@ -55,8 +54,8 @@ constexpr Advice kAdvice[] = {
      "the start is on the surface within rounding, where a sign or a tolerance decides: decide by from",
      kRemedies},
     {"at-once", "a hit at time 0 is lost: take t >= 0 where the line goes inwards, (x - c).v < 0", kRemedies},
-    {"short-time", kEarly, kRemedies},
-    {"short-flight", kEarly, kRemedies},
+    {"short-time", "a least time (t > t_min) drops early hits: leave out the obstacle from by its name",
+     kRemedies},
     {"speed-not-1",
      "the formula takes v for a unit vector: divide by v.v, or normalise v and divide t by |v|", kLimited},
     {"x-negative", "the cell of x is truncated, which rounds negative numbers up: use floor", kLimited},
@@ -107,7 +106,9 @@ constexpr Advice kAdvice[] = {
     {"inside-another", "of several obstacles name the smallest (lattice, atom, cell)", kAnswers},
     {"tie", "of hits at the same time name the smallest obstacle (lattice, atom, cell)", kAnswers},
     {"no-obstacle", "lattices and atoms are numbered from 0", kAnswers},
-    {"not-the-time", "the time is counted in units of v: the point of entry is x + t v", kFormulas},
+    {"not-the-time",
+     "t solves another equation than |x + t v - c| = r; no distance, exit, closest approach or fraction",
+     kFormulas},
     {"wrong-time", "-b - sqrt(b^2 - a c) cancels, or the time is added up: use the projection", kRemedies},
     {"refused", "answer every valid question, or unsupported", kProgram},
     {"no-answer", "answer each question with one line, and flush it", kProgram},

@@ -203,7 +203,7 @@ struct Limit {
   double Features::*quantity;
   LimitSide bound;
   double telling;    // the largest, or the smallest, limit that says something; of radii the exponent
-  const char* text;  // with the limit, or with the exponent of two
+  const char* text;  // with the limit, or with the exponent of two; and the plural's s
 };
 constexpr Limit kLimits[] = {
     {"depth", &Features::depth, LimitSide::below, 0.1,
@@ -213,11 +213,12 @@ constexpr Limit kLimits[] = {
     {"near-surface", &Features::start_gap, LimitSide::below, 0.01,
      "where x lies within {:g} radii of the surface of the obstacle in question"},
     {"short-time", &Features::time, LimitSide::below, 0.1, "where the exact time is below {:g}"},
-    {"small-radius", &Features::radius, LimitSide::below, 0.1, "at radii below {:g} lattice vectors"},
-    {"long-flight", &Features::flight, LimitSide::from, 1, "after flights of {:g} lattice vectors or more"},
-    {"short-flight", &Features::flight, LimitSide::below, 10, "on flights shorter than {:g} lattice vectors"},
+    {"small-radius", &Features::radius, LimitSide::below, 0.1, "at radii below {:g} lattice vector{}"},
+    {"long-flight", &Features::flight, LimitSide::from, 1, "after flights of {:g} lattice vector{} or more"},
+    {"short-flight", &Features::flight, LimitSide::below, 10,
+     "on flights shorter than {:g} lattice vector{}"},
     {"far-start", &Features::start, LimitSide::from, 10,
-     "from starts {:g} lattice vectors or more from the origin"},
+     "from starts {:g} lattice vector{} or more from the origin"},
     {"far-cell", &Features::cell, LimitSide::from, 100, "in far cells, with numbers of {:g} or more"},
     {"far-obstacle", &Features::distance, LimitSide::from_afar, 10,
      "from starts 2^{:g} radii or more from the obstacle in question"},
@@ -240,9 +241,7 @@ std::optional<Circumstance> circumstance_with(const Limit& its, double exponent)
   if (is_below ? said > its.telling * (1 + 1e-9) : said < its.telling * (1 - 1e-9)) return std::nullopt;
   Circumstance one;
   one.name = its.name;
-  one.text = fmt::format(fmt::runtime(its.text), said);
-  constexpr std::string_view kOne = " 1 lattice vectors";
-  if (const auto at = one.text.find(kOne); at != std::string::npos) one.text.erase(at + kOne.size() - 1, 1);
+  one.text = fmt::format(fmt::runtime(its.text), said, said == 1 ? "" : "s");
   one.holds = [=](const Features& f) { return is_below ? f.*quantity < limit : f.*quantity >= limit; };
   one.quantity = quantity;
   one.is_limit = true;
@@ -336,12 +335,12 @@ bool weigh(Circumstance& one, const std::vector<Features>& failing, const std::v
 }  // namespace
 
 std::optional<Circumstance> circumstance_of(const std::vector<Features>& failing,
-                                            const std::vector<Features>& right, double least) {
+                                            const std::vector<Features>& right, double least, double below) {
   if (failing.empty()) return std::nullopt;
   const std::vector<Features> compared = comparable(failing, right);
   std::optional<Circumstance> heaviest;
   for (Circumstance& one : circumstances_for(failing))
-    if (weigh(one, failing, compared) && one.part() >= least &&
+    if (weigh(one, failing, compared) && one.part() >= least && one.part() < below &&
         (!heaviest || one.weight > (one.is_of_scene ? kBetterOfScene : kBetter) * heaviest->weight))
       heaviest = std::move(one);
   return heaviest;

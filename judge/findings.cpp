@@ -123,16 +123,21 @@ std::optional<std::pair<Finding, Finding>> split_by_quantity(Finding& finding) {
 
 // ---- Circumstances
 
-// The circumstance that sets a clear part of a finding apart, if none of nearly all questions does better. The part
-// must be no accident of a few.
+// The circumstance that sets a clear part of a finding apart: none of nearly all questions does better, or what is
+// left has one without exception. The part must be no accident of a few.
 std::optional<Circumstance> clear_part(const std::vector<Features>& failing,
                                        const std::vector<Features>& right,
                                        const std::optional<Circumstance>& of_all) {
   constexpr double kClearlyBetter = 1.5;
   constexpr std::size_t kFewest = 4;
-  const auto part = circumstance_of(failing, right, kClearPart);
-  if (!part || part->part() >= kNearlyAll || part->number < kFewest) return std::nullopt;
-  return of_all && part->weight < kClearlyBetter * of_all->weight ? std::nullopt : part;
+  const auto part = circumstance_of(failing, right, kClearPart, kNearlyAll);
+  if (!part || part->number < kFewest) return std::nullopt;
+  if (!of_all || part->weight >= kClearlyBetter * of_all->weight) return part;
+  if (of_all->part() == 1) return std::nullopt;
+  std::vector<Features> left = failing;
+  std::erase_if(left, [&](const Features& f) { return part->can_hold(f) && part->holds(f); });
+  const auto of_left = circumstance_of(left, right);
+  return of_left && of_left->part() == 1 ? part : std::nullopt;
 }
 
 // Adds the finding with its circumstance; as several, if circumstances set clear parts apart, up to `most`.

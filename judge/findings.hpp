@@ -75,7 +75,8 @@ inline constexpr double kNearlyAll = 0.9;
 /// If one covers at least this part, and no other covers the finding as well, the finding is two.
 inline constexpr double kClearPart = 0.1;
 
-/// The property of at least a part `least` of the failing questions that chance explains least.
+/// The property of at least a part `least`, and of less than `below`, of the failing questions that chance
+/// explains least.
 ///  - Right answers are compared if they have the quantity, and the exact outcome of nearly all failing
 ///    questions; there must be 20 of them. At most half of them may have the property; fewer, if some failing
 ///    questions lack it.
@@ -84,7 +85,8 @@ inline constexpr double kClearPart = 0.1;
 ///    the binomial tail; p^n if all have it). This must be at most 1 in 50 000. The largest q D is chosen.
 ///  - Limits are powers of ten, or of two for lengths in radii, at quantiles of the failing questions.
 std::optional<Circumstance> circumstance_of(const std::vector<Features>& failing,
-                                            const std::vector<Features>& right, double least = kNearlyAll);
+                                            const std::vector<Features>& right, double least = kNearlyAll,
+                                            double below = 2);
 
 /// One answer that went wrong.
 struct Example {

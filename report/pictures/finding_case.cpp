@@ -127,24 +127,20 @@ void FindingCase::take_hardest_decision() {
 }
 
 void FindingCase::about_line(const ObstacleId& id, const Approach& approach) {
-  issue = Issue::line;
-  obstacle = id;
-  second.reset();
-  distance = approach.gap;
-  const std::string name = name_of(id);
-  words = distance == 0 ? "the line touches " + name
-                        : fmt::format("the line {} {} by {:.4g} of its radii",
-                                      distance < 0 ? "meets" : "misses", name, std::fabs(distance));
+  about(Issue::line, id, approach.gap, "the line touches", "the line meets", "the line misses");
 }
 
 void FindingCase::about_start(const ObstacleId& id, const Approach& approach) {
-  issue = Issue::start;
-  obstacle = id;
-  distance = approach.start_gap;
-  const std::string name = name_of(id);
-  words = distance == 0 ? "x lies on the surface of " + name
-                        : fmt::format("x lies {} {} by {:.4g} of its radii",
-                                      distance < 0 ? "inside" : "outside of", name, std::fabs(distance));
+  about(Issue::start, id, approach.start_gap, "x lies on the surface of", "x lies inside",
+        "x lies outside of");
+}
+
+void FindingCase::about(Issue its, const ObstacleId& id, double gap, const char* at, const char* within,
+                        const char* beyond) {
+  issue = its, obstacle = id, second.reset(), distance = gap;
+  words = gap == 0 ? fmt::format("{} {}", at, name_of(id))
+                   : fmt::format("{} {} by {:.4g} of its radii", gap < 0 ? within : beyond, name_of(id),
+                                 std::fabs(gap));
 }
 
 void FindingCase::about_order(const ObstacleId& first, const ObstacleId& later) {

@@ -70,6 +70,8 @@ class FindingCase {
   void take_hardest_decision();
   void about_line(const ObstacleId& id, const oracle::Approach& approach);
   void about_start(const ObstacleId& id, const oracle::Approach& approach);
+  void about(Issue its, const ObstacleId& id, double gap, const char* at, const char* within,
+             const char* beyond);
   void about_order(const ObstacleId& first, const ObstacleId& later);
   void about_time(double time);
 };

@@ -240,6 +240,26 @@ TEST_CASE("Two faults with one cause are two findings, each with its own example
   CHECK((all[1].count == 20 && all[1].by_row.at("row") == 20));
 }
 
+TEST_CASE("Two faults that say only are told before one that says nearly always", "[judge][findings]") {
+  // It loses hits at a start on the surface, and those of flights from cells below 0, which are mostly short here.
+  const Scene scene = unit_scene(2, 0.25);
+  std::vector<Question> questions;
+  const auto ask = [&](int number, const Vec& x, const Vec& v) {
+    for (int i = 0; i < number; ++i) questions.push_back(asked(scene, x, v));
+  };
+  const Vec sideways{1, 0, 0}, slowly_up{1, 0.02, 0};
+  ask(22, {-2.5, 0, 0}, sideways), ask(2, {-2.5, 0.5, 0}, slowly_up);
+  ask(6, {0.25, 0, 0}, {-1, 0, 0});
+  const std::size_t failing = questions.size();
+  ask(80, {2.5, 0, 0}, sideways), ask(100, {-1.5, 0.5, 0}, slowly_up), ask(120, {1.5, 0.5, 0}, slowly_up);
+  const auto all = found(questions, [&](const Question& question, Answer& given) {
+                     if (&question < &questions[failing]) given = Answer::never();
+                   }).all(rows(questions.size()));
+  REQUIRE(all.size() == 2);
+  CHECK(contains(all[0].summary(), "only where a coordinate of x is negative"));
+  CHECK(contains(all[1].summary(), "in part where x lies on the surface"));
+}
+
 TEST_CASE("Where all times are wrong, circumstances are found among right obstacles", "[judge][findings]") {
   const auto all =
       found(along_rows(200), [&](const Question& question, Answer& given) {
