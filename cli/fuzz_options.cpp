@@ -1,6 +1,8 @@
 // The options of lorentz fuzz and their meaning.
 #include "cli/fuzz.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include <lorentz/exchange.hpp>

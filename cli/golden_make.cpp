@@ -1,4 +1,5 @@
 // lorentz golden make: makes one set, or all committed sets.
+#include <algorithm>
 #include <filesystem>
 
 #include <lorentz/exchange.hpp>
