@@ -7,7 +7,6 @@
 #include <system_error>
 
 #include <lorentz/exchange.hpp>
-#include "cli/completion.hpp"
 #include "cli/file_options.hpp"
 #include "cli/help_texts.hpp"
 #include "cli/manual.hpp"
@@ -152,16 +151,10 @@ void help_as_option(int argc, char** argv) {
   argv[argc - 1] = option;
 }
 
-// Services for shells and the build. They are not meant for people and not listed in --help.
+// A service for the build, which is not listed in --help.
 bool serves(const Command& program, int argc, char** argv) {
-  const std::vector<std::string> words(argv + std::min(argc, 2), argv + argc);
-  const std::string service = argc > 1 ? argv[1] : "";
-  if (service == "--complete") {
-    print(completions(program, words));
-    return true;
-  }
-  if (service != "--manuals" || words.size() != 1) return false;
-  write_manuals(program, words[0]);
+  if (argc != 3 || std::string_view(argv[1]) != "--manuals") return false;
+  write_manuals(program, argv[2]);
   return true;
 }
 

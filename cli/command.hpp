@@ -1,4 +1,4 @@
-// A subcommand as data. Its options are rows of a table. The parser, the check of files, completion and the
+// A subcommand as data. Its options are rows of a table. The parser, the check of files and the
 // manual pages use this table (app.cpp passes the rows to the parser).
 #pragma once
 

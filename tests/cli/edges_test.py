@@ -142,9 +142,9 @@ def lorentz(words, folder, **how):
 
 
 def candidates(*words):
-    """What the program itself says may stand next."""
-    out = subprocess.run([PROGRAM, "--complete", *words, ""], stdout=subprocess.PIPE, text=True, check=True).stdout
-    return [line.split("\t")[0] for line in out.splitlines()[1:]]
+    """The subcommands that help lists."""
+    out = subprocess.run([PROGRAM, *words, "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    return re.findall(r"^  ([\w-]+)", out.partition("Subcommands:\n")[2].split("\n\n")[0], re.M)
 
 
 def usage(words):

@@ -61,8 +61,8 @@ def with_json():
 
 
 def candidates(*words):
-    out = subprocess.run([LORENTZ, "--complete", *words, ""], capture_output=True, text=True, check=True).stdout
-    return [line.split("\t")[0] for line in out.splitlines()[1:]]
+    out = subprocess.run([LORENTZ, *words, "--help"], capture_output=True, text=True, check=True).stdout
+    return re.findall(r"^  ([\w-]+)", out.partition("Subcommands:\n")[2].split("\n\n")[0], re.MULTILINE)
 
 
 def is_subcommand(*words):

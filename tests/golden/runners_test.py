@@ -161,7 +161,7 @@ def require_statuses(programs, work):
 
 
 def require_known_verdicts(lorentz, programs, work):
-    """Of the answers of data/golden/smoke/answers: they are what make makes, and have the verdicts that stand beside them."""
+    """The answers in data/golden/smoke/answers are what make makes, and have the verdicts that stand beside them."""
     folder, path = SETS / "smoke/answers", SETS / "smoke/smoke.ndjson"
     made = work / "made"
     made.mkdir(exist_ok=True)

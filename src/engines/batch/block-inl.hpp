@@ -283,7 +283,7 @@ class Block {
   }
 
   HWY_INLINE void tell() {
-    const M left = AndNot(Or(Or(lanes_.active, lanes_.undecided), inside_), asked_);
+    const M left = AndNot(Or(lanes_.active, inside_), asked_);
     found_ = And(found_, lanes_.active);
     store(where(found_, time_), stretch_.time + at_);
     const M named = Or(found_, inside_);
@@ -291,14 +291,12 @@ class Block {
     V nothing = number(Outcome::never);
     if (stretch_.max_time)
       nothing = select(load(stretch_.max_time + at_) < infinite(), number(Outcome::later), nothing);
-    nothing = select(lanes_.undecided, number(Outcome::undecided), nothing);
     const V outcome = select(found_, number(Outcome::hit), select(inside_, number(Outcome::inside), nothing));
     static_assert(sizeof(Outcome) == sizeof(std::int32_t));
     store_small_integers(outcome, reinterpret_cast<std::int32_t*>(stretch_.outcome) + at_);
     if (!kUnit) store_small_integers(atom_, stretch_.atom + at_);
-    static_assert(static_cast<int>(Stage::binary64) == 0 && static_cast<int>(Stage::double_double) == 1 &&
-                  static_cast<int>(Stage::undecided) == 2);
-    store_twos(AndNot(lanes_.undecided, stage2_), lanes_.undecided, stretch_.stage + at_);
+    static_assert(static_cast<int>(Stage::binary64) == 0 && static_cast<int>(Stage::double_double) == 1);
+    store_twos(stage2_, no_lane(), stretch_.stage + at_);
     store_twos(And(found_, rounded_), no_lane(), stretch_.time_is_rounded + at_);
     for (unsigned rest = bits_of(left); rest != 0; rest &= rest - 1)
       stretch_.left_over[stretch_.left_count++] = static_cast<int>(at_) + __builtin_ctz(rest);

@@ -82,16 +82,11 @@ struct LaneFma {
 
 using Pair = DoubleDouble<LaneFma>;
 
-/// The lanes that are still flying. Flights that lanes cannot decide are left to the engine for one flight;
-/// flights that it could not decide either are undecided.
+/// The lanes that are still flying. Flights that lanes cannot decide are left to the engine for one flight.
 struct Lanes {
-  M active, undecided;
+  M active;
 
-  HWY_INLINE explicit Lanes(M asked) : active(asked), undecided(no_lane()) {}
+  HWY_INLINE explicit Lanes(M asked) : active(asked) {}
   HWY_INLINE void leave(M m) { active = AndNot(m, active); }
   HWY_INLINE void leave_unless(M m) { active = And(m, active); }
-  HWY_INLINE void give_up(M m) {
-    undecided = Or(undecided, And(m, active));
-    leave(m);
-  }
 };

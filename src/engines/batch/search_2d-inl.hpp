@@ -67,7 +67,7 @@ class LaneSearch2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
     const RowStart start = start_closely(rare(), this->lattice_, n_, level);
     m_ = select(start.known, start.m, m_), stage2 = Or(stage2, start.known);
     const M unknown = AndNot(start.known, level);
-    lanes.give_up(unknown);
+    lanes.leave(unknown);
     scanning = AndNot(unknown, scanning), next = AndNot(unknown, next);
   }
 
@@ -136,7 +136,7 @@ class LaneSearch2 : RowsOf2<LaneFma, LaneFma, kUnit, kBall> {
     }
     const M take = And(met, s + s_error < found.s - found.s_error);
     doubtful = Or(doubtful, AndNot(take, met));
-    lanes.give_up(doubtful);
+    lanes.leave(doubtful);
     scanning = AndNot(doubtful, scanning);
     found.n[0] = select(take, N[0], found.n[0]), found.n[1] = select(take, N[1], found.n[1]);
     found.s = select(take, s, found.s), found.s_error = select(take, s_error, found.s_error);

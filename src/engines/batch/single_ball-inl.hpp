@@ -54,7 +54,7 @@ class SingleBall {
     stage2 = Or(stage2, asked);
     const M met = And(close.is_met, close.is_ahead),
             passed = Or(close.is_missed, And(close.is_met, close.is_behind));
-    lanes.give_up(AndNot(Or(met, passed), asked));
+    lanes.leave(AndNot(Or(met, passed), asked));
     const M here = And(met, asked);
     found.s = select(here, close.s, found.s), found.s_error = select(here, close.s_error, found.s_error);
     found.slack = select(here, close.slack, found.slack);

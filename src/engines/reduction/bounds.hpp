@@ -18,6 +18,9 @@ inline constexpr double kRoundoff = 0x1p-53, kWideRoundoff = 0x1p-106;
 /// is below kFlushed.
 inline constexpr double kFlushed = 0x1p-390;
 
+/// What that changes in a slack r^2 |v|^2 - |v x d|^2, over kMaxCell cells, is below this.
+inline constexpr double kFlushedSlack = 0x1p-380;
+
 /// |computed height - height| <= kHeight u (|y| + |n D_R| + |m D_L|): formulas.hpp, height_in_row.
 inline constexpr double kHeight = 8;
 
@@ -147,6 +150,10 @@ inline constexpr double kEntryCurvature = 0x1p-7, kEntrySlop = 2;
 // What is beyond a cap is `undecided` (or, of scenes, not done), and where one formula takes over from
 // another both are right: a wrong value here costs answers or time, it does not make an answer wrong. Where a
 // cap is what a bound above relies on, the line says so.
+
+/// 3D: lattice vectors with smaller coefficients, nearer to the line than this, may lie with it in a lattice plane
+/// of short vectors.
+inline constexpr double kShortVector = 0x1p8, kNearlyParallel = 0x1p-30;
 
 /// Integers of the search, held in binary64: exact below this, and never used beyond.
 inline constexpr double kMaxCoefficient = 0x1p53;

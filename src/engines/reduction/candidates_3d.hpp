@@ -6,6 +6,7 @@
 
 #include "src/engines/reduction/found.hpp"
 #include "src/engines/reduction/offset.hpp"
+#include "src/engines/reduction/unrounded.hpp"
 #include "src/engines/reduction/window_3d.hpp"
 
 namespace lorentz {
@@ -58,10 +59,13 @@ class Candidates3 {
     return Look::taken;
   }
 
-  // The same decisions in double-double.
+  // The same decisions in double-double, or without rounding.
   [[gnu::noinline]] Look look_closely(const Wide (&N)[3]) {
     found.needs(Stage::double_double);
-    const CloseLook<SplitProduct> close(meeting_at(N));
+    CloseLook<SplitProduct> close(meeting_at(N));
+    if constexpr (kUnit && kBall)
+      if (!close.is_missed && !close.is_met)
+        look_unrounded<3>(window_.to.v, N, window_.offset, window_.lattice.radius, close);
     if (close.is_missed || (close.is_met && close.is_behind)) return Look::missed;
     if (!(close.is_met && close.is_ahead)) return Look::doubtful;
     return offer(N, close.s, close.s_error, close.slack, close.slack_error);

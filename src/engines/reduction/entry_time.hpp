@@ -38,7 +38,10 @@ class EntryTime
     DoubleDouble<A> d[D], N[D];
     for (int i = 0; i < D; ++i) N[i] = DoubleDouble<A>(this->N_[i]);
     const double d_error = place_of<kUnit>(this->lattice_, this->offset_, N, d);
-    const StableMeeting<A, D, kBall> meeting(this->v_, d, d_error, this->lattice_);
+    StableMeeting<A, D, kBall> meeting(this->v_, d, d_error, this->lattice_);
+    if constexpr (kBall && kUnit)
+      if (this->entry_.slack_error < meeting.slack_error)  // it was decided without rounding
+        meeting.slack = DoubleDouble<A>(this->entry_.slack), meeting.slack_error = this->entry_.slack_error;
     return meeting.time(d, d_error, this->lattice_, error);
   }
 };

@@ -7,6 +7,7 @@
 #include "src/engines/reduction/found.hpp"
 #include "src/engines/reduction/one_flight.hpp"
 #include "src/engines/reduction/predicates.hpp"
+#include "src/engines/reduction/unrounded.hpp"
 
 namespace lorentz {
 
@@ -89,10 +90,13 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
     return Look2::taken;
   }
 
-  // The same decisions in double-double.
+  // The same decisions in double-double, or without rounding.
   [[gnu::noinline]] Look2 look_closely(const double (&N)[2], double h) {
     found.needs(Stage::double_double);
-    const auto ball = Rows::look_closely(N);
+    auto ball = Rows::look_closely(N);
+    if constexpr (kUnit && kBall)
+      if (!ball.is_missed && !ball.is_met)
+        look_unrounded<2>(to_.v, {Wide(N[0]), Wide(N[1])}, this->offset_, this->lattice_.radius, ball);
     if (ball.is_missed) return h < 0 || !to_.rises ? Look2::beyond : Look2::before;
     if (!ball.is_met) return Look2::doubtful;
     if (ball.is_behind) return Look2::before;

@@ -32,6 +32,18 @@ class Search3 {
   Outcome run(const Wide* from, double s_limit) {
     candidates_.from = from;
     candidates_.s_limit = s_limit;
+    if constexpr (!(kUnit && kBall)) return search(s_limit);
+    const bool early = std::ranges::any_of(window_.basis->b, [&](const Arm3& arm) {
+      const double across = (std::fabs(arm.p[0]) + std::fabs(arm.p[1])) * window_.lattice.radius;
+      return across < kNearlyParallel && arm.largest_coefficient() < kShortVector;
+    });
+    if (early && is_between_planes()) return Outcome::never;
+    const Outcome outcome = search(s_limit);
+    return outcome == Outcome::undecided && !early && is_between_planes() ? Outcome::never : outcome;
+  }
+
+ private:
+  Outcome search(double s_limit) {
     for (int window = 0; window < kMaxWindows; ++window) {
       if (!window_.basis->usable || !window_.set_anchor()) return found.give_up();
       none_met_ = true;
@@ -45,7 +57,15 @@ class Search3 {
     return found.give_up();
   }
 
- private:
+  // Does the line stay between two lattice planes?
+  bool is_between_planes() {
+    const auto& d = window_.offset.d;
+    const bool stays =
+        stays_between_planes(window_.to.v, {d[0].hi, d[1].hi, d[2].hi}, window_.lattice.radius);
+    if (stays) found.stage = Stage::double_double;
+    return stays;
+  }
+
   // Scans the planes k b_2 + (b_0, b_1) that meet the window. False, here and below: undecided.
   bool scan_window() {
     double low, high;

@@ -1,0 +1,131 @@
+// What double-double cannot decide among the balls of the unit lattices is decided without rounding: whether a ball
+// is met, and whether a line stays between two lattice planes for ever.
+#include "src/engines/reduction/unrounded.hpp"
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include <lorentz/geometry.hpp>
+#include "src/engines/base/expansion.hpp"
+#include "tests/engines/reduction_support.hpp"
+
+using namespace lorentz;
+using namespace lorentz::test;
+
+namespace {
+
+using Exact = boost::multiprecision::cpp_rational;
+
+Exact slack_of(int dimension, const double (&v)[3], const Wide (&N)[3], const double (&home)[3], double r) {
+  Exact d[3], speed2 = 0, across2 = 0;
+  for (int k = 0; k < dimension; ++k) {
+    d[k] = Exact(N[k].hi) + Exact(N[k].lo) + Exact(home[k]);
+    speed2 += Exact(v[k]) * Exact(v[k]);
+  }
+  for (int i = 0; i < dimension; ++i)
+    for (int j = i + 1; j < dimension; ++j) {
+      const Exact across = d[i] * Exact(v[j]) - d[j] * Exact(v[i]);
+      across2 += across * across;
+    }
+  return Exact(r) * Exact(r) * speed2 - across2;
+}
+
+// A small lattice vector, or a direction a few ulps or 2^-40 to 2^-52 beside it.
+Vec near_rational(Draw& draw, int dimension) {
+  const auto small = [&] {
+    Vec v{};
+    while (v == Vec{})
+      for (int k = 0; k < dimension; ++k) v[k] = static_cast<double>(draw.below(19)) - 9;
+    return v;
+  };
+  Vec v = small();
+  const Vec aside = small();
+  const double ulp = 0x1p-52, beside = std::exp2(draw.between(-52, -40));
+  const bool jitters = draw.one_in(2);
+  for (int k = 0; k < dimension; ++k)
+    v[k] += jitters ? v[k] * ulp * (static_cast<double>(draw.below(7)) - 3) : beside * aside[k];
+  return v;
+}
+
+Count near_rational_campaign(std::uint64_t seed, int dimension, double r, long cases) {
+  Draw draw(seed);
+  Count count;
+  const Scene scene = unit_scene(dimension, r);
+  for (long i = 0; i < cases; ++i)
+    check(scene, {draw.vec(dimension, 0, 1), near_rational(draw, dimension), {}}, count);
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("A sum without rounding has the sign and the size of the exact one", "[engines][unrounded]") {
+  Draw draw(20261129);
+  for (int i = 0; i < 20'000; ++i) {
+    Expansion sum;
+    Exact exact = 0;
+    for (int k = 0; k < 12; ++k) {
+      const double a = draw.between(-1, 1) * std::exp2(static_cast<double>(draw.below(200)) - 100), b = -a;
+      for (const double part : {a, draw.one_in(2) ? b : std::nextafter(b, 0)})
+        sum.add(part), exact += Exact(part);
+      const double x = draw.between(-1, 1), y = draw.between(-1, 1);
+      sum.add_product(Expansion(x), Expansion(y));
+      exact += Exact(x) * Exact(y);
+    }
+    REQUIRE(sum.is_exact());
+    REQUIRE(abs(Exact(sum.value()) - exact) <= Exact(4 * kRoundoff) * abs(exact));
+    sum.add(-sum.value());
+    REQUIRE(sum.is_zero() == (sum.value() == 0));
+  }
+}
+
+TEST_CASE("A slack without rounding is right at the boundary", "[engines][unrounded]") {
+  Draw draw(20261130);
+  int met = 0, missed = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const int dimension = 2 + static_cast<int>(draw.below(2));
+    const Vec w = near_rational(draw, dimension);
+    double v[3] = {}, home[3] = {};
+    Wide N[3] = {Wide(0), Wide(0), Wide(0)};
+    const double far = std::exp2(draw.between(0, 58));
+    for (int k = 0; k < dimension; ++k) {
+      v[k] = w[k] / 16;
+      N[k] = Wide(std::nearbyint(far * v[k]), static_cast<double>(draw.below(3)) - 1);
+      home[k] = draw.between(-0.5, 0.5);
+    }
+    // The radius within a few ulps of the distance at which the line passes.
+    const Exact at_0 = slack_of(dimension, v, N, home, 0), unit = slack_of(dimension, v, N, home, 1) - at_0;
+    const double passed = std::sqrt(static_cast<double>(Exact(-at_0 / unit)));
+    const double r = passed * (1 + (static_cast<double>(draw.below(5)) - 2) * 0x1p-53);
+    const Exact exact = slack_of(dimension, v, N, home, r);
+    const double slack = unrounded_slack(dimension, v, N, home, r);
+    REQUIRE(abs(Exact(slack) - exact) <= Exact(4 * kRoundoff) * abs(exact));
+    (slack > 0 ? met : missed) += 1;
+  }
+  CHECK((met > 5000 && missed > 5000));
+}
+
+TEST_CASE("A line between two lattice planes is told from one that meets their balls by a hair",
+          "[engines][unrounded]") {
+  // Along (7, 6, 5) but for ulps of (1, 2, -2): in planes of the normal (-22, 19, 8), whose length is 30.15.
+  const double v[3] = {7 + 0x1p-50, 6 + 0x1p-49, 5 - 0x1p-49}, home[3] = {0, 0, 0.125 / 8};
+  const double reach = 0.125 / std::sqrt(22. * 22 + 19 * 19 + 8 * 8);
+  CHECK(stays_between_planes(v, home, reach * (1 - 1e-9)));
+  CHECK_FALSE(stays_between_planes(v, home, reach * (1 + 1e-9)));
+  const double parallel[3] = {7, 6, 5};
+  CHECK_FALSE(stays_between_planes(parallel, home, reach / 2));  // along a line of balls: any plane
+  CHECK_FALSE(stays_between_planes({3.141592653589793, 2.718281828459045, 1.4142135623730951}, home,
+                                   reach / 2));  // in no plane of short vectors
+}
+
+TEST_CASE("Near-rational flights are decided, nearly all of them, and rightly", "[engines][unrounded]") {
+  const auto undecided = [](int dimension, double r) {
+    const Count count = near_rational_campaign(20261129, dimension, r, 1500);
+    return static_cast<double>(count.stages.undecided) / static_cast<double>(count.cases);
+  };
+  for (const double r : {0.1, 1e-3, 1e-6}) CHECK(undecided(2, r) < 0.02);
+  CHECK(undecided(3, 0.1) < 0.07);
+  CHECK(undecided(3, 1e-3) < 0.13);
+  CHECK(undecided(3, 1e-6) < 0.1);
+}
