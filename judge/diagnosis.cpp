@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "fuzz/campaign/tie.hpp"
+#include "fuzz/campaign/examiner.hpp"
 #include "question/radii.hpp"
 
 namespace lorentz::judge {
@@ -41,8 +41,7 @@ Diagnosis of_false_hit(const Question& question, const Answer& given, const Obst
     if (!approach.ahead && approach.start_gap >= 0) return of_wrong(Cause::behind);
     return graded(Cause::false_hit_grazing, Cause::false_hit, approach.gap);
   }
-  if (fuzz::is_tie(place.scene(), place.judge(), question.query, question.exact, given))
-    return of_wrong(Cause::tie);
+  if (fuzz::is_tie(place.judge(), question.query, question.exact, given)) return of_wrong(Cause::tie);
   return graded(Cause::passed_over_grazing, Cause::passed_over, approach.gap);
 }
 

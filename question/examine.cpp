@@ -52,10 +52,17 @@ Judgement judgement_of(const Question& question, const Answer& given, double ulp
     if (says_later || (names_obstacle && at_limit == AtLimit::exact && is_later(question)))
       return {Verdict::wrong, {}, std::numeric_limits<double>::infinity()};
   }
-  // Equal answers without exits need no judge, and many scenes never get one.
+  // Equal answers without exits need no judge, nor do those that say nothing, and many scenes never get one.
   const Answer& exact = question.exact;
-  if (given.outcome == Outcome::hit && !given.exit_time && same_answer(given, exact))
-    return std::isfinite(*exact.time) ? Judgement{Verdict::agree, 0.0} : Judgement{Verdict::agree};
+  if (given.outcome == Outcome::undecided && exact.outcome != Outcome::error) return {Verdict::undecided};
+  const bool may_agree =
+      given.outcome == Outcome::hit || given.outcome == Outcome::never ||
+      (given.outcome == Outcome::inside && question.place->claim().inside == StartInside::inside);
+  if (may_agree && !given.exit_time && same_answer(given, exact)) {
+    Judgement agrees{Verdict::agree};
+    if (exact.time && std::isfinite(*exact.time)) agrees.ulps = 0;
+    return agrees;
+  }
   return question.place->judge().judge(question.query, exact, given, ulps);
 }
 
@@ -76,21 +83,16 @@ void ask(Answerer& answerer, const Question& question) {
 void ask_all(const Source& source, Answerer& answerer,
              const std::function<void(const Question&, Reply&)>& take) {
   std::deque<Question> open;
-  answerer.on_reply([&](Reply& reply) {
-    const Question question = std::move(open.front());
-    open.pop_front();
-    take(question, reply);
-  });
+  std::size_t answered = 0;  // of the open ones: a question stays until it is asked
+  answerer.on_reply([&](Reply& reply) { take(open[answered++], reply); });
   std::shared_ptr<Place> place;
   while (std::optional<Question> next = source()) {
     if (next->place != place && !answerer.is_in(next->place->scene()))
       answerer.set_scene(next->place->scene());
     place = next->place;
     open.push_back(std::move(*next));
-    const Question& asked = open.back();
-    // Its reply may come at once and remove it.
-    ask(answerer,
-        {.place = {}, .query = asked.query, .text = asked.text, .id = asked.id, .max_time = asked.max_time});
+    ask(answerer, open.back());
+    for (; answered > 0; --answered) open.pop_front();
   }
   answerer.drain();
   answerer.on_reply([](Reply&) {});

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <lorentz/scene_check.hpp>
-#include "fuzz/campaign/tie.hpp"
 #include "question/cases/drawn_flights.hpp"
 #include "question/examine.hpp"
 #include "src/problem/same_answer.hpp"
@@ -39,6 +37,15 @@ std::vector<Reply> replies_to(const question::Source& source, Answerer& answerer
   return replies;
 }
 
+bool is_tie(const oracle::Judge& judge, const Query& query, const Answer& exact, const Answer& other) {
+  if (exact.outcome != other.outcome) return false;
+  if (exact.outcome == Outcome::inside)
+    return judge.contains(query, exact.obstacle) && judge.contains(query, other.obstacle) &&
+           query.from != other.obstacle;
+  if (exact.outcome != Outcome::hit || exact.time != other.time) return false;
+  return exact.obstacle == other.obstacle || judge.judge(query, exact, other, 0).departs == 0;
+}
+
 bool Sought::is_finding(Kind kind) const {
   if (kind == Kind::wrong_time) return times;
   if (kind == Kind::undecided) return undecided;
@@ -50,7 +57,7 @@ bool Sought::is_finding(Kind kind) const {
 std::optional<Answer> Examiner::settled(const Question& question) const {
   Answer exact_here = place_->exact(question.query);
   if (same_answer(exact_here, question.exact) ||
-      is_tie(scene(), place_->judge(), question.query, exact_here, question.exact))
+      is_tie(place_->judge(), question.query, exact_here, question.exact))
     return exact_here;
   return std::nullopt;
 }
@@ -116,10 +123,6 @@ bool Examiner::is_slow(double work) {
     slow_from_ = kSlowFactor * works[kDrawnFlights / 2];
   }
   return work > *slow_from_;
-}
-
-bool is_sound(const Scene& scene) {
-  return !flaw_of(scene) && !oracle::dependence_in(scene);
 }
 
 }  // namespace lorentz::fuzz

@@ -43,6 +43,11 @@ question::MakeAnswerer answerer_maker(const question::EngineInfo& engine,
 /// is asked again, one question at a time: a query is not in error because it was not asked.
 std::vector<Reply> replies_to(const question::Source& source, Answerer& answerer);
 
+/// Whether an answer differs from the exact one only by the choice among obstacles that contain x, or are entered
+/// together: in other words for the scene another of them may be the first. The outcome is the same, and the
+/// time is the same to the bit. Decided exactly.
+bool is_tie(const oracle::Judge& judge, const Query& query, const Answer& exact, const Answer& other);
+
 struct Examined {
   Kind kind = Kind::agree;
   Answer given, exact;
@@ -78,8 +83,5 @@ class Examiner {
   double ulps_;
   std::optional<double> slow_from_ = {};
 };
-
-/// True if the scene has no flaw, including flaws that only exact arithmetic finds.
-bool is_sound(const Scene& scene);
 
 }  // namespace lorentz::fuzz

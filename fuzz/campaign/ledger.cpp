@@ -12,11 +12,11 @@ namespace {
 // Number of a target's stints that may be handed out and not recorded, for each thread.
 constexpr std::size_t kAhead = 64;
 
-// Stints of cheap cases are made longer, as long as they take no longer than this. Then handing out and
-// recording cost next to nothing, and a stop in the middle of a stint loses little. An answerer that takes
+// Stints of cheap cases are made longer, as long as they take no longer than this. Then most stints have all
+// cases of a scene, which is prepared once, and a stop in the middle of a stint loses little. An answerer that takes
 // many cases at once gets as many as take no longer than kSecondsOfMany, because another program's answers
 // are awaited once per stint.
-constexpr double kSecondsOfStint = 0.002, kSecondsOfMany = 0.25;
+constexpr double kSecondsOfStint = 0.02, kSecondsOfMany = 0.25;
 constexpr std::uint64_t kLongestStint = 1024;
 
 // The largest shares of a target's time that go into shrinking, while there are cases: kShareOfWrong if the

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <lorentz/geometry.hpp>
-#include "fuzz/campaign/examiner.hpp"
+#include "fuzz/families/family.hpp"
 
 namespace lorentz::fuzz {
 
@@ -432,7 +432,7 @@ StillFails in_places(
     const std::function<bool(const std::shared_ptr<question::Place>&, const Query&)>& still_fails) {
   return [=, place = std::shared_ptr<question::Place>()](const Scene& scene, const Query& query) mutable {
     if (!place || place->scene() != scene) {
-      if (!is_sound(scene) || !is_sane(scene)) return false;
+      if (!cases::is_sound(scene) || !is_sane(scene)) return false;
       place = place_of(scene);
     }
     return !flaw_of(query, scene) && place->takes(query) && still_fails(place, query);

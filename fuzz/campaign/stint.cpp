@@ -81,7 +81,7 @@ struct StintRunner::SceneContext {
 struct StintRunner::Questions {
   const Target& target;
   std::deque<SceneContext> contexts = {};
-  std::vector<Case> cases = {};
+  std::deque<Case> cases = {};  // whose places stay while it grows
   StintResult result = {};
 
   SceneContext& add_context(Answerer& answerer, const Scene& scene, const Plan& plan) {

@@ -12,11 +12,11 @@ namespace {
 constexpr std::uint64_t kMostAttempts = 1000;  // more than any family needs: needing more is a bug
 constexpr std::uint64_t kMostIntoObstacles = 100;
 
+}  // namespace
+
 bool is_sound(const Scene& scene) {
   return !flaw_of(scene) && !oracle::dependence_in(scene);
 }
-
-}  // namespace
 
 std::vector<Tag> Family::tags(NumberFormat precision) const {
   if (precision == NumberFormat::binary64) return tags_;

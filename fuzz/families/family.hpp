@@ -43,6 +43,9 @@ class Family {
   Maker maker_;
 };
 
+/// True if the scene has no flaw, including flaws that only exact arithmetic finds.
+bool is_sound(const Scene& scene);
+
 /// The families that golden sets are made of. Campaigns have more.
 const std::vector<Family>& families();
 

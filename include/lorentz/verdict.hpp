@@ -104,6 +104,9 @@ class Judge {
   Judgement judge(const Query& query, const Answer& exact, const Answer& given,
                   double ulps = kDefaultUlps) const;
 
+  /// True if x lies in the open obstacle, which must exist. Decided exactly.
+  bool contains(const Query& query, const ObstacleId& obstacle) const;
+
   /// All answers that judge() calls ill-posed with this tolerance, the one with the least ExcusedAnswer::ulps
   /// first. With this list, answers can be judged without a Judge. Nothing if there are more than `most` or
   /// infinitely many, or if too many obstacles come into question (kExcusedBudget). The claim's time

@@ -86,15 +86,18 @@ template <std::size_t D>
 struct ExactRow {
   Z cc, cg, gg, s0, sg, A, B, C;
 
+  /// A row that begins nowhere yet.
+  ExactRow(const ExactVelocity<D>& velocity, const LatticePoint<D>& step)
+      : gg(velocity.v2 * dot(step.p, step.p)), sg(dot(velocity.v, step.p)), A(gg - sg * sg) {}
   ExactRow(const ExactVelocity<D>& velocity, const LatticePoint<D>& start, const LatticePoint<D>& step)
-      : cc(velocity.v2 * dot(start.p, start.p)),
-        cg(velocity.v2 * dot(start.p, step.p)),
-        gg(velocity.v2 * dot(step.p, step.p)),
-        s0(dot(velocity.v, start.p)),
-        sg(dot(velocity.v, step.p)),
-        A(gg - sg * sg),
-        B(cg - s0 * sg),
-        C(cc - s0 * s0) {}
+      : ExactRow(velocity, step) {
+    begin_at(velocity, start, step);
+  }
+  void begin_at(const ExactVelocity<D>& velocity, const LatticePoint<D>& start, const LatticePoint<D>& step) {
+    cc = velocity.v2 * dot(start.p, start.p), cg = velocity.v2 * dot(start.p, step.p);
+    s0 = dot(velocity.v, start.p);
+    B = cg - s0 * sg, C = cc - s0 * s0;
+  }
 };
 
 /// All rows with the same step, in the plane. For a row start + k step, k any integer, `offer_first` offers

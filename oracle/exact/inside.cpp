@@ -14,8 +14,7 @@ bool visit_row_in_ball(const LatticePoint<D>& c, const LatticePoint<D>& g, const
   const Z disc = cg * cg - gg * (dot(c.p, c.p) - radius2);
   if (disc <= 0) return false;
   // The ends (-cg -+ sqrt(disc)) / gg themselves are excluded.
-  const Z first = floor_surd(-cg, -1, disc, gg) + 1;
-  const Z last = -floor_surd(cg, -1, disc, gg) - 1;
+  const Z root = ceil_sqrt(disc), first = floor_div(-cg - root, gg) + 1, last = -floor_div(cg - root, gg) - 1;
   if (first > last) return false;
   LatticePoint<D> start = c;
   start.add_multiple(first, g);
@@ -77,14 +76,6 @@ bool visit_ball<3>(const Basis<3>& basis, const LatticePoint<3>& offset, const Z
 }
 
 namespace {
-
-// Accurate enough for numbers of any size: a long double reaches 2^16384.
-using Estimate = long double;
-
-Estimate estimate(const Z& a) {
-  const auto [mantissa, exponent] = approximation(a);
-  return std::ldexp(static_cast<Estimate>(mantissa), static_cast<int>(exponent));
-}
 
 Estimate length(const auto& vector) {
   return std::sqrt(estimate(dot(vector.p, vector.p)));

@@ -23,14 +23,15 @@ struct WindowVector {
 /// cylinder round.
 class WindowForm {
  public:
-  WindowForm(const ExactVelocity<3>& velocity, long j)
-      : whole_(shifted_left(velocity.v2, 2 * j)), along_(shifted_left(1, 2 * j) - 1) {}
+  WindowForm(const ExactVelocity<3>& velocity, long j) : v2_(velocity.v2), bits_(2 * j) {}
   Z operator()(const WindowVector& a, const WindowVector& b) const {
-    return whole_ * dot(a.point.p, b.point.p) - along_ * (a.s * b.s);
+    const Z along = a.s * b.s;
+    return shifted_left(v2_ * dot(a.point.p, b.point.p) - along, bits_) + along;
   }
 
  private:
-  Z whole_, along_;
+  const Z& v2_;
+  const long bits_;
 };
 
 /// min and max of a and b.

@@ -82,6 +82,11 @@ class Real {
   }
   /// Truncated to binary64, and at most `most`.
   friend double to_double(const Real& a, double most) { return a >= most ? most : mpf_get_d(a.value_); }
+  friend Estimate estimate(const Real& a) {
+    BinaryApproximation its;
+    its.mantissa = mpf_get_d_2exp(&its.exponent, a.value_);
+    return estimate(its);
+  }
   /// The text that "%.10g" prints.
   friend std::string to_string(const Real& a) {
     std::array<char, 64> text;  // 10 digits, signs, and an exponent of at most 20 digits

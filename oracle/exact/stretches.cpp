@@ -165,23 +165,25 @@ bool Stretches<D>::cut(const Z& low, const Z& whole_high,
 }
 
 template <std::size_t D>
-bool Stretches<D>::visit_row(const LatticePoint<D>& start, const RowStretch<D>& stretch,
+bool Stretches<D>::visit_row(const LatticePoint<D>& start, const RowStretch<D>& stretch, ExactRow<D>& row,
                              const RowVisitor<D>& visit) const {
-  const ExactRow<D> row(view_.velocity, start, stretch.basis[0]);
+  row.begin_at(view_.velocity, start, stretch.basis[0]);
   Range k;
-  if (row.sg != 0) {
-    k = multiples_between(stretch.low - row.s0, stretch.high - row.s0, row.sg);
-  } else if (row.s0 < stretch.low || row.s0 > stretch.high) {
-    return false;
-  }
   if (row.A == 0) {
     if (row.C >= reach2_) return false;
   } else {
     const Z disc = row.B * row.B - row.A * (row.C - reach2_);
     if (disc <= 0) return false;
     // The ends (-B -+ sqrt(disc)) / A themselves are excluded.
-    const Range met{floor_surd(-row.B, -1, disc, row.A) + 1, -floor_surd(row.B, -1, disc, row.A) - 1};
-    k = row.sg == 0 ? met : Range{std::max(k.first, met.first), std::min(k.last, met.last)};
+    const Z root = ceil_sqrt(disc);
+    k = {floor_div(-row.B - root, row.A) + 1, -floor_div(row.B - root, row.A) - 1};
+    if (k.empty()) return false;
+  }
+  if (row.sg == 0) {
+    if (row.s0 < stretch.low || row.s0 > stretch.high) return false;
+  } else {
+    const Range within = multiples_between(stretch.low - row.s0, stretch.high - row.s0, row.sg);
+    k = row.A == 0 ? within : Range{std::max(k.first, within.first), std::min(k.last, within.last)};
   }
   if (k.empty()) return false;
   LatticePoint<D> first = start;
@@ -194,8 +196,9 @@ bool Stretches<2>::visit(const RowStretch<2>& stretch, const RowVisitor<2>& visi
   const Range rows = rows_of_strip(view_, reach_, stretch.basis, stretch.low, stretch.high);
   LatticePoint<2> row = view_.offset;
   row.add_multiple(rows.first, stretch.basis[1]);
+  ExactRow<2> its(view_.velocity, stretch.basis[0]);
   for (Z k2 = rows.first; k2 <= rows.last && most-- > 0; ++k2, row.add_multiple(1, stretch.basis[1]))
-    if (visit_row(row, stretch, visit)) return true;
+    if (visit_row(row, stretch, its, visit)) return true;
   return false;
 }
 
@@ -203,13 +206,14 @@ template <>
 bool Stretches<3>::visit(const RowStretch<3>& stretch, const RowVisitor<3>& visit, long most) const {
   const LatticePoint<3>& b2 = stretch.basis[1];
   const Planes planes(view_.velocity, reach2_, stretch.basis[0], b2, stretch.basis[2]);
+  ExactRow<3> its(view_.velocity, stretch.basis[0]);
   return for_each_section(view_, planes, stretch.basis, stretch.low, stretch.high,
                           [&](const PlaneSection& section, const Range& rows) {
                             LatticePoint<3> row = section.origin;
                             row.add_multiple(rows.first, b2);
                             for (Z k2 = rows.first; k2 <= rows.last && most-- > 0;
                                  ++k2, row.add_multiple(1, b2))
-                              if (visit_row(row, stretch, visit)) return true;
+                              if (visit_row(row, stretch, its, visit)) return true;
                             return most < 0;
                           }) &&
          most >= 0;

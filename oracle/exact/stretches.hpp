@@ -54,7 +54,8 @@ class Stretches {
   Z shorten_in_planes(Basis<D>& basis, const Z& low, const Z& high) const;
   /// Longer than the cylinder is wide, so it may be cut.
   bool is_long(const Z& low, const Z& high) const { return high - low > reach_ + 1; }
-  bool visit_row(const LatticePoint<D>& start, const RowStretch<D>& stretch,
+  /// `row`: one with the stretch's step.
+  bool visit_row(const LatticePoint<D>& start, const RowStretch<D>& stretch, ExactRow<D>& row,
                  const RowVisitor<D>& visit) const;
 
   const View<D>& view_;
@@ -62,10 +63,10 @@ class Stretches {
   const Z reach_;  // the largest |h| of integers in the plane
 };
 
-/// Visits the points of a row that are candidates for the smallest or largest margin. These are all points;
-/// in a row of more than kManyPoints, they are those at its ends and those nearest to the line. (In the plane
-/// these suffice: a margin is a quotient of linear functions, so it is monotone along a row on either side of
-/// the line.)
+/// Visits the points of a row that are candidates for the smallest or largest margin, as visit(point, more) with
+/// the number of points that follow it. These are all points; in a row of more than kManyPoints, they are those
+/// at its ends and those nearest to the line. (In the plane these suffice: a margin is a quotient of linear
+/// functions, so it is monotone along a row on either side of the line.)
 template <std::size_t D, class Visit>
 void visit_extremes(const ExactVelocity<D>& velocity, const LatticePoint<D>& first,
                     const LatticePoint<D>& step, const Z& last, const Visit& visit) {
@@ -73,9 +74,10 @@ void visit_extremes(const ExactVelocity<D>& velocity, const LatticePoint<D>& fir
   const auto visit_range = [&](Z begin, Z end) {
     begin = std::max(begin, Z(0));
     end = std::min(end, last);
+    if (begin > end) return;
     LatticePoint<D> point = first;
     point.add_multiple(begin, step);
-    for (Z k = begin; k <= end; ++k, point.add_multiple(1, step)) visit(point);
+    visit(std::move(point), Z(end - begin).get_si());
   };
   if (last < kManyPoints) return visit_range(0, last);
   const ExactRow<D> row(velocity, first, step);

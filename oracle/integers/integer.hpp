@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include <lorentz/obstacle.hpp>
 #include "oracle/integers/z.hpp"
@@ -25,6 +26,15 @@ inline Z ceil_div(const Z& a, const Z& b) {
 inline Z round_div(const Z& a, const Z& b) {
   if (bit_length(a) + 1 < bit_length(b)) return 0;
   return floor_div(2 * a + b, 2 * b);
+}
+
+/// A number to about 53 bits, for numbers up to 2^16384; infinite or NaN beyond.
+using Estimate = long double;
+inline Estimate estimate(const BinaryApproximation& a) {
+  return std::ldexp(static_cast<Estimate>(a.mantissa), static_cast<int>(a.exponent));
+}
+inline Estimate estimate(const Z& a) {
+  return estimate(approximation(a));
 }
 
 /// floor(sqrt(a)), for a >= 0.

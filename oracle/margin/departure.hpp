@@ -6,7 +6,6 @@
 
 #include "oracle/exact/stretches.hpp"
 #include "oracle/margin/corridor.hpp"
-#include "oracle/margin/misses.hpp"
 #include "oracle/margin/perturbed_query.hpp"
 
 namespace lorentz::oracle {
@@ -170,18 +169,21 @@ class DepartureBound {
     if (exact_.outcome != Outcome::inside) return;
     for (const Uncertain<D>& atom : query_.atoms()) {
       const View<D>& view = atom.view();
-      const auto look = [&](const LatticePoint<D>& point) {
+      const auto look = [&](const Centre<D>& centre) {
         ++passed_over_;
-        const Centre<D> centre(view.velocity, point);
-        if (query_.is_from(atom, point.n) || centre.c2 >= view.radius2 || !counts(atom, centre)) return;
+        if (query_.is_from(atom, centre.point.n) || centre.c2 >= view.radius2 || !counts(atom, centre))
+          return;
         needs(atom.margin_of_containing(centre), atom, centre);
       };
       visit_ball<D>(view.basis, view.offset, view.radius2,
                     [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
-                      visit_extremes<D>(view.velocity, first, step, last, look);
+                      visit_extremes<D>(view.velocity, first, step, last,
+                                        [&](const LatticePoint<D>& point, long more) {
+                                          visit_row_of_centres(view.velocity, point, step, more, look);
+                                        });
                       return pass_over(1);
                     });
-      if (passed_over_ > kMostPassedOver) look(view.offset);
+      if (passed_over_ > kMostPassedOver) look(Centre<D>(view.velocity, view.offset));
       if (exceeds_tolerance()) return;
     }
   }

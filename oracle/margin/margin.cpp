@@ -9,7 +9,6 @@
 
 #include <lorentz/errors.hpp>
 
-#include "oracle/margin/misses.hpp"
 #include "oracle/margin/perturbed_query.hpp"
 
 namespace lorentz::oracle {
@@ -21,6 +20,7 @@ namespace {
 constexpr long kSmallBudget = 500;
 constexpr double kFirstTry = 0x1p-30, kGrowth = 8;
 constexpr int kMostTries = 4;
+constexpr int kMostDoublings = 80;  // for a flight that misses all, and runs along a lattice for ever
 
 template <std::size_t D>
 class MarginSearch {
@@ -29,18 +29,22 @@ class MarginSearch {
       : query_(perturbed),
         exact_(exact),
         full_budget_(budget),
+        budget_(std::max(budget, kSmallBudget)),
         is_hit_(exact.outcome == Outcome::hit),
+        is_never_(exact.outcome == Outcome::never),
         target_(perturbed.atom_of(exact.obstacle)),
         target_centre_(perturbed.centre_of(exact.obstacle)),
-        target_time_(is_hit_ ? target_.time_of(target_centre_) : Real(0)),
-        smallest_(kLargestMargin) {}
+        target_time_(is_hit_ ? target_.time_of(target_centre_) : Real(0)) {}
 
   HardestDecision run() {
     for (const Uncertain<D>& atom : query_.atoms())
-      if (concerns(atom)) search(atom);
-    if (!is_hit_) weigh(target_, target_centre_);  // which may be far behind the first of very many
-    decision_.margin = to_double(smallest_, kLargestMargin);
-    return decision_;
+      if (is_never_)
+        search_missed(atom);
+      else if (concerns(atom))
+        search(atom);
+    if (!is_hit_ && !is_never_)
+      weigh(target_, target_centre_);  // which may be far behind the first of very many
+    return hardest_.decision();
   }
 
  private:
@@ -49,40 +53,35 @@ class MarginSearch {
     return is_hit_ || std::pair(atom.lattice(), atom.atom()) <= std::pair(target_.lattice(), target_.atom());
   }
 
-  // The latest T at which an obstacle of this atom, with up to twice its own radius, counts.
-  Real latest(const Uncertain<D>& atom) const {
-    return target_time_ + 2 * real(atom.view().radius) / sqrt(real(atom.view().velocity.v2));
-  }
-
   // Searches until no obstacle of this atom with a margin below the smallest can be left: in one step or, if
   // that step would hold thousands of obstacles (along a wall of a channel), by widening more and more.
   void search(const Uncertain<D>& atom) {
-    const Real change = atom.largest_change(latest(atom)), radius = real(atom.view().radius);
-    const Real at_once = std::min(Real(kLargestMargin), radius / change / 4);
-    Real k = at_once;
-    if (!search_at_once(atom, at_once)) {
+    const Real radius = real(atom.view().radius);
+    // The latest T at which an obstacle, with up to twice its radius, counts.
+    const Real change = atom.largest_change(target_time_ + 2 * radius / atom.speed());
+    Real k = std::min(Real(kLargestMargin), radius / change / 4);
+    if (!search_at_once(atom, radius + k * change)) {
       int tries = 0;
       do k *= kFirstTry;
-      while (!search_in_windows(atom, k, kSmallBudget) && ++tries < kMostTries);
+      while (!search_in_windows(atom, k, change, kSmallBudget) && ++tries < kMostTries);
     }
-    for (bool complete = full_budget_ > 0; complete && k < smallest_;) {
-      k = std::min(k * kGrowth, smallest_);
-      complete = search_in_windows(atom, k, full_budget_);
+    for (bool complete = full_budget_ > 0; complete && k < hardest_.margin();) {
+      k = std::min(k * kGrowth, hardest_.margin());
+      complete = search_in_windows(atom, k, change, full_budget_);
     }
   }
 
   // Widens so little that the cylinder stays about as large as it was. Returns whether the budget was enough.
-  bool search_at_once(const Uncertain<D>& atom, const Real& k) {
-    const Real wide = real(atom.view().radius) + k * atom.largest_change(latest(atom));
+  bool search_at_once(const Uncertain<D>& atom, const Real& wide) {
     budget_ = kSmallBudget;
     look(atom, wide, first_s(atom, wide), last_s(atom, wide));
     return budget_ >= 0;
   }
 
   // Widens as the changes grow along the flight. Returns whether the budget was enough.
-  bool search_in_windows(const Uncertain<D>& atom, const Real& k, long budget) {
+  bool search_in_windows(const Uncertain<D>& atom, const Real& k, const Real& last_change, long budget) {
     const Real radius = real(atom.view().radius), v2 = real(atom.view().velocity.v2);
-    const Z end = last_s(atom, radius + k * atom.largest_change(latest(atom)));
+    const Z end = last_s(atom, radius + k * last_change);
     Z low = first_s(atom, radius + k * atom.largest_change(Real(0)));
     budget_ = budget;
     for (Real time = turning_point(); low < end && budget_ >= 0; time *= 2) {
@@ -91,6 +90,24 @@ class MarginSearch {
       low = high;
     }
     return budget_ >= 0;
+  }
+
+  // Searches in windows of doubling length; the first one reaches two radii ahead and behind. Each is as wide
+  // as margins below the smallest one reach, at most twice the radius, beyond which margins are large.
+  void search_missed(const Uncertain<D>& atom) {
+    const View<D>& view = atom.view();
+    if (view.rank == 0)  // one obstacle, however far from the line
+      return weigh(atom, query_.centre_of({atom.lattice(), atom.atom(), {}}));
+    const Real radius = real(view.radius);
+    const std::optional<Z> end = oracle::last_s(view);
+    Z low = -ceiling(2 * radius * atom.speed()), high = -low;
+    for (int doublings = 0; budget_ >= 0; ++doublings, low = high, high *= 2) {
+      const bool is_last = end ? high >= *end : doublings == kMostDoublings;
+      const Z limit = end ? std::min(high, *end) : high;
+      const Real change = atom.largest_change(real(limit) / real(view.velocity.v2));
+      if (low < limit) look(atom, radius + std::min(hardest_.margin() * change, radius), low, limit);
+      if (is_last) return;
+    }
   }
 
   // The time from which on the uncertainty of v counts for more than that of x.
@@ -103,9 +120,7 @@ class MarginSearch {
     return x / v;
   }
 
-  Z first_s(const Uncertain<D>& atom, const Real& wide) const {
-    return -ceiling(wide * sqrt(real(atom.view().velocity.v2)));
-  }
+  Z first_s(const Uncertain<D>& atom, const Real& wide) const { return -ceiling(wide * atom.speed()); }
   Z last_s(const Uncertain<D>& atom, const Real& wide) const {
     return ceiling(target_time_ * real(atom.view().velocity.v2)) - first_s(atom, wide);
   }
@@ -122,21 +137,20 @@ class MarginSearch {
   void weigh(const Uncertain<D>& atom, const Centre<D>& centre) {
     if (query_.is_from(atom, centre.point.n)) return;
     const bool is_target = &atom == &target_ && centre.point.n == target_centre_.point.n;
-    const bool contains = centre.c2 < atom.view().radius2;
-    if (!is_hit_) {
-      if (is_target ||
-          !(std::pair(atom.lattice(), atom.atom()) == std::pair(target_.lattice(), target_.atom()) &&
-            centre.point.n > target_centre_.point.n))
-        consider(DecisionKind::containing, atom, centre, contains, atom.margin_of_containing(centre));
+    if (is_hit_ || is_never_ || is_target || &atom != &target_ || centre.point.n <= target_centre_.point.n)
+      hardest_.containing(atom, centre);
+    if (is_never_ ? centre.s > 0 : is_hit_ && is_target) {  // never: what lies behind could only contain x
+      hardest_.meeting(atom, centre);
+    } else if (!is_hit_) {
       return;
+    } else if (centre.s > 0 && centre.h2 < atom.rho2()) {
+      if (hardest_.may_be(target_.least_of_order(target_centre_, atom, centre)))
+        hardest_.see(DecisionKind::order, atom, centre, false,
+                     target_.margin_of_order(target_centre_, atom, centre));
+    } else if (centre.s > 0 && hardest_.may_be(atom.least_of_meeting(centre)) &&
+               nearest_before_target(atom, centre)) {
+      hardest_.meeting(atom, centre);
     }
-    consider(DecisionKind::containing, atom, centre, contains, atom.margin_of_containing(centre));
-    const bool meets = centre.h2 < atom.rho2();
-    if (is_target || (!meets && centre.s > 0 && nearest_before_target(atom, centre)))
-      consider(DecisionKind::meeting, atom, centre, meets, atom.margin_of_meeting(centre));
-    else if (meets && centre.s > 0)
-      consider(DecisionKind::order, atom, centre, false,
-               target_.margin_of_order(target_centre_, atom, centre));
   }
 
   // True if a missed obstacle, were it just met, would be entered before the one that was hit.
@@ -145,23 +159,15 @@ class MarginSearch {
                            target_.rho2() - target_centre_.h2, target_.view().velocity.v2) < 0;
   }
 
-  void consider(DecisionKind kind, const Uncertain<D>& atom, const Centre<D>& centre, bool yes,
-                const Real& margin) {
-    if (margin >= smallest_) return;
-    smallest_ = margin;
-    decision_ = {kind, query_.id_of(atom, centre.point.n), yes, 0};
-  }
-
   const PerturbedQuery<D>& query_;
   const Answer& exact_;
   const long full_budget_;
-  const bool is_hit_;
+  long budget_;
+  const bool is_hit_, is_never_;
   const Uncertain<D>& target_;
   const Centre<D> target_centre_;
   const Real target_time_;
-  Real smallest_;
-  HardestDecision decision_;
-  long budget_ = 0;
+  HardestSoFar<D> hardest_;
 };
 
 // Widens the cylinder until it holds enough obstacles, or is three times as wide.
@@ -246,9 +252,8 @@ std::optional<HardestDecision> Margins::hardest_decision(const Query& query, con
   if (!is_never && exact.outcome != Outcome::hit && exact.outcome != Outcome::inside) return std::nullopt;
   using Decision = std::optional<HardestDecision>;
   return impl_->scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) -> Decision {
-    if (!is_never) return MarginSearch<D>(perturbed, exact, budget).run();
-    if (!is_open_everywhere(perturbed.scene())) return std::nullopt;
-    return hardest_miss(perturbed, std::max(budget, kSmallBudget));
+    if (is_never && !is_open_everywhere(perturbed.scene())) return std::nullopt;
+    return MarginSearch<D>(perturbed, exact, budget).run();
   });
 }
 

@@ -39,8 +39,12 @@ Uncertain<D>::Uncertain(const Scene& scene, const ExactScene<D>& exact_scene, co
       lattice_(lattice),
       atom_(atom),
       view_(exact.view(exact_scene, lattice, atom)),
-      rho2_(view_.radius2 * view_.velocity.v2) {
-  if (const auto& frame = exact_scene.lattices[lattice].atoms[atom].frame) {
+      rho2_(view_.radius2 * view_.velocity.v2),
+      speed_(sqrt(real(view_.velocity.v2))),
+      rho_(sqrt(real(rho2_))) {
+  const auto& frame = exact_scene.lattices[lattice].atoms[atom].frame;
+  is_ball_ = !frame;
+  if (frame) {
     to_ball_transposed_ = transposed(frame->to_ball);
     radius_ulp_ = times_power_of_two(real(view_.radius), 1 - bits_of(ulps.precision));
   } else {
@@ -49,11 +53,18 @@ Uncertain<D>::Uncertain(const Scene& scene, const ExactScene<D>& exact_scene, co
     const double radius = scene.lattices[lattice].atoms[atom].radius;
     radius_ulp_ = times_power_of_two(Real(ulp(radius, ulps.precision)), -exact.length_exponent);
   }
+  for (std::size_t i = 0; i < D; ++i)
+    stretch_[i] = is_ball_ ? Real(1) : sqrt(real(dot(to_ball_transposed_[i], to_ball_transposed_[i])));
+  Real growth;
+  for (std::size_t i = 0; i < D; ++i) growth += stretch_[i] * ulps.v[i];
+  about_growth_ = estimate(growth), about_change_ = estimate(largest_change(Real(0)));
+  about_radius_ = estimate(view_.radius), about_speed_ = estimate(speed_),
+  about_v2_ = estimate(view_.velocity.v2);
 }
 
 template <std::size_t D>
 Real Uncertain<D>::weighted(const ZVec<D>& a, const std::array<Real, D>& ulp) const {
-  const ZVec<D> image = to_ball_transposed_ * a;
+  const ZVec<D> image = is_ball_ ? a : to_ball_transposed_ * a;
   Real sum;
   for (std::size_t i = 0; i < D; ++i) sum += abs(real(image[i])) * ulp[i];
   return sum;
@@ -105,9 +116,46 @@ Real Uncertain<D>::margin_of_meeting(const Centre<D>& centre) const {
   // From the centre to the nearest point of the line: (s v - v^2 c) / v^2, of length |h| / |v|.
   ZVec<D> nearest;
   for (std::size_t i = 0; i < D; ++i) nearest[i] = centre.s * velocity.v[i] - velocity.v2 * centre.point.p[i];
-  const Real speed = sqrt(real(velocity.v2)), h = sqrt(real(centre.h2));
-  const Real change = centre.h2 == 0 ? longest_corner(ulp, true) : weighted(nearest, ulp) / (speed * h);
-  return real(Z(abs(centre.h2 - rho2_))) / ((h + sqrt(real(rho2_))) * speed) / (change + radius_ulp_);
+  const Real h = sqrt(real(centre.h2));
+  const Real change = centre.h2 == 0 ? longest_corner(ulp, true) : weighted(nearest, ulp) / (speed_ * h);
+  return real(Z(abs(centre.h2 - rho2_))) / ((h + rho_) * speed_) / (change + radius_ulp_);
+}
+
+namespace {
+
+// A lower bound of |a - b|, whose parts are known to about 50 bits.
+Estimate least_difference(Estimate a, Estimate b) {
+  return std::fabs(a - b) - 0x1p-45L * (std::fabs(a) + std::fabs(b));
+}
+
+}  // namespace
+
+template <std::size_t D>
+Estimate Uncertain<D>::least_of_containing(const Centre<D>& centre) const {
+  return least_difference(std::sqrt(estimate(centre.c2)), about_radius_) / about_change_;
+}
+
+template <std::size_t D>
+Estimate Uncertain<D>::least_of_meeting(const Centre<D>& centre) const {
+  const Estimate time = std::fabs(estimate(centre.s)) / about_v2_;
+  return least_difference(std::sqrt(estimate(centre.h2)) / about_speed_, about_radius_) /
+         (about_change_ + time * about_growth_);
+}
+
+// |by_x| = by_radius = r / sqrt(d), with d as in time_of.
+template <std::size_t D>
+std::pair<Estimate, Estimate> Uncertain<D>::about_arrival(const Centre<D>& centre) const {
+  const Estimate root = std::sqrt(estimate(Z(rho2_ - centre.h2)));
+  const Estimate t = estimate(Z(centre.c2 - view_.radius2)) / (estimate(centre.s) + root);
+  return {t, about_radius_ / root * (about_change_ + std::fabs(t) * about_growth_)};
+}
+
+template <std::size_t D>
+Estimate Uncertain<D>::least_of_order(const Centre<D>& centre, const Uncertain& other,
+                                      const Centre<D>& its) const {
+  const auto [t1, change1] = about_arrival(centre);
+  const auto [t2, change2] = other.about_arrival(its);
+  return least_difference(t1, t2) / (change1 + change2);
 }
 
 template <std::size_t D>
@@ -149,8 +197,7 @@ template <std::size_t D>
 Real Uncertain<D>::largest_change(const Real& latest) const {
   const std::array<Real, D> ulp = ulps_at(latest);
   Real sum = radius_ulp_;
-  for (std::size_t i = 0; i < D; ++i)
-    sum += sqrt(real(dot(to_ball_transposed_[i], to_ball_transposed_[i]))) * ulp[i];
+  for (std::size_t i = 0; i < D; ++i) sum += stretch_[i] * ulp[i];
   return sum;
 }
 

@@ -40,6 +40,23 @@ struct Centre {
         h2(velocity.v2 * c2 - s * s) {}
 };
 
+/// Passes to `look` the centre at `point`, and `more` that follow it at `step`.
+template <std::size_t D, class Look>
+void visit_row_of_centres(const ExactVelocity<D>& velocity, LatticePoint<D> point,
+                          const LatticePoint<D>& step, long more, const Look& look) {
+  Centre<D> centre(velocity, std::move(point));
+  if (more == 0) return look(centre);
+  // c^2 and h^2 are quadratic functions: their differences from one to the next are linear.
+  const Z sg = dot(velocity.v, step.p), gg2 = 2 * dot(step.p, step.p), hh2 = velocity.v2 * gg2 - 2 * sg * sg;
+  Z c2_on = 2 * dot(centre.point.p, step.p) + (gg2 >> 1),
+    h2_on = velocity.v2 * c2_on - sg * (2 * centre.s + sg);
+  for (look(centre); more > 0; --more, look(centre)) {
+    centre.point.add_multiple(1, step);
+    centre.s += sg, centre.c2 += c2_on, centre.h2 += h2_on;
+    c2_on += gg2, h2_on += hh2;
+  }
+}
+
 /// The most rows of one stretch that are looked at: there may be millions without a centre.
 inline constexpr int kMostRows = 1'000'000;
 
@@ -51,8 +68,9 @@ bool visit_centres(const View<D>& view, const Z& reach2, const Z& low, const Z& 
                    const Spend& spend) {
   const Stretches<D> stretches(view, reach2);
   const RowVisitor<D> visit = [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
-    visit_extremes<D>(view.velocity, first, step, last,
-                      [&](const LatticePoint<D>& point) { look(Centre<D>(view.velocity, point)); });
+    visit_extremes<D>(view.velocity, first, step, last, [&](LatticePoint<D> point, long more) {
+      visit_row_of_centres(view.velocity, std::move(point), step, more, look);
+    });
     return spend(0);
   };
   return stretches.cut(low, high, [&](const RowStretch<D>& stretch) {
@@ -93,11 +111,18 @@ class Uncertain {
   const Z& rho2() const { return rho2_; }
   int lattice() const { return lattice_; }
   int atom() const { return atom_; }
+  const Real& speed() const { return speed_; }
 
   /// ||x - c| - r| in ulps.
   Real margin_of_containing(const Centre<D>& centre) const;
   /// |distance of the line - r| in ulps.
   Real margin_of_meeting(const Centre<D>& centre) const;
+  /// Lower bounds of the two, but for 2^-40 of them: the ulps of x and v count as if each moved the line straight
+  /// towards c. They cost far less than the margins. NaN if a number is beyond the range of an Estimate.
+  Estimate least_of_containing(const Centre<D>& centre) const;
+  Estimate least_of_meeting(const Centre<D>& centre) const;
+  /// The same for margin_of_order, of centres with s > 0.
+  Estimate least_of_order(const Centre<D>& centre, const Uncertain& other, const Centre<D>& its) const;
   /// |s| in ulps, for whether the centre is ahead.
   Real margin_of_ahead(const Centre<D>& centre) const;
   /// For an obstacle that is met. time_of accepts missed obstacles: they count as entered where the line is
@@ -129,13 +154,19 @@ class Uncertain {
   /// The largest length of B y over the corners |y_i| = ulp_i, or of its part across the flight.
   Real longest_corner(const std::array<Real, D>& ulp, bool across) const;
   std::array<Real, D> ulps_at(const Real& time) const;
+  /// About the time of entry, for s > 0, and an upper bound of its change.
+  std::pair<Estimate, Estimate> about_arrival(const Centre<D>& centre) const;
 
   const InputUlps<D>& ulps_;
   int lattice_, atom_;
+  bool is_ball_;
   ZMatrix<D> to_ball_transposed_;
+  std::array<Real, D> stretch_;  // the lengths of its rows
   View<D> view_;
   Z rho2_;
-  Real radius_ulp_;
+  Real radius_ulp_, speed_, rho_;
+  // about_change_ and about_growth_: largest_change at 0, and its growth in time
+  Estimate about_speed_, about_v2_, about_radius_, about_change_, about_growth_;
 };
 
 }  // namespace lorentz::oracle

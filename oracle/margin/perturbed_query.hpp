@@ -5,6 +5,7 @@
 #include <string>
 
 #include <lorentz/errors.hpp>
+#include <lorentz/margin.hpp>
 
 #include "oracle/margin/perturbation.hpp"
 
@@ -64,6 +65,49 @@ class PerturbedQuery {
   ExactQuery<D> exact_;
   InputUlps<D> ulps_;
   std::deque<Uncertain<D>> atoms_;  // they refer to ulps_
+};
+
+/// True if all lattices repeat in fewer directions than the space has: a flight passes a bounded stretch of them,
+/// or runs along a lattice for ever.
+template <std::size_t D>
+bool is_open_everywhere(const ExactScene<D>& scene) {
+  return std::ranges::all_of(scene.lattices, [](const auto& lattice) { return lattice.rank < D; });
+}
+
+/// The hardest of the decisions that it is shown. Most are far easier than the hardest so far: then the margin
+/// is not computed.
+template <std::size_t D>
+class HardestSoFar {
+ public:
+  const Real& margin() const { return smallest_; }
+  HardestDecision decision() const {
+    HardestDecision its = decision_;
+    its.margin = to_double(smallest_, kLargestMargin);
+    return its;
+  }
+
+  bool may_be(Estimate least) const { return !(least >= enough_); }  // NaN: nothing is known
+
+  void containing(const Uncertain<D>& atom, const Centre<D>& centre) {
+    if (may_be(atom.least_of_containing(centre)))
+      see(DecisionKind::containing, atom, centre, centre.c2 < atom.view().radius2,
+          atom.margin_of_containing(centre));
+  }
+  void meeting(const Uncertain<D>& atom, const Centre<D>& centre) {
+    if (may_be(atom.least_of_meeting(centre)))
+      see(DecisionKind::meeting, atom, centre, centre.h2 < atom.rho2(), atom.margin_of_meeting(centre));
+  }
+  void see(DecisionKind kind, const Uncertain<D>& atom, const Centre<D>& centre, bool yes, Real margin) {
+    if (margin >= smallest_) return;
+    decision_ = {kind, PerturbedQuery<D>::id_of(atom, centre.point.n), yes, 0};
+    enough_ = estimate(margin) * (1 + 0x1p-30L);  // more than the rounding of all estimates
+    smallest_ = std::move(margin);
+  }
+
+ private:
+  Real smallest_ = kLargestMargin;
+  Estimate enough_ = kLargestMargin;
+  HardestDecision decision_;
 };
 
 /// The largest change of the time at which an obstacle is entered or left, in the query's own units.

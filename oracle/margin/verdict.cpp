@@ -72,16 +72,18 @@ struct Judge::Impl {
     return excused.wrong_time ? judgement : excused;
   }
 
+  bool contains(const Query& query, const ObstacleId& obstacle) const {
+    return scene.with(query, [&](const auto& perturbed) {
+      return perturbed.centre_of(obstacle).c2 < perturbed.atom_of(obstacle).view().radius2;
+    });
+  }
+
   // `inside` in place of a hit of an obstacle that contains x.
   Answer as_inside(const Query& query, const Answer& answer) const {
     if (answer.outcome != Outcome::hit || query.from == answer.obstacle ||
         flaw_of(Query{query.x, query.v, answer.obstacle}, scene.scene()))
       return answer;
-    const bool contains = scene.with(query, [&]<std::size_t D>(const PerturbedQuery<D>& perturbed) {
-      const Uncertain<D>& atom = perturbed.atom_of(answer.obstacle);
-      return perturbed.centre_of(answer.obstacle).c2 < atom.view().radius2;
-    });
-    return contains ? Answer::inside(answer.obstacle) : answer;
+    return contains(query, answer.obstacle) ? Answer::inside(answer.obstacle) : answer;
   }
 
   // Both contain x. The one that is left later is ill-posed if the inputs' ulps can make up for the difference.
@@ -211,6 +213,10 @@ Judgement Judge::judge(const Query& query, const Answer& exact, const Answer& gi
   if (given.outcome == exact.outcome && (!names_obstacle || given.obstacle == exact.obstacle))
     return impl_->judge_times(query, exact, given, ulps);
   return impl_->judge_departure(query, exact, given, ulps);
+}
+
+bool Judge::contains(const Query& query, const ObstacleId& obstacle) const {
+  return impl_->contains(query, obstacle);
 }
 
 std::optional<std::vector<ExcusedAnswer>> Judge::excused(const Query& query, const Answer& exact, double ulps,

@@ -89,6 +89,27 @@ TEST_CASE("Exact answers are the same from the oracle and from certified, scenes
   CHECK(met[Outcome::never] + met[Outcome::inside] > 0);
 }
 
+TEST_CASE("Where no judge is needed the judgement is the judge's", "[compare][examine]") {
+  const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
+  const Query outside{{0.5, 0.125}, {1, 0}, {}}, inside{{0.1, 0}, {1, 0}, {}}, never{{0.5, 0.5}, {1, 0}, {}};
+  const oracle::Judge judge(place->scene());
+  for (const Query& query : {outside, inside, never})
+    for (const Answer& given :
+         {place->exact(outside), place->exact(inside), place->exact(never), Answer::later(),
+          Answer::undecided(), Answer::error("no"), Answer::inside({0, 0, {1, 0, 0}})}) {
+      const Question question{.place = place, .query = query, .exact = place->exact(query)};
+      const oracle::Judgement one = question::judgement_of(question, given, 4),
+                              two = judge.judge(query, question.exact, given, 4);
+      CHECK((one.verdict == two.verdict && one.ulps == two.ulps && one.departs == two.departs));
+    }
+  // By another rule `inside` is wrong, also where a logged truth says it.
+  const auto other =
+      std::make_shared<Place>(unit_scene(2, 0.25), Truth::oracle, Claim{.inside = StartInside::miss});
+  const Answer logged = place->exact(inside);
+  CHECK(question::judgement_of({.place = other, .query = inside, .exact = logged}, logged, 4).verdict ==
+        Verdict::wrong);
+}
+
 TEST_CASE("A limit is judged like a time, and in campaigns exactly", "[compare][examine]") {
   using oracle::Verdict, question::AtLimit;
   const auto place = std::make_shared<Place>(unit_scene(2, 0.25));

@@ -9,8 +9,8 @@
 #include <lorentz/oracle.hpp>
 #include <lorentz/reduction.hpp>
 #include <lorentz/verdict.hpp>
+#include "fuzz/campaign/examiner.hpp"
 #include "fuzz/campaign/rewording.hpp"
-#include "fuzz/campaign/tie.hpp"
 #include "tests/support/support.hpp"
 
 namespace lorentz::test {
@@ -81,7 +81,7 @@ inline void require_carried(RewordedScene& scene, const fuzz::Reworded& reworded
   const Answer other = exact.outcome == Outcome::hit
                            ? Answer::hit(scene.rewording.there(exact.obstacle, reworded), *there.time)
                            : Answer::inside(scene.rewording.there(exact.obstacle, reworded));
-  REQUIRE(fuzz::is_tie(scene.rewording.scene(), *scene.judge, reworded.query, there, other));
+  REQUIRE(fuzz::is_tie(*scene.judge, reworded.query, there, other));
 }
 
 // The engines that claim to be exact say what the oracle says, in its words.

@@ -26,7 +26,7 @@ constexpr int kReadable = 12;
 Shrunk shrink_published(const Scene& scene, const Query& query, Kind kind, int tries) {
   const auto answerer = fuzz::answerer_maker(question::engine_named("published"))({});
   const auto kind_of = [&](const Scene& s, const Query& q) {
-    if (!fuzz::is_sound(s) || flaw_of(q, s)) return Kind::agree;
+    if (!cases::is_sound(s) || flaw_of(q, s)) return Kind::agree;
     return fuzz::Examiner(*answerer, std::make_shared<question::Place>(s), 4).examine(q).kind;
   };
   REQUIRE(kind_of(scene, query) == kind);
@@ -82,7 +82,7 @@ TEST_CASE("What does not matter goes: lattices, atoms, ellipsoids, `from`, far c
                 {{{0.1, 0.2}, 0, {{0.2, 0.01}, {-0.01, 0.1}}}, {{0.5, 0.3}, 0.123, {}}}},
                {{Vec{3, 0.1}, Vec{0.2, 2}, Vec{}}, {{{0.3, 0.3}, 0.05, {}}}}}};
   const Query query{{1000.123, -77.7}, {-0.3, 0.9}, ObstacleId{1, 0, {Integer(5), Integer(-3), Integer(0)}}};
-  const auto any = [](const Scene& s, const Query& q) { return fuzz::is_sound(s) && !flaw_of(q, s); };
+  const auto any = [](const Scene& s, const Query& q) { return cases::is_sound(s) && !flaw_of(q, s); };
   const Shrunk shrunk = fuzz::shrink(scene, query, any);
   CHECK(is_unit_scene(shrunk.scene));
   CHECK_FALSE(shrunk.query.from);

@@ -295,8 +295,9 @@ TEST_CASE("Stretches: of a long row the ends and the points nearest to the line 
   const auto visits = [&](long x, long y, long dx, long dy, long last) {
     LatticePoint<2> first{{Z(x), Z(y)}, {Z(0), Z(0)}}, step{{Z(dx), Z(dy)}, {Z(1), Z(0)}};
     std::set<long> seen;
-    visit_extremes<2>(velocity, first, step, last,
-                      [&](const LatticePoint<2>& point) { seen.insert(point.n[0].get_si()); });
+    visit_extremes<2>(velocity, first, step, last, [&](LatticePoint<2> point, long more) {
+      for (; more >= 0; --more, point.add_multiple(1, step)) seen.insert(point.n[0].get_si());
+    });
     return seen;
   };
   const auto range = [](long begin, long end) {
