@@ -103,11 +103,11 @@ TEST_CASE("Where no judge is needed the judgement is the judge's", "[compare][ex
       CHECK((one.verdict == two.verdict && one.ulps == two.ulps && one.departs == two.departs));
     }
   // By another rule `inside` is wrong, also where a logged truth says it.
-  const auto other =
-      std::make_shared<Place>(unit_scene(2, 0.25), Truth::oracle, Claim{.inside = StartInside::miss});
+  const auto other = std::make_shared<Place>(unit_scene(2, 0.25), question::Truth::oracle,
+                                             Claim{.inside = StartInside::miss});
   const Answer logged = place->exact(inside);
-  CHECK(question::judgement_of({.place = other, .query = inside, .exact = logged}, logged, 4).verdict ==
-        Verdict::wrong);
+  const Question asked{.place = other, .query = inside, .exact = logged};
+  CHECK(question::judgement_of(asked, logged, 4).verdict == Verdict::wrong);
 }
 
 TEST_CASE("A limit is judged like a time, and in campaigns exactly", "[compare][examine]") {
