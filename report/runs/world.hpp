@@ -1,8 +1,10 @@
-// The processes of one run, if mpirun started several. Derived classes define their messages. Only files
-// called *_mpi use MPI; a program built without it has *_none.cpp in place of *_mpi.cpp.
+// The processes of one run, if mpirun started several. Derived classes define their messages. Only
+// world_mpi.cpp uses MPI; a program built without it has world_none.cpp in its place.
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace lorentz::runs {
 
@@ -16,13 +18,22 @@ class World {
   [[noreturn]] void abort(int status);
 
  protected:
-  struct Mpi;
+  struct Message {
+    int from, kind;  ///< a rank; a number that the derived class chooses
+    std::string text;
+  };
 
   World();
   ~World();
-  Mpi& mpi() { return *mpi_; }
+
+  /// Gives rank 0's text to all ranks; each must call it.
+  void share(std::string& text);
+  void send(int to, int kind, const std::string& text);
+  /// A message that has arrived, if any. It does not wait, because a wait inside MPI keeps a processor busy.
+  std::optional<Message> received();
 
  private:
+  struct Mpi;
   std::unique_ptr<Mpi> mpi_;
 };
 

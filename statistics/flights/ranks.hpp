@@ -1,7 +1,6 @@
 // The processes of one run of flights: each flies a share of the blocks, and rank 0 keeps the account.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,10 +11,6 @@ namespace lorentz::flights {
 
 class Ranks : public runs::World {
  public:
-  /// See runs::join.
-  Ranks();
-  ~Ranks();
-
   /// Begins a run, the first or a later one: rank 0 sends its account so far to all ranks.
   void share(Account& account);
 
@@ -28,8 +23,8 @@ class Ranks : public runs::World {
   Account sum(const Account& own, bool wait);
 
  private:
-  struct Inbox;
-  std::unique_ptr<Inbox> inbox_;
+  std::vector<std::string> latest_;  // rank 0: the latest account of each other rank
+  int at_work_ = 0;                  // rank 0: how many have not sent their last report
 };
 
 }  // namespace lorentz::flights

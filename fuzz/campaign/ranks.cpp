@@ -1,5 +1,5 @@
-// Ranks by MPI. The only messages are a report from a rank and orders in return. Both sides poll for them and
-// sleep in between, because a wait inside MPI keeps a processor busy.
+// The only messages are a report from a rank and orders in return, as pieces of JSON (src/exchange/json_piece.hpp).
+// Both sides poll for them and sleep in between.
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -8,16 +8,12 @@
 
 #include "fuzz/campaign/ledger.hpp"
 #include "fuzz/campaign/ranks.hpp"
-#include "report/runs/world_mpi.hpp"
 #include "src/exchange/json_piece.hpp"
 
 namespace lorentz::fuzz {
 namespace {
 
-namespace mpi = boost::mpi;
 using SteadyClock = std::chrono::steady_clock;
-
-enum Message { kReport = 1, kOrders };
 
 constexpr std::chrono::milliseconds kLook{2}, kLongestSilence{100};
 
@@ -36,20 +32,6 @@ struct Report {
 };
 
 using Orders = std::pair<std::vector<Assignment>, bool>;  // and whether to stop
-
-// Messages are pieces of JSON (src/exchange/json_piece.hpp).
-template <class T>
-void send(const mpi::communicator& world, int rank, Message message, const T& value) {
-  world.send(rank, message, json::piece_of(value));
-}
-template <class T>
-T received(const mpi::communicator& world, int rank, Message message) {
-  std::string piece;
-  world.recv(rank, message, piece);
-  T value;
-  json::read_piece(piece, value);
-  return value;
-}
 
 // ---- another rank's threads take from here
 
@@ -111,15 +93,15 @@ class RemoteWork final : public WorkSource {
 }  // namespace
 
 void Ranks::serve(Ledger& ledger) {
-  const mpi::communicator& world = mpi().world;
-  while (const auto status = world.iprobe(mpi::any_source, kReport)) {
-    auto report = received<Report>(world, status->source(), kReport);
+  while (const auto message = received()) {
+    Report report;
+    json::read_piece(message->text, report);
     for (Done& done : report.done) ledger.hand_in(std::move(done));
     if (!report.failure.empty()) ledger.fail(std::make_exception_ptr(std::runtime_error(report.failure)));
     dismissed_ += report.last;
     if (report.last) continue;
-    Orders orders{ledger.take_some(report.wants, report.batch_size), ledger.stop()};
-    send(world, status->source(), kOrders, orders);
+    const Orders orders{ledger.take_some(report.wants, report.batch_size), ledger.stop()};
+    send(message->from, 0, json::piece_of(orders));
   }
 }
 
@@ -131,7 +113,6 @@ void Ranks::dismiss(Ledger& ledger) {
 }
 
 void Ranks::work(const Plan& plan, unsigned jobs, const MakeAnswerer& make_answerer) {
-  const mpi::communicator& world = mpi().world;
   RemoteWork work(jobs);
   Workers workers(plan, make_answerer, work, jobs);
   auto last_sent = SteadyClock::now() - kLongestSilence;
@@ -139,14 +120,17 @@ void Ranks::work(const Plan& plan, unsigned jobs, const MakeAnswerer& make_answe
     std::this_thread::sleep_for(kLook);
     if (!work.has_news() && SteadyClock::now() - last_sent < kLongestSilence) continue;
     last_sent = SteadyClock::now();
-    send(world, 0, kReport, work.report());
-    while (!world.iprobe(0, kOrders)) std::this_thread::sleep_for(kLook);
-    work.obey(received<Orders>(world, 0, kOrders));
+    send(0, 0, json::piece_of(work.report()));
+    std::optional<Message> reply;
+    while (!(reply = received())) std::this_thread::sleep_for(kLook);
+    Orders orders;
+    json::read_piece(reply->text, orders);
+    work.obey(std::move(orders));
   }
   workers.join();
   Report report = work.report();
   report.last = true;
-  send(world, 0, kReport, report);
+  send(0, 0, json::piece_of(report));
 }
 
 }  // namespace lorentz::fuzz
