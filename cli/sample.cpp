@@ -26,18 +26,6 @@ struct SampleOptions {
   std::optional<double> radius;
 };
 
-void append(QueryRows& rows, const Query& query, int dimension) {
-  ++rows.count;
-  for (int k = 0; k < dimension; ++k) {
-    rows.x[k].push_back(query.x[k]);
-    rows.v[k].push_back(query.v[k]);
-  }
-  if (!query.from) return;
-  rows.from_lattice.push_back(query.from->lattice);
-  rows.from_atom.push_back(query.from->atom);
-  for (int k = 0; k < dimension; ++k) rows.from_cell[k].push_back(query.from->cell[k].int64());
-}
-
 // `with_from`: the starts leave obstacles.
 void append_front(std::string& out, const SampleOptions& options, const Scene& scene, bool with_from) {
   if (options.format == "ndjson") append_scene_line(out, scene);
@@ -65,9 +53,8 @@ int act(const SampleOptions& options) {
   QueryRows rows;
   append_front(output.buffer(), options, scene, kind == Kind::surface);
   for (std::uint64_t first = 0; first < options.count; first += rows.count) {
-    rows.clear();
-    for (const Query& start : starts.some(first, std::min(kRowsTogether, options.count - first)))
-      append(rows, start, scene.dimension);
+    rows.resize(std::min(kRowsTogether, options.count - first), scene.dimension, kind == Kind::surface);
+    for (std::size_t i = 0; i < rows.count; ++i) rows.set(i, starts[first + i], scene.dimension);
     append_rows(output.buffer(), options.format, rows, first, scene);
     output.flush_if_due();
     report(listener, "drawing", first + rows.count, options.count);

@@ -12,6 +12,19 @@ SceneEngine SceneEngine::unsupported(const Scene& scene, const Traits& traits, c
           }};
 }
 
+QueryColumns view_of(const QueryRows& rows) {
+  const auto used = [&](const auto& column) {
+    return std::span(column).first(std::min(column.size(), rows.count));
+  };
+  QueryColumns columns;
+  for (int k = 0; k < 3; ++k)
+    columns.x[k] = used(rows.x[k]), columns.v[k] = used(rows.v[k]),
+    columns.from_cell[k] = used(rows.from_cell[k]);
+  columns.max_time = used(rows.max_time);
+  columns.from_lattice = used(rows.from_lattice), columns.from_atom = used(rows.from_atom);
+  return columns;
+}
+
 void SceneEngine::fly(const QueryColumns& queries, FlightTable& flights) const {
   flights.resize(queries.size());
   const FlightColumns columns = flights.columns();
@@ -81,7 +94,8 @@ class RowsAnswered {
   void fly(int jobs) {
     const std::size_t count = queries_.count;
     std::vector<Stage> stages(count);
-    QueryColumns asked;
+    QueryColumns asked = view_of(queries_);
+    if (!limits_.empty()) asked.max_time = std::span(limits_).first(count);
     FlightColumns told;
     told.outcome = std::span(answers_.outcome).subspan(first_, count);
     told.stage = stages;
@@ -89,16 +103,7 @@ class RowsAnswered {
     told.lattice = std::span(answers_.lattice).subspan(first_, count);
     told.atom = std::span(answers_.atom).subspan(first_, count);
     told.time = std::span(answers_.time).subspan(first_, count);
-    for (int k = 0; k < answers_.dimension; ++k) {
-      asked.x[k] = std::span(queries_.x[k]).first(count), asked.v[k] = std::span(queries_.v[k]).first(count);
-      if (!queries_.from_lattice.empty()) asked.from_cell[k] = std::span(queries_.from_cell[k]).first(count);
-      told.cell[k] = {answers_.cell(k) + first_, count};
-    }
-    if (!limits_.empty()) asked.max_time = std::span(limits_).first(count);
-    if (!queries_.from_lattice.empty()) {
-      asked.from_lattice = std::span(queries_.from_lattice).first(count);
-      asked.from_atom = std::span(queries_.from_atom).first(count);
-    }
+    for (int k = 0; k < answers_.dimension; ++k) told.cell[k] = {answers_.cell(k) + first_, count};
     engine_.fly_together(asked, told, uncertain_, jobs);
     std::ranges::transform(stages, answers_.stage.begin() + static_cast<std::ptrdiff_t>(first_),
                            [](Stage stage) { return static_cast<std::uint8_t>(stage); });

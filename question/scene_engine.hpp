@@ -31,6 +31,9 @@ inline double limit_of(const oracle::Request& request) {
   return request.max_time.value_or(kForEver);
 }
 
+/// A view of the columns. It is valid until they change.
+QueryColumns view_of(const QueryRows& rows);
+
 /// Any number of threads may share one. All its functions give the same answers.
 class SceneEngine {
  public:

@@ -6,8 +6,8 @@
 # SSE arithmetic on x86 (the default there), and no -march=native. docs/determinism.md tells how each was found:
 #  - after -fno-fast-math, for clang's takes the contraction that was asked for back;
 #  - GCC's vectorizer fuses pairs of a difference and a sum whatever -ffp-contract says (x86 with FMA), so none of it. What
-#    vectors are worth it for is written in vectors (src/engines/batch); the searches of `reduction` were a fifth slower
-#    with it, for numbers that are stored and loaded at different widths wait for each other.
+#    vectors are worth it for is written in vectors (src/engines/batch, question/starts); the searches of `reduction` were a
+#    fifth slower with it, for numbers that are stored and loaded at different widths wait for each other.
 # PRIVATE, all of it: users of the library choose their own compiler flags, and the public headers' arithmetic is not the
 # library's.
 function(lorentz_settings target)

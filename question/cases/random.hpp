@@ -38,7 +38,8 @@ class Random {
     if (taken_ == block_.size()) next_block();
     return block_[taken_++];
   }
-  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }  ///< [0, 1), a multiple of 2^-53
+  double uniform() { return share_of(bits()); }  ///< [0, 1), a multiple of 2^-53
+  static double share_of(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
   Vec direction(int dimension);              ///< isotropic, of unit length up to rounding
   Vec vector(int dimension, double length);  ///< isotropic, of this length
 

@@ -5,17 +5,13 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
-#include "question/starts/direction.hpp"
 #include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::starts {
 
 using cases::Random;
-using cases::Series;
 
 namespace {
-
-constexpr Series kUniform("uniform starts"), kSurface("surface starts");
 
 // Whether all points in and around the box are finite, with room for geometry with several of them.
 bool in_range(const Scene& scene, const cases::Box& box) {
@@ -45,27 +41,6 @@ std::vector<double> surfaces_of(const Scene& scene) {
 }
 
 }  // namespace
-
-void StartColumns::resize(std::size_t count, int dimension, bool with_from) {
-  const std::size_t from_count = with_from ? count : 0;
-  for (int i = 0; i < 3; ++i) {
-    const bool used = i < dimension;
-    x[i].resize(used ? count : 0);
-    v[i].resize(used ? count : 0);
-    from_cell[i].resize(used ? from_count : 0);
-  }
-  from_lattice.resize(from_count);
-  from_atom.resize(from_count);
-}
-
-QueryColumns StartColumns::view() const {
-  QueryColumns columns;
-  for (int i = 0; i < 3; ++i) columns.x[i] = x[i], columns.v[i] = v[i];
-  if (from_lattice.empty()) return columns;
-  columns.from_lattice = from_lattice, columns.from_atom = from_atom;
-  for (int i = 0; i < 3; ++i) columns.from_cell[i] = from_cell[i];
-  return columns;
-}
 
 std::string nowhere_to_start(std::uint64_t draws) {
   return "no free start in " + std::to_string(draws) +
@@ -126,14 +101,6 @@ const Candidates::Obstacle& Candidates::chosen_obstacle(Random& random) const {
       [](std::uint64_t bits, const Obstacle& obstacle) { return bits < obstacle.below; });
 }
 
-Candidates::Start Candidates::uniform_start(Random& random) const {
-  Start start{};
-  start.lattice = -1;
-  start.x = box_.point(random);
-  start.v = direction(random, box_.dimension);
-  return start;
-}
-
 // In a superposition, the obstacle's cell is the cell that contains a drawn point of the box, so that all
 // cells are equally likely.
 Candidates::Start Candidates::surface_start(Random& random) const {
@@ -159,32 +126,31 @@ Candidates::Start Candidates::surface_start(Random& random) const {
 Candidates::Start Candidates::start(std::uint64_t index, std::uint64_t attempt) const {
   const bool surface = ensemble_ == Ensemble::surface;
   Random random(seed_, surface ? kSurface : kUniform, index, cases::Use::cases, attempt);
-  return surface ? surface_start(random) : uniform_start(random);
+  if (surface) return surface_start(random);
+  Start start{};
+  start.x = box_.point(random);
+  start.v = direction(random, box_.dimension);
+  return start;
 }
 
 void Candidates::draw(std::uint64_t index, std::uint64_t attempt, Query& query) const {
   const Start drawn = start(index, attempt);
   query.x = drawn.x, query.v = drawn.v;
-  const ObstacleId from{drawn.lattice, drawn.atom, {drawn.cell[0], drawn.cell[1], drawn.cell[2]}};
-  query.from = drawn.lattice < 0 ? std::nullopt : std::optional(from);
+  query.from.reset();
+  if (ensemble_ == Ensemble::surface)
+    query.from = ObstacleId{drawn.lattice, drawn.atom, {drawn.cell[0], drawn.cell[1], drawn.cell[2]}};
 }
 
-void Candidates::draw(std::uint64_t index, std::uint64_t attempt, StartColumns& starts,
-                      std::size_t place) const {
-  const Start drawn = start(index, attempt);
-  for (int i = 0; i < box_.dimension; ++i) {
-    starts.x[i][place] = drawn.x[i];
-    starts.v[i][place] = drawn.v[i];
+void Candidates::draw(std::span<const std::uint64_t> indices, std::uint64_t attempt, QueryRows& rows) const {
+  const bool surface = ensemble_ == Ensemble::surface;
+  rows.resize(indices.size(), box_.dimension, surface);
+  for (std::size_t i = surface ? 0 : draw_in_lanes(indices, attempt, rows); i < indices.size(); ++i) {
+    const Start drawn = start(indices[i], attempt);
+    for (int k = 0; k < box_.dimension; ++k) rows.x[k][i] = drawn.x[k], rows.v[k][i] = drawn.v[k];
+    if (!surface) continue;
+    rows.from_lattice[i] = drawn.lattice, rows.from_atom[i] = drawn.atom;
+    for (int k = 0; k < box_.dimension; ++k) rows.from_cell[k][i] = drawn.cell[k];
   }
-  if (ensemble_ != Ensemble::surface) return;
-  starts.from_lattice[place] = drawn.lattice;
-  starts.from_atom[place] = drawn.atom;
-  for (int i = 0; i < box_.dimension; ++i) starts.from_cell[i][place] = drawn.cell[i];
-}
-
-void Candidates::draw(std::uint64_t first, std::size_t count, StartColumns& starts) const {
-  starts.resize(count, box_.dimension, ensemble_ == Ensemble::surface);
-  for (std::size_t i = 0; i < count; ++i) draw(first + i, 0, starts, i);
 }
 
 }  // namespace lorentz::starts

@@ -3,36 +3,20 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
-#include <lorentz/batch.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 #include "question/cases/box.hpp"
 #include "question/starts/ensemble.hpp"
 #include "question/starts/surface.hpp"
+#include "src/exchange/columns.hpp"
 
 namespace lorentz::starts {
 
 using flights::Ensemble;
-
-/// Starts of flights in columns, one per component, as in QueryColumns. In 2D the third columns are empty.
-struct StartColumns {
-  std::array<std::vector<double>, 3> x, v;
-
-  /// The obstacle that each flight leaves. Empty if no flight leaves one.
-  std::vector<std::int32_t> from_lattice, from_atom;
-  std::array<std::vector<std::int64_t>, 3> from_cell;
-
-  std::size_t size() const { return x[0].size(); }
-
-  /// Makes room for `count` starts. Memory stays allocated.
-  void resize(std::size_t count, int dimension, bool with_from);
-
-  /// A view of the columns. It is valid until the next change of their size.
-  QueryColumns view() const;
-};
 
 /// Numbered candidates for starts. Start `index` depends only on the scene, the ensemble, the box, the seed
 /// and the index, so that any number of threads, shards and machines draws the same starts, to the bit.
@@ -64,13 +48,8 @@ class Candidates {
   /// nowhere_to_start().
   void draw(std::uint64_t index, std::uint64_t attempt, Query& start) const;
 
-  /// Candidate 0 of each of the starts [first, first + count).
-  void draw(std::uint64_t first, std::size_t count, StartColumns& starts) const;
-
-  /// Replaces the candidate at `place`.
-  void draw(std::uint64_t index, std::uint64_t attempt, StartColumns& starts, std::size_t place) const;
-
-  int dimension() const { return box_.dimension; }
+  /// The candidates of this attempt for many starts, a row for each index.
+  void draw(std::span<const std::uint64_t> indices, std::uint64_t attempt, QueryRows& rows) const;
 
  private:
   struct Start {
@@ -88,12 +67,16 @@ class Candidates {
     std::array<Vec, 3> vectors, dual;
   };
 
-  Start uniform_start(cases::Random& random) const;
   Start surface_start(cases::Random& random) const;
   Start start(std::uint64_t index, std::uint64_t attempt) const;
+  /// Draws uniform starts in the lanes of the processor's vectors, as many as fill them. Returns how many.
+  std::size_t draw_in_lanes(std::span<const std::uint64_t> indices, std::uint64_t attempt,
+                            QueryRows& rows) const;
   const Obstacle& chosen_obstacle(cases::Random& random) const;
   void choose_by_surface(const Scene& scene);
   void count_cells(const Lattice& lattice);
+
+  static constexpr cases::Series kUniform{"uniform starts"}, kSurface{"surface starts"};
 
   Ensemble ensemble_;
   std::uint64_t seed_;

@@ -98,10 +98,4 @@ void FreeStarts::draw(std::uint64_t index, Query& start) const {
   throw InputError(nowhere_to_start(Candidates::kMostAttempts));
 }
 
-std::vector<Query> FreeStarts::some(std::uint64_t first, std::size_t count) const {
-  std::vector<Query> starts(count);
-  for (std::size_t i = 0; i < count; ++i) draw(first + i, starts[i]);
-  return starts;
-}
-
 }  // namespace lorentz::starts

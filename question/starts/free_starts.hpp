@@ -56,9 +56,6 @@ class FreeStarts {
     return start;
   }
 
-  /// The starts [first, first + count).
-  std::vector<Query> some(std::uint64_t first, std::size_t count) const;
-
   /// True if the start lies in no open obstacle except `from`. Exact.
   bool is_free(const Query& start) const;
 
@@ -84,7 +81,10 @@ void aim(cases::Random& random, const Scene& scene, Query& start);
 /// The first `count` starts of a scene.
 inline std::vector<Query> free_starts(const Scene& scene, Kind kind, std::uint64_t seed, std::size_t count,
                                       NumberFormat format = NumberFormat::binary64) {
-  return FreeStarts(scene, kind, seed, format).some(0, count);
+  const FreeStarts starts(scene, kind, seed, format);
+  std::vector<Query> first(count);
+  for (std::size_t i = 0; i < count; ++i) starts.draw(i, first[i]);
+  return first;
 }
 
 }  // namespace lorentz::starts

@@ -20,21 +20,6 @@ double rounded_down(double positive) {
   return std::scalbn(std::floor(std::scalbn(mantissa, kBits)) - 1, exponent - kBits);
 }
 
-// In 2D the sine of the angle with the normal is uniform.
-Vec cosine_law_2d(Random& random, const Vec& n) {
-  const double sine = 2 * random.uniform() - 1, cosine = std::sqrt((1 - sine) * (1 + sine));
-  return {cosine * n[0] - sine * n[1], cosine * n[1] + sine * n[0], 0};
-}
-
-// Take a sphere that touches the surface from outside. If points are uniform on it, their directions from the
-// point of contact follow the cosine law (Lambert).
-Vec cosine_law_3d(Random& random, const Vec& n) {
-  for (;;) {
-    const Vec v = sum(n, on_sphere(random));
-    if (const double size = length(v); size > 0) return scaled(v, 1 / size);
-  }
-}
-
 }  // namespace
 
 Surface::Surface(const Atom& atom, int dimension)
@@ -65,8 +50,17 @@ SurfacePoint Surface::point_of_ellipsoid(Random& random) const {
   }
 }
 
-Vec cosine_law(Random& random, const Vec& normal, int dimension) {
-  return dimension == 2 ? cosine_law_2d(random, normal) : cosine_law_3d(random, normal);
+// In 2D the sine of the angle with the normal is uniform. In 3D, take a sphere that touches the surface from
+// outside. If points are uniform on it, their directions from the point of contact follow the law (Lambert).
+Vec cosine_law(Random& random, const Vec& n, int dimension) {
+  if (dimension == 2) {
+    const double sine = 2 * random.uniform() - 1, cosine = std::sqrt((1 - sine) * (1 + sine));
+    return {cosine * n[0] - sine * n[1], cosine * n[1] + sine * n[0], 0};
+  }
+  for (;;) {
+    const Vec v = sum(n, on_sphere(random));
+    if (const double size = length(v); size > 0) return scaled(v, 1 / size);
+  }
 }
 
 }  // namespace lorentz::starts

@@ -1,10 +1,23 @@
-// Points on the surface of an obstacle, and directions away from it.
+// Isotropic directions, points on the surface of an obstacle, and directions away from it.
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include <lorentz/scene.hpp>
-#include "question/starts/direction.hpp"
+#include "question/cases/random.hpp"
 
 namespace lorentz::starts {
+
+using std::sqrt;
+
+/// (cos a, sin a) of a number of quarter turns: the two lowest bits.
+inline std::array<double, 2> quarter_turn(std::uint64_t bits) {
+  constexpr double kCosine[] = {1, 0, -1, 0}, kSine[] = {0, 1, 0, -1};
+  return {kCosine[bits & 3], kSine[bits & 3]};
+}
+
+#include "question/starts/direction-inl.hpp"
 
 /// A point relative to the obstacle's centre, and the outward normal there, of unit length up to rounding.
 struct SurfacePoint {

@@ -12,6 +12,20 @@ void QueryRows::clear() {
   id.clear(), flaws.clear(), lines.clear();
 }
 
+void QueryRows::resize(std::size_t rows, int dimension, bool with_from) {
+  count = rows;
+  const std::size_t length = std::max(rows, x[0].size()), of_from = with_from ? length : 0;
+  for (int k = 0; k < dimension; ++k) x[k].resize(length), v[k].resize(length), from_cell[k].resize(of_from);
+  from_lattice.resize(of_from), from_atom.resize(of_from);
+}
+
+void QueryRows::set(std::size_t i, const Query& query, int dimension) {
+  for (int k = 0; k < dimension; ++k) x[k][i] = query.x[k], v[k][i] = query.v[k];
+  if (!query.from) return;
+  from_lattice[i] = query.from->lattice, from_atom[i] = query.from->atom;
+  for (int k = 0; k < dimension; ++k) from_cell[k][i] = query.from->cell[k].int64();
+}
+
 Query QueryRows::query(std::size_t i, int dimension) const {
   Query query;
   for (int k = 0; k < dimension; ++k) query.x[k] = x[k][i], query.v[k] = v[k][i];

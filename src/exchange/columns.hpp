@@ -45,6 +45,10 @@ struct QueryRows {
 
   /// Removes all rows, but keeps allocated memory.
   void clear();
+  /// Makes room for `rows` rows without limits, ids and flaws, to be set. No column becomes shorter.
+  void resize(std::size_t rows, int dimension, bool with_from);
+  /// The cells of `from` must fit 64 bits.
+  void set(std::size_t i, const Query& query, int dimension);
   Query query(std::size_t i, int dimension) const;
 };
 

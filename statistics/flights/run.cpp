@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <mutex>
+#include <numeric>
 
 #include <lorentz/errors.hpp>
 #include "question/engines.hpp"
 
 namespace lorentz::flights {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kBetweenNews{200};
 
@@ -29,12 +29,9 @@ class Flyer {
   // cannot be found, or the engine cannot answer.
   void fly(std::uint64_t first, std::uint64_t count, FlightTally& tally) {
     for (std::uint64_t done = 0; done < count; done += kTogether) {
-      const std::uint64_t together = std::min(kTogether, count - done);
-      starts_.draw(first + done, together, columns_);
-      engine_.fly(columns_.view(), flights_);
-      for (std::uint64_t i = 0; i < together; ++i)
-        if (!this->count(flights_[i], first + done + i, tally)) inside_.push_back(first + done + i);
-      draw_anew(tally);
+      missing_.resize(std::min(kTogether, count - done));
+      std::iota(missing_.begin(), missing_.end(), first + done);
+      for (std::uint64_t attempt = 0; !missing_.empty(); ++attempt) fly_missing(attempt, tally);
     }
   }
 
@@ -62,117 +59,79 @@ class Flyer {
     }
   }
 
-  void draw_anew(FlightTally& tally) {
-    for (std::uint64_t attempt = 1; !inside_.empty(); ++attempt) {
-      again_.clear();
-      Query query;
-      for (const std::uint64_t index : inside_) {
-        starts_.draw(index, attempt, query);
-        again_.push_back(query);
-      }
-      engine_.fly(again_.columns(), flights_);
-      std::vector<std::uint64_t> still;
-      for (std::size_t i = 0; i < inside_.size(); ++i)
-        if (!count(flights_[i], inside_[i], tally)) still.push_back(inside_[i]);
-      inside_ = std::move(still);
-    }
+  void fly_missing(std::uint64_t attempt, FlightTally& tally) {
+    starts_.draw(missing_, attempt, rows_);
+    engine_.fly(question::view_of(rows_), flights_);
+    std::size_t still = 0;
+    for (std::size_t i = 0; i < missing_.size(); ++i)
+      if (!count(flights_[i], missing_[i], tally)) missing_[still++] = missing_[i];
+    missing_.resize(still);
   }
 
   const question::SceneEngine& engine_;
   const starts::Candidates starts_;
-  starts::StartColumns columns_;
-  QueryTable again_;
+  QueryRows rows_;
   FlightTable flights_;
-  std::uint64_t inside_in_a_row_ = 0;  // consecutive candidates inside
-  std::vector<std::uint64_t> inside_;  // starts whose last candidate lay in an obstacle
+  std::uint64_t inside_in_a_row_ = 0;   // consecutive candidates inside
+  std::vector<std::uint64_t> missing_;  // starts whose last candidate, if any, lay in an obstacle
 };
 
-// Hands out the blocks in order and collects their tallies. The account belongs to the caller and is accessed
-// only under the lock.
-class BlockLedger {
- public:
-  BlockLedger(const FlightsPlan& plan, const FlightBounds& bounds, Account& account)
-      : plan_(plan), bounds_(bounds), account_(account), next_(bounds.shard) {
-    if (bounds.seconds > 0)
-      end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                std::chrono::duration<double>(std::min(bounds.seconds, 1e9)));
-  }
-
-  // Returns false if nothing is left to do.
-  bool take(std::uint64_t& block) {
-    const std::lock_guard lock(mutex_);
-    if (has_failed_ || is_enough()) return false;
-    while (next_ < plan_.blocks() && is_done(next_)) next_ += bounds_.shards;
-    if (next_ >= plan_.blocks()) return false;
-    block = next_;
-    next_ += bounds_.shards;
-    return true;
-  }
-  void hand_in(std::uint64_t block, const FlightTally& tally) {
-    const std::lock_guard lock(mutex_);
-    account_.tally.add(tally);
-    account_.done += block;
-  }
-  // Nothing is left to do for any thread.
-  void fail() {
-    const std::lock_guard lock(mutex_);
-    has_failed_ = true;
-  }
-  void tell(const OnProgress& on_progress) {
-    const std::lock_guard lock(mutex_);
-    if (on_progress) on_progress(account_);
-  }
-
- private:
-  bool is_done(std::uint64_t block) const {
-    return contains(account_.done, block) || contains(bounds_.done, block);
-  }
-  bool is_enough() const {
-    return (bounds_.stop && *bounds_.stop) || (bounds_.seconds > 0 && Clock::now() >= end_);
-  }
-
-  const FlightsPlan& plan_;
-  const FlightBounds& bounds_;
-  Account& account_;
-  std::uint64_t next_;
-  Clock::time_point end_;
-  bool has_failed_ = false;
-  std::mutex mutex_;
-};
-
-void work(const FlightsPlan& plan, const question::SceneEngine& engine, BlockLedger& ledger) {
-  try {
-    Flyer flyer(plan, engine);
-    for (std::uint64_t block; ledger.take(block);) {
-      FlightTally tally(unit_exponent(plan.scene));
-      const std::uint64_t first = block * kBlock;
-      flyer.fly(first, std::min(kBlock, plan.count - first), tally);
-      ledger.hand_in(block, tally);
-    }
-  } catch (...) {
-    ledger.fail();
-    throw;
-  }
+question::SceneEngine engine_of(const FlightsPlan& plan) {
+  const question::EngineInfo info = question::engine_named(plan.engine);
+  if (const auto why = info.traits.is_exact ? std::nullopt : Reduction::beyond(plan.scene);
+      why && info.traits.uses_reduction)
+    throw InputError(fmt::format("the engine {} {}; certified does such scenes", info.name, *why));
+  return info.in(plan.scene);
 }
 
 }  // namespace
 
 void run(const FlightsPlan& plan, const FlightBounds& bounds, Account& account,
          const OnProgress& on_progress) {
-  const question::EngineInfo info = question::engine_named(plan.engine);
-  if (const auto why = info.traits.is_exact ? std::nullopt : Reduction::beyond(plan.scene);
-      why && info.traits.uses_reduction)
-    throw InputError(fmt::format("the engine {} {}; certified does such scenes", info.name, *why));
-  const question::SceneEngine engine = info.in(plan.scene);
-  BlockLedger ledger(plan, bounds, account);
+  const question::SceneEngine engine = engine_of(plan);
+  const auto begin = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> longest(bounds.seconds > 0 ? bounds.seconds : HUGE_VAL);
+  std::mutex mutex;  // of the account and of the next two
+  std::uint64_t next = bounds.shard;
+  bool has_failed = false;
+  const auto take = [&](std::uint64_t& block) {
+    const std::lock_guard lock(mutex);
+    const auto taken = std::chrono::steady_clock::now() - begin;
+    if (has_failed || (bounds.stop && *bounds.stop) || taken >= longest) return false;
+    while (next < plan.blocks() && (contains(account.done, next) || contains(bounds.done, next)))
+      next += bounds.shards;
+    if (next >= plan.blocks()) return false;
+    block = next;
+    next += bounds.shards;
+    return true;
+  };
+  const auto work = [&] {
+    try {
+      Flyer flyer(plan, engine);
+      for (std::uint64_t block; take(block);) {
+        FlightTally tally(unit_exponent(plan.scene));
+        flyer.fly(block * kBlock, std::min(kBlock, plan.count - block * kBlock), tally);
+        const std::lock_guard lock(mutex);
+        account.tally.add(tally);
+        account.done += block;
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      has_failed = true;
+      throw;
+    }
+  };
+  const auto tell = [&] {
+    const std::lock_guard lock(mutex);
+    if (on_progress) on_progress(account);
+  };
   std::vector<std::future<void>> threads;
-  for (unsigned job = 0; job < bounds.jobs; ++job)
-    threads.push_back(std::async(std::launch::async, [&] { work(plan, engine, ledger); }));
+  for (unsigned job = 0; job < bounds.jobs; ++job) threads.push_back(std::async(std::launch::async, work));
   for (std::future<void>& thread : threads) {
-    while (thread.wait_for(kBetweenNews) != std::future_status::ready) ledger.tell(on_progress);
+    while (thread.wait_for(kBetweenNews) != std::future_status::ready) tell();
     thread.get();
   }
-  ledger.tell(on_progress);
+  tell();
 }
 
 }  // namespace lorentz::flights

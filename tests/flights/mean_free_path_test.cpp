@@ -2,7 +2,10 @@
 // are fixed; bounds are 4 standard errors.
 #include <catch2/catch.hpp>
 
+#include <numeric>
+
 #include <lorentz/batch.hpp>
+#include "question/scene_engine.hpp"
 #include "question/starts/candidates.hpp"
 #include "src/problem/scene_geometry.hpp"
 #include "tests/support/scenes.hpp"
@@ -25,16 +28,19 @@ Mean mean_free_path(const Scene& scene, std::uint64_t seed, std::size_t count) {
   constexpr std::size_t kTogether = 4096;
   const Candidates starts(scene, Ensemble::surface, seed);
   const Batch batch(scene);
-  StartColumns columns;
+  std::vector<std::uint64_t> indices;
+  QueryRows rows;
   FlightTable flights;
   Query again;
   Mean mean;
   double sum = 0, sum2 = 0;
   for (std::size_t first = 0; first < count; first += kTogether) {
     const std::size_t together = std::min(kTogether, count - first);
-    starts.draw(first, together, columns);
+    indices.resize(together);
+    std::iota(indices.begin(), indices.end(), first);
+    starts.draw(indices, 0, rows);
     flights.resize(together);
-    batch.fly(columns.view(), flights.columns());
+    batch.fly(question::view_of(rows), flights.columns());
     for (std::size_t i = 0; i < together; ++i) {
       Flight flight = flights[i];
       for (std::uint64_t attempt = 1; flight.outcome == Outcome::inside; ++attempt, ++mean.inside) {

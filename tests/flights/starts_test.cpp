@@ -1,8 +1,12 @@
 // Starts are the same however they are drawn, and have the distribution that they are said to have. All seeds
 // are fixed; bounds are 4 standard deviations.
+#include <hwy/targets.h>
+
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include <lorentz/errors.hpp>
@@ -22,14 +26,25 @@ namespace {
 constexpr double kSigmas = 4;
 constexpr std::uint64_t kSeed = 20161115;
 
-// Starts in columns are those of one index after the other.
-bool same(const StartColumns& columns, std::size_t i, const Query& query, int dimension) {
+// Starts in columns are those of one index after the other, to the bit.
+bool same(const QueryRows& columns, std::size_t i, const Query& query, int dimension) {
   for (int k = 0; k < dimension; ++k)
-    if (columns.x[k][i] != query.x[k] || columns.v[k][i] != query.v[k]) return false;
+    if (std::bit_cast<std::uint64_t>(columns.x[k][i]) != std::bit_cast<std::uint64_t>(query.x[k]) ||
+        std::bit_cast<std::uint64_t>(columns.v[k][i]) != std::bit_cast<std::uint64_t>(query.v[k]))
+      return false;
   if (!query.from) return columns.from_lattice.empty();
   for (int k = 0; k < dimension; ++k)
     if (columns.from_cell[k][i] != query.from->cell[k].int64()) return false;
   return columns.from_lattice[i] == query.from->lattice && columns.from_atom[i] == query.from->atom;
+}
+
+// The starts [first, first + count).
+const QueryRows& drawn(const Candidates& starts, std::uint64_t first, std::size_t count, QueryRows& rows,
+                       std::uint64_t attempt = 0) {
+  std::vector<std::uint64_t> indices(count);
+  std::iota(indices.begin(), indices.end(), first);
+  starts.draw(indices, attempt, rows);
+  return rows;
 }
 
 // How far counts are from what was expected, in standard deviations of chi squared.
@@ -105,10 +120,8 @@ TEST_CASE("Starts are the same one at a time and in columns, however they are sp
   for (const Scene& scene : some_scenes())
     for (const Ensemble ensemble : {Ensemble::uniform, Ensemble::surface}) {
       const Candidates starts(scene, ensemble, kSeed);
-      StartColumns all, part;
-      starts.draw(7, kCount, all);
-      REQUIRE(all.size() == kCount);
-      REQUIRE(all.view().size() == kCount);
+      QueryRows all, part;
+      REQUIRE(drawn(starts, 7, kCount, all).count == kCount);
       Query query;
       for (std::size_t i = 0; i < kCount; ++i) {
         starts.draw(7 + i, 0, query);
@@ -116,16 +129,38 @@ TEST_CASE("Starts are the same one at a time and in columns, however they are sp
         CHECK_FALSE(flaw_of(query, scene));
       }
       for (std::size_t begin = 0, length = 1; begin < kCount; begin += length, length = 2 * length + 1) {
-        Candidates(scene, ensemble, kSeed).draw(7 + begin, length, part);
+        drawn(Candidates(scene, ensemble, kSeed), 7 + begin, length, part);
         for (std::size_t i = 0; i < length && begin + i < kCount; ++i) {
           starts.draw(7 + begin + i, 0, query);
           REQUIRE(same(part, i, query, scene.dimension));
         }
       }
-      starts.draw(9, 3, all, 2);
-      starts.draw(9, 3, query);
-      CHECK(same(all, 2, query, scene.dimension));
     }
+}
+
+TEST_CASE("Starts have the same bits with every set of instructions", "[flights][starts]") {
+  constexpr std::size_t kCount = 131;  // some full rounds of lanes, and a rest
+  std::vector<Scene> scenes = some_scenes();
+  for (const auto& [name, scene] : all_scenes()) scenes.push_back(scene);
+  std::size_t compared = 0, others = 0;
+  QueryRows rows;
+  Query query;
+  for (const std::int64_t instructions : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(instructions);
+    for (const Scene& scene : scenes)
+      for (const Ensemble ensemble : {Ensemble::uniform, Ensemble::surface})
+        for (const std::uint64_t attempt : {0, 3}) {
+          const Candidates starts(scene, ensemble, kSeed);
+          drawn(starts, 7, kCount, rows, attempt);
+          for (std::size_t i = 0; i < kCount; ++i, ++compared) {
+            starts.draw(7 + i, attempt, query);
+            others += !same(rows, i, query, scene.dimension);
+          }
+        }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  CHECK(compared > 0);
+  CHECK(others == 0);
 }
 
 TEST_CASE("Another seed, index, attempt or ensemble is another start", "[flights][starts]") {
@@ -142,7 +177,7 @@ TEST_CASE("Another seed, index, attempt or ensemble is another start", "[flights
   CHECK(query.v != first.v);
   // Every bit of index, attempt and seed counts; columns count on beyond 2^32 and 2^53.
   std::set<double> seen{first.x[0]};
-  StartColumns columns;
+  QueryRows columns;
   for (int bit = 0; bit < 64; ++bit) {
     const std::uint64_t number = std::uint64_t{1} << bit;
     starts.draw(number, 0, query);
@@ -151,7 +186,7 @@ TEST_CASE("Another seed, index, attempt or ensemble is another start", "[flights
     CHECK(seen.insert(query.x[0]).second);
     starts.draw(0, number, query);
     CHECK(seen.insert(query.x[0]).second);
-    starts.draw(number - 1, 2, columns);
+    drawn(starts, number - 1, 2, columns);
     starts.draw(number, 0, query);
     CHECK(columns.x[0][1] == query.x[0]);
   }
@@ -180,14 +215,14 @@ TEST_CASE("The starts of a seed stay what they are, to the bit", "[flights][star
 
 TEST_CASE("Columns that are large enough are not allocated anew", "[flights][starts]") {
   const Candidates starts(superposition(3), Ensemble::surface, kSeed);
-  StartColumns columns;
-  starts.draw(0, 100, columns);
-  const double* const before = columns.view().x[2].data();
-  const std::int64_t* const cells = columns.view().from_cell[2].data();
-  starts.draw(100, 60, columns);
-  starts.draw(160, 100, columns);
-  CHECK(columns.view().x[2].data() == before);
-  CHECK(columns.view().from_cell[2].data() == cells);
+  QueryRows rows;
+  const double* const before = drawn(starts, 0, 100, rows).x[2].data();
+  const std::int64_t* const cells = rows.from_cell[2].data();
+  drawn(starts, 100, 60, rows);
+  CHECK(rows.count == 60);
+  drawn(starts, 160, 100, rows);
+  CHECK(rows.x[2].data() == before);
+  CHECK(rows.from_cell[2].data() == cells);
 }
 
 TEST_CASE("Uniform starts are uniform in the cell, or in the box", "[flights][starts]") {

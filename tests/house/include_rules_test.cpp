@@ -82,7 +82,7 @@ const std::vector<Room> kHouse{
     {"question/starts",
      {"src/problem", "src/engines/batch", "oracle", "oracle/certified"},
      {"src/problem", "src/exchange", "question/cases"},
-     {}},
+     {"hwy/ candidates_lanes.cpp", "Random123/ candidates_lanes.cpp"}},
     // Theory knows problems and what the oracle says of scenes, and nothing of who flies.
     {"statistics/theory",
      {"src/problem", "oracle/contacts", "oracle/horizon"},
