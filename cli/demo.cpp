@@ -93,11 +93,10 @@ class DemoReport {
         "\nright, wrong, undecided: the obstacle that each engine says is hit first, against the exact "
         "oracle; ill-posed:\nanother one, but errors of 4 ulps in the inputs would explain it.\n"
         "wrong time: of those right, the times that are off by more than 4 times what an ulp in each input "
-        "makes of them.\n"
-        "error: of the time of the hits it got right, in units in the last place (ulp) of a binary64.\n"
-        "The published algorithm was wrong {} times in {}; docs/published.md says why. To check it:\n"
-        "lorentz demo --disagreements FILE writes the {} wrong or ill-posed answers for any program to run "
-        "again.\n",
+        "makes of them.\nerror: of the time of the hits it got right, in units in the last place (ulp) of a "
+        "binary64.\nThe published algorithm was wrong {} times in {}; docs/published.md says why. To check "
+        "it:\nlorentz demo --disagreements FILE writes the {} wrong or ill-posed answers for any program to "
+        "run again.\n",
         published[Count::wrong], published.counts.answers(), departing));
   }
 

@@ -259,10 +259,8 @@ Command fuzz_command() {
           rows_of(*options),
 
           "docs/campaigns.md: targets, variants, what is a finding, how it is shrunk, the store. Without "
-          "--engine: "
-          "reduction.\n"
-          "Example:\n  lorentz fuzz --engine published --time 60 --store published.campaign\n"
-          "  lorentz fuzz show --store published.campaign",
+          "--engine: reduction.\nExample:\n  lorentz fuzz --engine published --time 60 --store "
+          "published.campaign\n  lorentz fuzz show --store published.campaign",
           [options] { return act(*options); },
           {fuzz_show_command(), fuzz_export_command()}};
 }

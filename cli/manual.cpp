@@ -133,11 +133,8 @@ Footer footer_of(const Command& command) {
 }
 
 std::string section_of_files() {
-  return ".SH ENVIRONMENT\n"
-         ".TP\nLORENTZ_DATA\n"
-         "The folder with the catalogue of scenes and the golden sets,\n"
-         "instead of the one that was installed with the program.\n"
-         ".TP\nLORENTZ_PROGRESS_AFTER\n"
+  return ".SH ENVIRONMENT\n.TP\nLORENTZ_DATA\nThe folder with the catalogue of scenes and the golden sets,\n"
+         "instead of the one that was installed with the program.\n.TP\nLORENTZ_PROGRESS_AFTER\n"
          "From which second of the work on progress is drawn on a terminal\n(default: 1).\n";
 }
 

@@ -57,9 +57,6 @@ class Particles {
     return leave_stopped();
   }
 
-  /// Lets particles that stopped at a time or by a condition continue from where they are.
-  void resume();
-
  private:
   /// Number of particles flown together: few enough that their data stays in the nearest cache.
   static constexpr std::size_t kTogether = 128;

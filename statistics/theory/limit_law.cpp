@@ -33,14 +33,11 @@ double log_integral(double u) {
   return kPi2 / 3 - log * log / 2 - dilogarithm(u);
 }
 
-// k(u) = (1 - 1/u)^2 ln|1 - 1/u|, a part of g: g(s) = 1/s + 2 k(s) - k(s/2) / 2. The next two functions are
-// its first and second antiderivatives.
-double kernel(double u) {
-  return (1 - 1 / u) * x_log_x(1 - 1 / u);
-}
 double log_difference(double u) {
   return x_log_x(u - 1) - x_log_x(u);
 }
+
+// First and second antiderivatives of k(u) = (1 - 1/u)^2 ln|1 - 1/u|; g(s) = 1/s + 2 k(s) - k(s/2) / 2.
 double kernel_integral(double u) {
   return log_difference(u) - 2 * log_integral(u) + x_log_x(1 - 1 / u) + 1 / u;
 }
@@ -49,27 +46,20 @@ double kernel_integral_2(double u) {
          3 * log_difference(u) + std::log(u);
 }
 
-// For s > 2: g(s) = sum over n >= 3 of (2^n - 4) / (n (n-1) (n-2)) s^-n. Integrated once or twice from s to
-// infinity, each term gets the factors s / (n-1) and s / (n-2). Written as 8 s^-3 times a series in 2/s,
-// because s may be huge.
+// For s > 2: g(s) = sum over n >= 3 of (2^n - 4) / (n (n-1) (n-2)) s^-n, integrated once or twice from s to
+// infinity, which gives each term the factors s / (n-1) and s / (n-2). Written as 8 s^-3 times a series in
+// 2/s, because s may be huge.
 double far(double s, int integrals) {
   double sum = 0, power = 1, four = 0.5;  // (2/s)^(n-3), 4 / 2^n
   for (int n = 3; power > 1e-17; ++n, power *= 2 / s, four /= 2) {
-    double term = power * (1 - four) / (static_cast<double>(n) * (n - 1) * (n - 2));
-    if (integrals > 0) term /= n - 1;
-    if (integrals > 1) term /= n - 2;
-    sum += term;
+    const double term = power * (1 - four) / (static_cast<double>(n) * (n - 1) * (n - 1) * (n - 2));
+    sum += integrals > 1 ? term / (n - 2) : term;
   }
   for (int factors = 3; factors > integrals; --factors) sum /= s;
   return 8 * sum;
 }
 
 }  // namespace
-
-double limit_density_from_surface(double s) {
-  if (s <= 1) return 6 / kPi2;
-  return 6 / kPi2 * (s > kFar ? far(s, 0) : 1 / s + 2 * kernel(s) - kernel(s / 2) / 2);
-}
 
 double limit_survival_from_surface(double s) {
   if (s <= 0) return 1;

@@ -9,10 +9,7 @@ namespace lorentz::flights {
 // measured as s = 2 r t / A, whose mean between collisions is 1. The relative error is below 1e-12 for every
 // s > 0; survivals are 1 for s <= 0. An evaluation takes a microsecond.
 
-/// The density of s between collisions, (6 / pi^2) g(s). It is constant, 6 / pi^2, up to s = 1.
-double limit_density_from_surface(double s);
-
-/// P(a path from a collision is longer than s). Also the density of s from a uniform start.
+/// P(a path from a collision is longer than s), whose density is (6 / pi^2) g(s), constant up to s = 1. Also the density of s from a uniform start.
 double limit_survival_from_surface(double s);
 
 /// P(a path from a uniform start is longer than s).

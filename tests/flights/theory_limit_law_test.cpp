@@ -73,13 +73,11 @@ TEST_CASE("Limit law: g has the integrals of a law of mean 1", "[flights][limit_
   CHECK(relative(1, integral(0, 1) * 6 / kPi2) < 1e-15);
 }
 
-TEST_CASE("Limit law: density and survivals by quadrature", "[flights][limit_law]") {
+TEST_CASE("Limit law: survivals by quadrature", "[flights][limit_law]") {
   for (const double s : kPlaces) {
     INFO("s = " << s);
-    const double density = relative(limit_density_from_surface(s), 6 / kPi2 * g(s)),
-                 surface = relative(limit_survival_from_surface(s), 6 / kPi2 * integral(s, 0)),
+    const double surface = relative(limit_survival_from_surface(s), 6 / kPi2 * integral(s, 0)),
                  uniform = relative(limit_survival_from_uniform(s), 6 / kPi2 * integral(s, 1));
-    CHECK(density < 1e-12);  // 2.5e-14 seen
     CHECK(surface < 1e-12);
     CHECK(uniform < 1e-12);
   }
@@ -89,7 +87,6 @@ TEST_CASE("Limit law: far out, and before the start", "[flights][limit_law]") {
   const double pi2 = std::numbers::pi * std::numbers::pi;
   for (const double s : {1e10, 1e50, 1e90}) {
     INFO("s = " << s);
-    CHECK(s * s * s * limit_density_from_surface(s) == Approx(4 / pi2).epsilon(1e-9));
     CHECK(s * s * limit_survival_from_surface(s) == Approx(2 / pi2).epsilon(1e-9));
     CHECK(s * limit_survival_from_uniform(s) == Approx(2 / pi2).epsilon(1e-9));
   }
@@ -103,8 +100,7 @@ TEST_CASE("Limit law: far out, and before the start", "[flights][limit_law]") {
 
 TEST_CASE("Limit law: no step where formulas change", "[flights][limit_law]") {
   for (const double s : {1.0, 2.0, 2.5})
-    for (const auto& law :
-         {limit_density_from_surface, limit_survival_from_surface, limit_survival_from_uniform}) {
+    for (const auto& law : {limit_survival_from_surface, limit_survival_from_uniform}) {
       INFO("s = " << s);
       const double before = law(std::nextafter(s, 0)), after = law(std::nextafter(s, 9));
       CHECK(std::fabs(after - before) < 1e-12 * before);

@@ -106,12 +106,4 @@ std::size_t Particles::leave_stopped() {
   return going_.size();
 }
 
-void Particles::resume() {
-  going_.clear();
-  for (std::size_t i = 0; i < stops_.size(); ++i) {
-    if (stops_[i] == Stop::time || stops_[i] == Stop::condition) stops_[i] = Stop::none;
-    if (stops_[i] == Stop::none) going_.push_back(i);
-  }
-}
-
 }  // namespace lorentz
