@@ -13,9 +13,9 @@ namespace {
 constexpr std::size_t kAhead = 64;
 
 // Stints of cheap cases are made longer, as long as they take no longer than this. Then most stints have all
-// cases of a scene, which is prepared once, and a stop in the middle of a stint loses little. An answerer that takes
-// many cases at once gets as many as take no longer than kSecondsOfMany, because another program's answers
-// are awaited once per stint.
+// cases of a scene, which is prepared once, and a stop in a stint loses little. An answerer that takes many
+// cases at once gets as many as take no longer than kSecondsOfMany, because another program's answers are
+// awaited once per stint.
 constexpr double kSecondsOfStint = 0.02, kSecondsOfMany = 0.25;
 constexpr std::uint64_t kLongestStint = 1024;
 

@@ -108,8 +108,8 @@ TEST_CASE("A stint is one case at first, and as long as it was quick then", "[fu
   };
   CHECK(second_batch(0.0175, kManyAtOnce) == 8);
   CHECK(second_batch(0.5, kManyAtOnce) == 2);
-  CHECK(second_batch(1e-5, kManyAtOnce) == kManyAtOnce);
-  CHECK(second_batch(1e-5, 1) == 128);
+  CHECK(second_batch(1e-4, kManyAtOnce) == kManyAtOnce);
+  CHECK(second_batch(1e-4, 1) == 128);
   CHECK(second_batch(1e-8, 1) == 1024);
 }
 
