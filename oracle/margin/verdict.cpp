@@ -47,7 +47,10 @@ struct Judge::Impl {
                                            : Judgement{Verdict::agree};
     if (start == StartInside::exit && is_inside && said.outcome == Outcome::inside)
       return judge_order_of_exits(query, exact.obstacle, given.obstacle, ulps);
-    return judge_departure(query, truth, said, ulps);
+    const Judgement judgement = judge_departure(query, truth, said, ulps);
+    if (said.outcome != Outcome::hit || query.from == said.obstacle) return judgement;
+    const Judgement within = judge_departure(query, truth, Answer::inside(said.obstacle), ulps);
+    return within.departs < judgement.departs ? within : judgement;
   }
 
   // The time is that of entry or, by the rule `exit` from inside, of exit; either if x is inside or not within the
@@ -127,7 +130,7 @@ struct Judge::Impl {
   // of its own ulps. If there is a tolerance of times, it is wrong if it is off by more than that.
   void judge_time(const Query& query, const ExactTime& exact, double given, double ulps,
                   Judgement& judgement) const {
-    const double its = off(exact.time, given);
+    const double its = std::fabs(given - exact.time) / ulp(exact.time, scene.precision());
     if (std::isfinite(its)) judgement.ulps = its;
     if (given == exact.time || given == rounded(exact.time, scene.precision())) return;
     if (time_tolerance && std::isinf(*time_tolerance)) {
@@ -141,11 +144,6 @@ struct Judge::Impl {
     judgement.wrong_time = time_tolerance || ulps == 0 || judgement.departs > ulps;
     judgement.other_quantity =
         judgement.wrong_time && judgement.departs > other_quantity_from(scene.precision());
-  }
-
-  // The error of the time, in ulps.
-  double off(double exact, double given) const {
-    return std::fabs(given - exact) / ulp(exact, scene.precision());
   }
 
   static bool is_within(double tolerance, double exact, double given) {

@@ -634,6 +634,16 @@ TEST_CASE("Starts inside are judged by the rule that is claimed", "[oracle][verd
     is(StartInside::exit, edge, Answer::hit(first, 0.25 - x), Verdict::agree);
     is(StartInside::exit, edge, Answer::hit(first, 0), Verdict::agree);
   }
+  // An obstacle is left where the flight starts: its rule holds if x lies in it by an ulp.
+  for (const StartInside rule : {StartInside::zero, StartInside::exit})
+    for (const double y : {std::nextafter(0.25, 0), 0.25, std::nextafter(0.25, 1), 0.2500001}) {
+      const Query leaving{{0, y}, {0, 1}, {}};
+      is(rule, leaving, Answer::hit(first, 0),
+         y < 0.25         ? Verdict::agree
+         : y < 0.25000001 ? Verdict::ill_posed
+                          : Verdict::wrong);
+      is(rule, Query{leaving.x, leaving.v, first}, Answer::hit(first, 0), Verdict::wrong);
+    }
   // Two exits within ulps of each other.
   scene.lattices[0].atoms[1].position[0] = 0x1p-55;
   is(StartInside::exit, within, Answer::hit(second, 0.25), Verdict::ill_posed);

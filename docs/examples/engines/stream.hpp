@@ -145,6 +145,7 @@ struct Found {
 struct Claim {
   std::string name, version, precision;
   std::vector<int> dimensions;
+  std::string starts_inside;  // the rule for them that the library promises, or empty
 };
 
 inline Query query_of(const json& item, const Scene& scene) {
@@ -224,10 +225,12 @@ class Server {
 
  private:
   json claim() const {
-    return {{"name", claim_.name},
-            {"version", claim_.version},
-            {"precision", claim_.precision},
-            {"dimensions", claim_.dimensions}};
+    json claim = {{"name", claim_.name},
+                  {"version", claim_.version},
+                  {"precision", claim_.precision},
+                  {"dimensions", claim_.dimensions}};
+    if (!claim_.starts_inside.empty()) claim["inside"] = claim_.starts_inside;
+    return claim;
   }
 
   json answer_to(const Query& query) {

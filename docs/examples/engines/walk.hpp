@@ -2,7 +2,8 @@
 // every ball that reaches into the cell: whether and when the segment in the cell enters it. The library
 // decides about a ball; the walk (in binary64) decides which balls there are. A library is a class with
 //   void place(const Vec& c, double r);                             the ball
-//   bool inside(const Vec& p);                                      whether p lies in it
+//   bool inside(const Vec& p);                                      whether p lies in it; absent if the ray
+//                                                                   cast's own rule for such starts counts
 //   std::optional<double> enters(const Vec& p, const Vec& d);       at which fraction of d does p + f d enter it?
 // In world coordinates p is the start of the flight, and d ends where the flight leaves the cell. With the
 // argument `cells`, p is the point where the flight enters the cell, and all coordinates are relative to the
@@ -150,7 +151,8 @@ class Walk {
   void ball(const Vec& p, const Vec& v, double begin, double end, const Vec& c, double r, bool at_start,
             const Name& name, Found& found) {
     library_.place(c, r);
-    if (at_start && library_.inside(p)) found.add_inside(name);
+    if constexpr (requires { library_.inside(p); })
+      if (at_start && library_.inside(p)) found.add_inside(name);
     if (end <= begin) return;  // no segment in this cell: the ray only touches its corner
     const Vec d = add({}, v, end - begin);
     if (const auto f = library_.enters(p, d)) found.add_hit(begin + *f * (end - begin), name);

@@ -7,7 +7,8 @@
 //     dimensions,                 [2], or [2, 3]
 //     cells,                      the most cells of the walk, if calls are too slow for the usual number
 //     place(c, r),                the ball
-//     inside(p),                  whether p lies in it
+//     inside(p),                  whether p lies in it; absent if the ray cast's own rule counts
+//     startsInside,               that rule, if the library promises one: "miss", "zero" or "exit"
 //     enters(p, d) }              at which fraction f of d does p + f d enter it? undefined: it does not
 // In world coordinates p is the start of the flight, and d ends where the flight leaves the cell. With the
 // argument `cells`, p is the point where the flight enters the cell, and all coordinates are relative to the
@@ -131,9 +132,10 @@ class Stopwatch {
   }
 }
 
-/** The result: the ball that contains the start, or the ball that is entered first. */
+/** The result: the ball that contains the start, or the ball that is entered first, or left by the rule "exit". */
 class Found {
   inside = undefined;
+  left = false;
   hit = undefined;
   time = Infinity;
   undecided = false;
@@ -142,8 +144,14 @@ class Found {
     if (!this.inside || isBefore(name, this.inside)) this.inside = name;
   }
 
-  addHit(time, name) {
+  addExit(time, name) {
+    if (!this.left) ((this.hit = undefined), (this.left = true));
+    this.addHit(time, name, true);
+  }
+
+  addHit(time, name, isExit = false) {
     if (Number.isNaN(time)) throw Error("the library says: not a number");
+    if (this.left && !isExit) return;
     if (this.hit && !(time < this.time || (time === this.time && isBefore(name, this.hit)))) return;
     this.time = time;
     this.hit = name;
@@ -206,11 +214,15 @@ class Walk {
 
   ball(p, v, begin, end, c, r, atStart, name, found) {
     this.library.place(c, r);
-    if (atStart && this.library.inside(p)) found.addInside(name);
+    const { inside, startsInside } = this.library;
+    const within = atStart && inside !== undefined && inside(p);
+    if (within && !startsInside) found.addInside(name);
     if (end <= begin) return; // no segment in this cell: the ray only touches its corner
     const d = v.map((q) => q * (end - begin));
     const f = this.library.enters(p, d);
-    if (f !== undefined) found.addHit(begin + f * (end - begin), name);
+    const time = begin + f * (end - begin);
+    if (f !== undefined && within) found.addExit(time, name);
+    else if (f !== undefined) found.addHit(time, name);
     this.stopwatch.note(p, d, c, r);
     this.stopwatch.measure();
   }
@@ -300,8 +312,8 @@ export async function walk(library) {
     if (line.trim()) take(line);
   }
   if (empty) {
-    const { name, version, precision, dimensions } = library;
-    say({ engine: { name, version: version ?? versionOf(library.package), precision, dimensions } });
+    const { name, version, precision, dimensions, startsInside: inside } = library;
+    say({ engine: { name, version: version ?? versionOf(library.package), precision, dimensions, inside } });
   } else {
     engine.stopwatch.measure(0);
     say({ engine_time: { seconds: engine.stopwatch.seconds, queries } });

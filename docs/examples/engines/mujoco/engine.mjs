@@ -2,7 +2,7 @@
 // plane z = 0. The version is the one that the library reports.
 //
 // Formula: the discriminant b^2 - ac, which cancels far from the sphere. A discriminant below mjMINVAL =
-// 1e-15, whatever the units, is a miss. A start inside gets the exit.
+// 1e-15, whatever the units, is a miss. A start inside gets the exit, as the manual says.
 import initialize from "mujoco-js";
 import { walk } from "../walk.mjs";
 
@@ -21,10 +21,11 @@ walk({
     centre = c;
     size = [r, 0, 0];
   },
+  startsInside: "exit",
   // MuJoCo has no such test.
   inside: (p) => Math.hypot(p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]) < size[0],
   enters(p, d) {
     const f = mujoco.mju_rayGeom(centre, straight, size, p, d, sphere);
-    return f >= 0 && f <= 1 ? f : undefined;
+    return f >= 0 ? f : undefined;
   },
 });

@@ -2,7 +2,7 @@
 // may hit. Binary64, 2D.
 //
 // Formula: the discriminant (s.r)^2 - |r|^2 (|s|^2 - radius^2), which cancels far from the circle. A segment
-// whose squared length is below the epsilon of binary64 hits nothing. A start inside hits nothing.
+// whose squared length is below the epsilon of binary64 hits nothing. A start inside hits nothing, as in Box2D.
 import { CircleShape, Transform, Vec2 } from "planck";
 import { walk } from "../walk.mjs";
 
@@ -18,7 +18,7 @@ walk({
     circle.m_radius = r;
     at.p.set(c[0], c[1]);
   },
-  inside: (p) => circle.testPoint(at, new Vec2(p[0], p[1])),
+  startsInside: "miss",
   enters(p, d) {
     const output = {};
     const input = { p1: new Vec2(p[0], p[1]), p2: new Vec2(p[0] + d[0], p[1] + d[1]), maxFraction: 1 };

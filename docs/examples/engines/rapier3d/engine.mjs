@@ -2,7 +2,7 @@
 // each ball that the ray may hit. Binary32; 2D as the plane z = 0.
 //
 // Formula: the discriminant b^2 - ac, which cancels far from the ball. A start inside, also one that rounding
-// puts there, is hit at 0.
+// puts there, is hit at 0, as `solid` asks.
 import RAPIER from "@dimforge/rapier3d-compat";
 import { walk } from "../walk.mjs";
 
@@ -22,7 +22,7 @@ walk({
     ball.radius = r;
     centre = of(c);
   },
-  inside: (p) => ball.containsPoint(centre, straight, of(p)),
+  startsInside: "zero",
   enters(p, d) {
     const t = ball.castRay(new RAPIER.Ray(of(p), of(d)), centre, straight, 1, true);
     return t >= 0 ? t : undefined;

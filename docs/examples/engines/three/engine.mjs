@@ -2,7 +2,7 @@
 // this is the call for a ball.)
 //
 // Formula: the square of the distance from the line as |w|^2 - (w.d)^2, which cancels far from the sphere,
-// and r^2 minus that. A start inside gets the exit. It needs a unit direction and returns a point: the
+// and r^2 minus that. A start inside gets the exit, as a comment in it promises. It needs a unit direction and returns a point: the
 // adapter normalises by Vector3.normalize, and takes the distance of the point as Raycaster does.
 import { Ray, Sphere, Vector3 } from "three";
 import { walk } from "../walk.mjs";
@@ -20,6 +20,7 @@ walk({
     sphere.center.fromArray(c);
     sphere.radius = r;
   },
+  startsInside: "exit",
   inside: (p) => sphere.containsPoint(point.fromArray(p)),
   enters(p, d) {
     ray.origin.fromArray(p);
