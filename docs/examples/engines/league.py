@@ -9,6 +9,7 @@ What came of an engine is kept in build/league/NAME.json: a run that was stopped
 asks again. `./run league` installs and builds what the engines need first.
 """
 import argparse
+import collections
 import json
 import math
 import pathlib
@@ -253,8 +254,11 @@ def section(library, members):
     first, _ = members[0]
     text = f"## {first['title']}\n\n<{first['link']}>, {first['license']}; [how it is called](../examples/engines/{library}).\n\n"
     for entry, result in members:
-        faults = sorted((f for f in result["findings"] if f["verdict"] != "ill-posed"), key=lambda f: -f["count"])
-        faults = [f"{f['title']} {f['count']}" for f in faults[:MOST]] + ([f"{len(faults) - MOST} kinds more"] if len(faults) > MOST else [])
+        kinds = collections.Counter()
+        for finding in result["findings"]:
+            kinds[finding["title"]] += finding["count"] if finding["verdict"] != "ill-posed" else 0
+        faults = [f"{title} {count}" for title, count in (+kinds).most_common(MOST)]
+        faults += [f"{len(+kinds) - MOST} kinds more"] if len(+kinds) > MOST else []
         text += wrapped(f"- `{entry['name']}`: {', '.join(faults) if faults else 'nothing'}", "  ") + "\n"
     text += "\n"
     for entry, result in members:
