@@ -9,7 +9,6 @@
 #include <lorentz/exchange.hpp>
 #include "cli/file_options.hpp"
 #include "cli/help_texts.hpp"
-#include "cli/manual.hpp"
 #include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "report/files/signals.hpp"
@@ -56,7 +55,6 @@ void add(CLI::App& app, const Command& command, NumbersGiven& numbers) {
     if (!option.default_text().empty() && added->get_default_str().empty()) added->capture_default_str();
     if (option.traits & kRequired) added->required();
     if (option.traits & kOneAtATime) added->allow_extra_args(false);
-    if (option.is_hidden()) added->group("");
   }
   for (const Option& option : command.options)
     if (!option.excludes.empty()) app.get_option(option.name())->excludes(app.get_option(option.excludes));
@@ -151,16 +149,8 @@ void help_as_option(int argc, char** argv) {
   argv[argc - 1] = option;
 }
 
-// A service for the build, which is not listed in --help.
-bool serves(const Command& program, int argc, char** argv) {
-  if (argc != 3 || std::string_view(argv[1]) != "--manuals") return false;
-  write_manuals(program, argv[2]);
-  return true;
-}
-
 int parse_and_act(CLI::App& app, const Command& program, const NumbersGiven& numbers, int argc, char** argv) {
   try {
-    if (serves(program, argc, argv)) return kDone;
     help_as_option(argc, argv);
     return parse(app, program, numbers, argc, argv)();
   } catch (const CLI::ParseError& help) {

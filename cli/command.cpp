@@ -20,16 +20,8 @@ std::vector<std::string> names_with(const std::string& names, const std::string&
 
 }  // namespace
 
-bool Option::takes_value() const {
-  return !std::holds_alternative<std::monostate>(target) && !std::holds_alternative<bool*>(target);
-}
-
 std::vector<std::string> Option::long_names() const {
   return names_with(names, "--");
-}
-
-std::vector<std::string> Option::short_names() const {
-  return names_with(names, "-");
 }
 
 std::string Option::name() const {
@@ -38,7 +30,7 @@ std::string Option::name() const {
 
 bool Option::is_called(const std::string& word) const {
   const auto is_in = [&](const std::vector<std::string>& all) { return std::ranges::count(all, word) > 0; };
-  return is_in(long_names()) || is_in(short_names());
+  return is_in(long_names()) || is_in(names_with(names, "-"));
 }
 
 std::string Option::default_text() const {

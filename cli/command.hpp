@@ -46,9 +46,8 @@ enum Trait : unsigned {
   kOutput = 2,        ///< names a file that is written, or a store, which is written and read
   kCommas = 4,        ///< several values are separated by commas
   kOneAtATime = 8,    ///< each of several values follows the option's name
-  kHidden = 16,       ///< not in help: for tests
-  kToldDefault = 32,  ///< its help line states the default
-  kTakesStdout = 64   ///< an output that may be `-`, standard output
+  kToldDefault = 16,  ///< its help line states the default
+  kTakesStdout = 32   ///< an output that may be `-`, standard output
 };
 
 /// One option, or one argument.
@@ -62,13 +61,9 @@ struct Option {
   std::string excludes = {};  ///< an option with which it cannot be combined: "--queries"
 
   bool is_argument() const { return !names.starts_with('-'); }
-  bool is_hidden() const { return traits & kHidden; }
-  bool takes_value() const;
-  bool takes_many() const { return std::holds_alternative<std::vector<std::string>*>(target); }
 
   std::vector<std::string> long_names() const;  ///< with dashes, as all names here
-  std::vector<std::string> short_names() const;
-  std::string name() const;  ///< "--engine", or the argument's name
+  std::string name() const;                     ///< "--engine", or the argument's name
   bool is_called(const std::string& word) const;
 
   std::string default_text() const;         ///< valid before parsing; empty: no default

@@ -18,12 +18,6 @@ namespace {
 using fitness::Symptom;
 using fitness::Use;
 
-// For tests: a wrong rounding mode must be detected.
-void set_rounding(const std::string& mode) {
-  constexpr int kModes[] = {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
-  std::fesetround(kModes[index_of_name(mode, {"upward", "downward", "toward-zero"}, "--pretend-rounding")]);
-}
-
 std::vector<Symptom> all_findings() {
   std::vector<Symptom> findings = fitness::findings_of(arithmetic_checks());
   for (Symptom& finding : fitness::examine_known_answers()) findings.push_back(std::move(finding));
@@ -77,8 +71,7 @@ std::string json_of(const report::Manifest& its, const std::vector<Symptom>& fin
   });
 }
 
-int act(bool as_json, const std::string& rounding) {
-  if (!rounding.empty()) set_rounding(rounding);
+int act(bool as_json) {
   const std::vector<Symptom> findings = all_findings();
   std::fesetround(FE_TONEAREST);
   const std::vector<Use> unfit = fitness::unfit_uses(findings);
@@ -91,18 +84,14 @@ int act(bool as_json, const std::string& rounding) {
 
 Command doctor_command() {
   auto json = std::make_shared<bool>(false);
-  auto rounding = std::make_shared<std::string>();
   return {"doctor",
           "Is this machine fit? Looks at its arithmetic and at this build, and computes known "
           "answers again with every engine and both oracles.",
-          {
-              {"--json", json.get(), "", "one JSON object"},
-              {"--pretend-rounding", rounding.get(), "upward|downward|toward-zero", "", kHidden},
-          },
+          {{"--json", json.get(), "", "one JSON object"}},
           "Exit status: 0 fit, 1 not fit for something that is named, 2 bad usage, 3 the work could not be "
           "done.\n"
           "Example:\n  lorentz doctor",
-          [json, rounding] { return act(*json, *rounding); }};
+          [json] { return act(*json); }};
 }
 
 }  // namespace lorentz::cli

@@ -6,7 +6,6 @@ A limit is lowered when less is reached, and never raised: a change that adds a 
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
 from collections import Counter
 from pathlib import Path
@@ -29,16 +28,18 @@ def sources():
             yield path.read_text()
 
 
-def manuals():
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([PROGRAM, "--manuals", folder], check=True)
-        return [path.read_text() for path in Path(folder).glob("*.1")]
+def helps(*command):
+    """What --help says of the program, and of each of its subcommands."""
+    asked = subprocess.run([PROGRAM, *command, "--help"], capture_output=True, check=True, text=True).stdout
+    commands = asked.partition("\nSubcommands:\n")[2].partition("\n\n")[0]
+    names = re.findall(r"^  (\w[\w-]*)", commands, re.MULTILINE)
+    return [asked] + [text for name in names for text in helps(*command, name)]
 
 
 def counted():
-    texts, pages = list(sources()), manuals()
+    texts, pages = list(sources()), helps()
     homonyms = Counter(name for text in texts for name in set(NAMED.findall(text)))
-    names = r"^\\fB(?:\\-\w\\fR, \\fB)?\\-\\-"
+    names = r"^  (?:-\w,)?--"
     return {"lines of production C++": sum(text.count("\n") for text in texts),
             "type definitions": sum(len(TYPE.findall(text)) for text in texts),
             "names of types in two files": sum(files > 1 for files in homonyms.values()),
