@@ -82,6 +82,10 @@ struct DoubleDouble {
     return {select(m, yes.hi, no.hi), select(m, yes.lo, no.lo)};
   }
 
+  friend LORENTZ_INLINE DoubleDouble NegIf(Mask m, DoubleDouble x) {
+    return {NegIf(m, x.hi), NegIf(m, x.lo)};
+  }
+
   LORENTZ_INLINE Number value() const { return hi + lo; }
 };
 

@@ -80,8 +80,8 @@ class AtomStart {
     std::int64_t n[3]{};
     for (int i = 0; i < D; ++i) {
       if (!(std::fabs(N[i].hi) < kMaxCell)) return false;
-      n[i] = static_cast<std::int64_t>(N[i].hi) + static_cast<std::int64_t>(offset.home[i]);
-      if constexpr (D == 3) n[i] += static_cast<std::int64_t>(N[i].lo);
+      n[i] = static_cast<std::int64_t>(N[i].hi) + static_cast<std::int64_t>(N[i].lo) +
+             static_cast<std::int64_t>(offset.home[i]);
     }
     if constexpr (kUnit) {
       for (int k = 0; k < D; ++k) cell[k] = n[k];

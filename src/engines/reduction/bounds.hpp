@@ -57,6 +57,9 @@ inline constexpr double kRowSlope = 0x1p-48;
 /// terms; and the scale of the coordinates (of ellipsoids: times the condition of the shape).
 inline constexpr double kAcross = 8, kScale = 32;
 
+/// What a sum without rounding loses when it is rounded, in units of u.
+inline constexpr double kUnroundedPlace = 4;
+
 /// 3D, where a lattice line enters the cylinder: its moment about the flight, relative to the sizes of the
 /// terms; in units of that, how far its discriminant is raised, and the ends of its interval are moved out.
 inline constexpr double kLine = 32, kDiscriminant = 8, kLineEnd = 4;
@@ -158,6 +161,9 @@ inline constexpr double kShortVector = 0x1p8, kNearlyParallel = 0x1p-30;
 /// Integers of the search, held in binary64: exact below this, and never used beyond.
 inline constexpr double kMaxCoefficient = 0x1p53;
 
+/// 3D: a vector whose across errs by more roundoffs of itself is computed without rounding.
+inline constexpr double kFewCancel = 0x1p29;
+
 /// Components of lattice vectors below this are taken as zero, so that no product with a velocity's
 /// underflows. kFlushed relies on it: what that changes, times kMaxTransform of the short basis, over 2^53
 /// cells.
@@ -250,8 +256,8 @@ inline constexpr double kMaxDefect = 2.8;
 /// Rounds of loops that end by themselves much earlier, or have found something hard.
 inline constexpr int kMaxShorteningPasses = 1000, kMaxHomePasses = 8, kMaxRenormalisations = 8, kMaxRows = 64,
                      kMaxCandidatesInRow = 16, kMaxWindows = 200, kMaxAnchorPasses = 4,
-                     kMaxCandidatesOnLine = 64, kMaxReductionRounds = 60, kMaxReductionSteps = 300,
-                     kMaxPlaneReductionSteps = 200;
+                     kMaxCandidatesOnLine = 64, kMaxEntryPasses = 6, kMaxReductionRounds = 60,
+                     kMaxReductionSteps = 300, kMaxPlaneReductionSteps = 200;
 
 /// Many flights at once: times of balls of smaller radius are rounded from the slack in binary64, if that
 /// suffices.

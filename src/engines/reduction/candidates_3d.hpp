@@ -11,9 +11,9 @@
 
 namespace lorentz {
 
-template <class Arch, bool kUnit, bool kBall>
+template <class Arch, bool kUnit, bool kBall, class Integer>
 class Candidates3 {
-  using Window = Window3<Arch, kUnit, kBall>;
+  using Window = Window3<Arch, kUnit, kBall, Integer>;
 
  public:
   enum class Look { missed, taken, beyond, doubtful };
@@ -28,7 +28,7 @@ class Candidates3 {
   /// The place in the window beyond which nothing more is needed.
   double end() const { return window_.end_before(found.s); }
 
-  Look look_at(const Point3& point) {
+  Look look_at(const typename Window::Point& point) {
     double margin, spread, s, s_error;
     window_.set_across(point, margin, spread);
     const Decision meets = is_positive(margin, spread);
@@ -49,6 +49,15 @@ class Candidates3 {
     Wide d[3];
     const double error = place_of<kUnit>(window_.lattice, window_.offset, N, d);
     return {window_.to.v, d, error, window_.lattice};
+  }
+
+  /// The slack of a ball, with an error below `most` if that can be had.
+  void set_slack(const Wide (&N)[3], double most, double& slack, double& error) const {
+    const auto meeting = meeting_at(N);
+    slack = meeting.slack.hi, error = meeting.slack_error;
+    if (!(kUnit && kBall) || error < most) return;
+    slack = unrounded_slack(window_.to.v, N, window_.offset, window_.lattice.radius);
+    error = kUnroundedPlace * kRoundoff * std::fabs(slack);
   }
 
  private:

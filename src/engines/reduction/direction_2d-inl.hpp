@@ -102,7 +102,10 @@ struct Direction2 {
     set_forms<Arch>(lattice);
     set_first_arms<Arch>();
     euclid<Arch>(usable);
-    if constexpr (!kUnit) euclid_again<Arch>();
+    if constexpr (kUnit)
+      take_back<Arch>();
+    else
+      euclid_again<Arch>();
     if constexpr (kUnit && !kBall) go_forward<Arch>();
     finish<Arch>(lattice);
   }
@@ -236,6 +239,20 @@ struct Direction2 {
     swap_arms(flipped);
   }
 
+  // On the unit lattices: a quotient may have been rounded up to the next integer. Then the height is below
+  // zero, and its sum with the other one is exact, because that is the remainder.
+  template <class Arch>
+  LORENTZ_INLINE void take_back() {
+    Mask below = And(usable, L.D < all(0));
+    for (int round = 0; round < kMaxRenormalisations && any(below); ++round) {
+      L.D = L.D + where(below, R.D);
+      for (int i = 0; i < 2; ++i) L.n[i] = L.n[i] - where(below, R.n[i]);
+      swap_arms(And(below, R.D < L.D));
+      euclid<Arch>(below);
+      below = And(below, L.D < all(0));
+    }
+  }
+
   template <class Arch>
   LORENTZ_INLINE void euclid_again() {
     Mask again = usable;
@@ -309,8 +326,8 @@ struct Direction2 {
 
   // Rows are parallel to the line, exactly, or they certainly rise towards it: by a height of whose error the
   // half does not change its sign, and which does not vanish when it is multiplied by the inverse of an area.
-  // (On the unit lattices heights are exact, and none is so small; below zero is one whose last quotient was
-  // rounded up.)
+  // (On the unit lattices heights are exact, and none is so small; below zero is one whose last quotient
+  // was rounded up again and again.)
   template <class Arch>
   LORENTZ_INLINE void know_slope(const Bravais& lattice) {
     if constexpr (kUnit) {

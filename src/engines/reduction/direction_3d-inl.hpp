@@ -5,12 +5,12 @@
 // short, few lattice planes and few lattice lines meet the window. A line is solved by one quadratic.
 
 /// Everything that does not depend on the start.
-template <class Numbers, bool kUnit, bool kBall>
+template <class Numbers, bool kUnit, bool kBall, class Integer = typename Numbers::Number>
 struct DirectionOf3 : FrameOf3<Numbers, kUnit, kBall> {
   using Frame = FrameOf3<Numbers, kUnit, kBall>;
   using Number = typename Numbers::Number;
   using Mask = typename Numbers::Mask;
-  using Basis = BasisOf3<Numbers>;
+  using Basis = BasisOf3<Numbers, Integer>;
 
   Basis basis;
 
@@ -22,8 +22,8 @@ struct DirectionOf3 : FrameOf3<Numbers, kUnit, kBall> {
     const Number along = all(1) / basis.length;
     const auto& form = this->form();
     for (int i = 0; i < 3; ++i) {
-      ArmOf3<Numbers>& arm = basis.b[i];
-      for (int j = 0; j < 3; ++j) arm.n[j] = all(i == j ? 1 : 0);
+      typename Basis::Arm& arm = basis.b[i];
+      for (int j = 0; j < 3; ++j) arm.n[j] = Integer(all(i == j ? 1 : 0));
       arm.p[0] = this->scale[0] * form[0][i].hi, arm.p[1] = this->scale[1] * form[1][i].hi;
       arm.z = along * form[2][i].hi;
       arm.cancellation = all(0);
@@ -40,16 +40,31 @@ struct DirectionOf3 : FrameOf3<Numbers, kUnit, kBall> {
     this->set_radius(lattice);
     basis.length = first_length(lattice);
     const Number wider = all(this->inverse_r / before), longer = length_before / basis.length;
-    for (ArmOf3<Numbers>& arm : basis.b)
+    for (typename Basis::Arm& arm : basis.b)
       arm.p[0] = arm.p[0] * wider, arm.p[1] = arm.p[1] * wider, arm.z = arm.z * longer;
     shorten<Arch>(basis, wanted);
+  }
+
+  /// The same direction with other integers, for a window of this length.
+  template <class Arch>
+  LORENTZ_INLINE void set(const DirectionOf3<Numbers, kUnit, kBall>& same, Number length) {
+    static_cast<Frame&>(*this) = same;
+    basis.length = length;
+    for (int i = 0; i < 3; ++i) {
+      typename Basis::Arm& arm = basis.b[i];
+      const ArmOf3<Numbers>& from = same.basis.b[i];
+      for (int j = 0; j < 3; ++j) arm.n[j] = Integer(from.n[j]);
+      arm.p[0] = from.p[0], arm.p[1] = from.p[1], arm.z = from.z * (same.basis.length / length);
+      arm.cancellation = from.cancellation;
+    }
+    shorten<Arch>(basis, everywhere(true));
   }
 
   /// For a longer window. The basis is reduced further from its present state.
   template <class Arch>
   LORENTZ_INLINE void lengthen(Basis& longer, Number factor, Mask wanted) const {
     longer.length = longer.length * factor;
-    for (ArmOf3<Numbers>& arm : longer.b) arm.z = arm.z / factor;
+    for (typename Basis::Arm& arm : longer.b) arm.z = arm.z / factor;
     shorten<Arch>(longer, wanted);
   }
 

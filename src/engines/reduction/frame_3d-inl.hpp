@@ -84,14 +84,14 @@ struct FrameOf3 {
   }
 
   /// Recomputes a vector's across and along from its coefficients. The large terms cancel exactly.
-  template <class Arch>
-  LORENTZ_INLINE void recompute(ArmOf3<Numbers>& arm, Number length) const {
+  template <class Arch, class Integer>
+  LORENTZ_INLINE void recompute(ArmOf3<Numbers, Integer>& arm, Number length) const {
     using DD = DoubleDouble<Arch>;
     arm.p[0] = scale[0] * compensated_sum<DD, kFirstTerms, kLowParts>(form()[0], arm.n);
     arm.p[1] = scale[1] * compensated_sum<DD>(form()[1], arm.n);
     arm.z = compensated_sum<DD, 3, kLowParts>(form()[2], arm.n) / length;
-    Number terms = Abs(arm.n[0]) * all(size_of[0]);
-    for (int j = 1; j < 3; ++j) terms = terms + Abs(arm.n[j]) * all(size_of[j]);
+    Number terms = Abs(high_of(arm.n[0])) * all(size_of[0]);
+    for (int j = 1; j < 3; ++j) terms = terms + Abs(high_of(arm.n[j])) * all(size_of[j]);
     arm.cancellation = kAnchorTerms / kRoundoff * kForm * inverse_r * terms;
   }
 

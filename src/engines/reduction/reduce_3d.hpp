@@ -2,9 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
-#include "src/engines/reduction/one_flight.hpp"
+#include "src/engines/reduction/unrounded.hpp"
 
 namespace lorentz {
 
@@ -14,11 +15,14 @@ namespace lorentz {
 using FourNumbers [[gnu::vector_size(32)]] = double;
 
 /// Works on running coordinates until these have to be computed anew from the coefficients.
+template <class Integer>
 class GreedyReduction {
- public:
-  explicit GreedyReduction(Basis3& basis) : basis_(basis) {}
+  using Basis = BasisOf3<SplitProduct, Integer>;
 
-  /// The largest coefficient that ever occurred. If it is below 2^52, all steps were exact.
+ public:
+  explicit GreedyReduction(Basis& basis) : basis_(basis) {}
+
+  /// The largest coefficient that ever occurred. If it is below kLargest / 2, all steps were exact.
   double largest() const { return largest_of(largest_); }
 
   /// Are the coordinates those of the coefficients, or accurate enough?
@@ -42,10 +46,11 @@ class GreedyReduction {
 
  private:
   struct Vector {
-    FourNumbers n, place;  ///< coefficients; across, along
+    std::conditional_t<std::is_same_v<Integer, Wide>, std::array<Wide, 3>, FourNumbers> n;  ///< coefficients
+    FourNumbers place;                                                                      ///< across, along
 
-    explicit Vector(const Arm3& arm)
-        : n{arm.n[0], arm.n[1], arm.n[2], 0}, place{arm.p[0], arm.p[1], arm.z, 0} {}
+    explicit Vector(const ArmOf3<SplitProduct, Integer>& arm)
+        : n{arm.n[0], arm.n[1], arm.n[2]}, place{arm.p[0], arm.p[1], arm.z, 0} {}
   };
 
   // Shortens the two shorter vectors by Lagrange's step, then the longest by the nearest point of their
@@ -97,32 +102,54 @@ class GreedyReduction {
   }
 
   void subtract(Vector& a, double k, const Vector& b) {
-    a.n -= k * b.n, a.place -= k * b.place;
-    const FourNumbers size = a.n > -a.n ? a.n : -a.n;
-    largest_ = size > largest_ ? size : largest_;
+    a.place -= k * b.place;
     fresh_ = false;
+    if constexpr (std::is_same_v<Integer, Wide>) {
+      for (int i = 0; i < 3; ++i)
+        a.n[i] = a.n[i] - k * b.n[i], largest_[i] = std::max(largest_[i], std::fabs(a.n[i].hi));
+    } else {
+      a.n -= k * b.n;
+      const FourNumbers size = a.n > -a.n ? a.n : -a.n;
+      largest_ = size > largest_ ? size : largest_;
+    }
   }
 
   static double largest_of(const FourNumbers& a) { return std::max({a[0], a[1], a[2]}); }
 
-  Basis3& basis_;
+  Basis& basis_;
   FourNumbers largest_{};  // of each of the three coefficients
   double limit_ = kRunningCoefficient;
   bool fresh_ = true;  // the coordinates are those of the coefficients, not sums of rounded ones
 };
 
+/// Recomputes a vector's across and along from its coefficients; where these are in double-double and the
+/// large terms cancel so far that it matters, without rounding.
+template <class Arch, class Frame, class Integer>
+void recompute(const Frame& frame, ArmOf3<SplitProduct, Integer>& arm, double length) {
+  frame.template recompute<Arch>(arm, length);
+  if constexpr (std::is_same_v<Integer, Wide>) {
+    const auto reach = [&] { return std::fabs(arm.p[0]) + std::fabs(arm.p[1]); };
+    if (arm.cancellation < kFewCancel * reach()) return;
+    Vec place;
+    unrounded_place(frame.v, arm.n, {}, 0, place);
+    for (int i = 0; i < 2; ++i) arm.p[i] = frame.scale[i] * place[i];
+    arm.z = place[2] / length;
+    arm.cancellation = kUnroundedPlace * reach();
+  }
+}
+
 /// Reduces the basis to short vectors, then once more from exact coefficients. False if this does not
 /// succeed.
-template <class Arch, class Frame>
-bool reduce_basis(const Frame& frame, Basis3& basis, bool) {
+template <class Arch, class Frame, class Integer>
+bool reduce_basis(const Frame& frame, BasisOf3<SplitProduct, Integer>& basis, bool) {
   GreedyReduction reduction(basis);
   bool done = false;
   for (int round = 0; round < kMaxReductionRounds && !done; ++round) {
     done = reduction.run() && reduction.is_accurate(frame.inverse_r);
-    for (Arm3& arm : basis.b) frame.template recompute<Arch>(arm, basis.length);
+    for (auto& arm : basis.b) recompute<Arch>(frame, arm, basis.length);
     reduction.refresh();
   }
-  return done && reduction.largest() < kMaxCoefficient / 2;
+  return done && reduction.largest() < kLargest<Integer> / 2;
 }
 
 }  // namespace lorentz

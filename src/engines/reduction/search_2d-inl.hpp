@@ -148,7 +148,8 @@ class RowsOf2 {
   }
 
   /// The ball of this cell in double-double.
-  LORENTZ_INLINE CloseLook<typename Arch::Apart> look_closely(const Number (&N)[2]) const {
+  template <class Coefficient>
+  LORENTZ_INLINE CloseLook<typename Arch::Apart> look_closely(const Coefficient (&N)[2]) const {
     using Apart = typename Arch::Apart;
     DoubleDouble<Apart> d[2];
     const Number error = place_of<kUnit>(lattice_, offset_, N, d);

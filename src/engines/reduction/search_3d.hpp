@@ -9,14 +9,18 @@
 namespace lorentz {
 
 /// The search for one start.
-template <class Arch, bool kUnit, bool kBall>
+template <class Arch, bool kUnit, bool kBall, class Integer = double>
 class Search3 {
-  Window3<Arch, kUnit, kBall> window_;
-  Candidates3<Arch, kUnit, kBall> candidates_;
-  Lines3<Arch, kUnit, kBall> lines_;
+  using Window = Window3<Arch, kUnit, kBall, Integer>;
+  template <class, bool, bool, class>
+  friend class Search3;
+
+  Window window_;
+  Candidates3<Arch, kUnit, kBall, Integer> candidates_;
+  Lines3<Arch, kUnit, kBall, Integer> lines_;
 
  public:
-  Search3(const Bravais& lattice, const Direction3<kUnit, kBall>& direction,
+  Search3(const Bravais& lattice, const typename Window::Direction& direction,
           const Offset<SplitProduct, 3>& offset)
       : window_(lattice, direction, offset),
         candidates_(window_),
@@ -33,16 +37,38 @@ class Search3 {
     candidates_.from = from;
     candidates_.s_limit = s_limit;
     if constexpr (!(kUnit && kBall)) return search(s_limit);
-    const bool early = std::ranges::any_of(window_.basis->b, [&](const Arm3& arm) {
+    const bool early = std::ranges::any_of(window_.basis->b, [&](const typename Window::Arm& arm) {
       const double across = (std::fabs(arm.p[0]) + std::fabs(arm.p[1])) * window_.lattice.radius;
       return across < kNearlyParallel && arm.largest_coefficient() < kShortVector;
     });
-    if (early && is_between_planes()) return Outcome::never;
+    if (early && is_between_short_planes()) return Outcome::never;
     const Outcome outcome = search(s_limit);
-    return outcome == Outcome::undecided && !early && is_between_planes() ? Outcome::never : outcome;
+    if (outcome != Outcome::undecided) return outcome;
+    if ((!early && is_between_short_planes()) || is_between_planes()) return Outcome::never;
+    return search_with_wide_integers(s_limit);
   }
 
  private:
+  // Goes on with the window that was too hard for binary64.
+  [[gnu::noinline]] Outcome search_with_wide_integers(double s_limit) {
+    if constexpr (kUnit && kBall && std::is_same_v<Integer, double>) {
+      DirectionOf3<SplitProduct, kUnit, kBall, Wide> direction;
+      if (window_.to.basis.usable)
+        direction.template set<Arch>(window_.to, window_.basis->length);
+      else
+        direction.template set<Arch>(window_.lattice, window_.to.v, true);
+      Search3<Arch, kUnit, kBall, Wide> wide(window_.lattice, direction, window_.offset);
+      wide.candidates_.from = candidates_.from, wide.candidates_.s_limit = s_limit;
+      wide.window_.begin = window_.begin;
+      Outcome outcome = wide.search(s_limit);
+      if (outcome == Outcome::undecided && wide.is_between_planes()) outcome = Outcome::never;
+      found = wide.found;
+      found.needs(Stage::double_double);
+      return outcome;
+    }
+    return Outcome::undecided;
+  }
+
   Outcome search(double s_limit) {
     for (int window = 0; window < kMaxWindows; ++window) {
       if (!window_.basis->usable || !window_.set_anchor()) return found.give_up();
@@ -57,11 +83,20 @@ class Search3 {
     return found.give_up();
   }
 
-  // Does the line stay between two lattice planes?
+  // Does the line stay between two planes of short lattice vectors?
+  bool is_between_short_planes() {
+    return note(stays_between_planes(window_.to.v, window_.home(), window_.lattice.radius));
+  }
+
+  // .. or of those by which the window is searched?
   bool is_between_planes() {
-    const auto& d = window_.offset.d;
-    const bool stays =
-        stays_between_planes(window_.to.v, {d[0].hi, d[1].hi, d[2].hi}, window_.lattice.radius);
+    Vec b[2];
+    for (int k = 0; k < 2; ++k)
+      for (int i = 0; i < 3; ++i) b[k][i] = high_of(window_.basis->b[k].n[i]);
+    return note(stays_between_planes(window_.to.v, window_.home(), window_.lattice.radius, b[0], b[1]));
+  }
+
+  bool note(bool stays) {
     if (stays) found.stage = Stage::double_double;
     return stays;
   }
@@ -73,23 +108,23 @@ class Search3 {
     window_.set_planes(kappa_, low, high);
     if (!are_countable(low, high)) return false;
     for (double k = std::ceil(low); k <= high; ++k) {
-      const Point3 point = window_.anchor_point.step(k, window_.basis->b[2]);
+      const typename Window::Point point = window_.anchor_point.step(k, window_.basis->b[2]);
       if (!scan_plane(point, kappa_ + k)) return false;
     }
     return true;
   }
 
   // Scans the lines of the plane of this point that meet the flight's cylinder.
-  bool scan_plane(const Point3& point, double kappa) {
-    typename Window3<Arch, kUnit, kBall>::Section section;
+  bool scan_plane(const typename Window::Point& point, double kappa) {
+    typename Window::Section section;
     if (!window_.set_section(point, kappa, candidates_.end(), section)) return true;
     none_met_ = false;
     const double low = section.low, high = section.high, z_first = section.z_first, z_last = section.z_last;
     if (!are_countable(low, high)) return false;
     if (high - low > kManyLines)
-      return ThinSection3<Arch, kUnit, kBall>(window_, candidates_, lines_)
+      return ThinSection3<Arch, kUnit, kBall, Integer>(window_, candidates_, lines_)
           .scan(point, z_first, z_last, kappa, section.xi_error);
-    const Basis3& basis = *window_.basis;
+    const typename Window::Basis& basis = *window_.basis;
     for (double k = low; k <= high; ++k)
       if (!lines_.scan(point.step(k, basis.b[1]), basis.b[0], z_first, z_last)) return false;
     return true;
@@ -98,10 +133,11 @@ class Search3 {
   // The obstacles on the line repeat after this s: v . b of a lattice vector b that is exactly parallel to
   // the line.
   double period() const {
-    for (const Arm3& arm : window_.basis->b)
-      if (arm.p[0] == 0 && arm.p[1] == 0 &&
-          is_parallel<SplitProduct, 3>(window_.lattice, window_.to.v, arm.n))
+    for (const typename Window::Arm& arm : window_.basis->b) {
+      const double n[3] = {high_of(arm.n[0]), high_of(arm.n[1]), high_of(arm.n[2])};
+      if (arm.p[0] == 0 && arm.p[1] == 0 && is_parallel<SplitProduct, 3>(window_.lattice, window_.to.v, n))
         return arm.z * window_.basis->length;
+    }
     return Found<3>::kNothing;
   }
 

@@ -10,26 +10,28 @@
 
 namespace lorentz {
 
-template <class Arch, bool kUnit, bool kBall>
+template <class Arch, bool kUnit, bool kBall, class Integer>
 class ThinSection3 {
-  using Window = Window3<Arch, kUnit, kBall>;
-  using Candidates = Candidates3<Arch, kUnit, kBall>;
-  using Lines = Lines3<Arch, kUnit, kBall>;
+  using Window = Window3<Arch, kUnit, kBall, Integer>;
+  using Candidates = Candidates3<Arch, kUnit, kBall, Integer>;
+  using Lines = Lines3<Arch, kUnit, kBall, Integer>;
+  using Point = typename Window::Point;
+  using Arm = typename Window::Arm;
 
  public:
   ThinSection3(const Window& window, const Candidates& candidates, Lines& lines)
       : window_(window), candidates_(candidates), lines_(lines) {}
 
   /// Scans the section, from a point of the plane. False: undecided.
-  [[gnu::noinline]] bool scan(const Point3& in_plane, double z_first, double z_last, double kappa,
+  [[gnu::noinline]] bool scan(const Point& in_plane, double z_first, double z_last, double kappa,
                               double xi_error) {
-    const Basis3& basis = *window_.basis;
+    const typename Window::Basis& basis = *window_.basis;
     const double unsure = 2 * xi_error;
-    Arm3 c[2] = {basis.b[0], basis.b[1]};
+    Arm c[2] = {basis.b[0], basis.b[1]};
     const double cell = std::fabs(c[0].z * eta(c[1].p) - c[1].z * eta(c[0].p));
     double length = z_last - z_first;
     while (length * half_width(kappa, z_first, z_first + length, unsure) > kPartCells * cell) length /= 4;
-    Point3 base = in_plane;
+    Point base = in_plane;
     for (double z = z_first; z < std::min(z_last, candidates_.end()); z += length, length *= 2) {
       const double z_next = std::min(z + length, z_last);
       const Part part{z, z_next, half_width(kappa, z, z_next, unsure)};
@@ -64,15 +66,16 @@ class ThinSection3 {
 
   // Moves `base` to a lattice point of the plane near the middle of the part; false if its integers were
   // rounded.
-  bool move_to_middle(const Part& part, const Arm3 (&c)[2], double inverse, Point3& base) const {
+  bool move_to_middle(const Part& part, const Arm (&c)[2], double inverse, Point& base) const {
     for (int pass = 0; pass < 2; ++pass) {
       const double dz = part.middle() - base.z, dh = -eta(base.p);
       const double k0 = std::nearbyint((dz * eta(c[1].p) - c[1].z * dh) * inverse);
       const double k1 = std::nearbyint((c[0].z * dh - dz * eta(c[0].p)) * inverse);
-      const Point3 moved = base.step(k0, c[0]).step(k1, c[1]);
+      const Point moved = base.step(k0, c[0]).step(k1, c[1]);
       for (int i = 0; i < 3; ++i)
-        if (!(std::fabs(base.n[i]) + std::fabs(k0 * c[0].n[i]) + std::fabs(k1 * c[1].n[i]) <=
-              kMaxCoefficient))
+        if (!(std::fabs(high_of(base.n[i])) + std::fabs(k0 * high_of(c[0].n[i])) +
+                  std::fabs(k1 * high_of(c[1].n[i])) <=
+              kLargest<Integer>))
           return false;
       base = window_.recomputed(moved);
     }
@@ -80,7 +83,7 @@ class ThinSection3 {
   }
 
   // Scans the lines of a part: k_1 = (c_0 x (point - base)) / (c_0 x c_1).
-  bool scan_part(const Part& part, const Arm3 (&c)[2], double inverse, const Point3& base, double overlap) {
+  bool scan_part(const Part& part, const Arm (&c)[2], double inverse, const Point& base, double overlap) {
     const double centre = (c[0].z * -eta(base.p) - (part.middle() - base.z) * eta(c[0].p)) * inverse;
     const double reach =
         (std::fabs(c[0].z) * part.width + 0.5 * (part.z_next - part.z) * std::fabs(eta(c[0].p))) *
@@ -93,8 +96,8 @@ class ThinSection3 {
   }
 
   // Lagrange's reduction of two vectors of the plane; the shorter one is c_0, and points forward.
-  bool reduce_in_plane(Arm3 (&c)[2], double along, double across) const {
-    const auto times = [&](const Arm3& a, const Arm3& b) {
+  bool reduce_in_plane(Arm (&c)[2], double along, double across) const {
+    const auto times = [&](const Arm& a, const Arm& b) {
       return a.z * along * (b.z * along) + eta(a.p) * across * (eta(b.p) * across);
     };
     for (int step = 0; step < kMaxPlaneReductionSteps; ++step) {
@@ -105,7 +108,7 @@ class ThinSection3 {
         return true;
       }
       c[1].subtract(k, c[0]);
-      window_.to.template recompute<Arch>(c[1], window_.basis->length);
+      recompute<Arch>(window_.to, c[1], window_.basis->length);
     }
     return false;
   }

@@ -19,6 +19,13 @@ Expansion sum_of_products(const Expansion& a, const Expansion& b, const Expansio
   return sum;
 }
 
+Expansion place_without_rounding(const Wide& N, double home) {
+  Expansion d(N.hi);
+  d.add(N.lo);
+  d.add(home);
+  return d;
+}
+
 // The value of the last bit that is set in a != 0.
 double lowest_bit(double a) {
   constexpr int kBits = 52;
@@ -27,7 +34,7 @@ double lowest_bit(double a) {
 }
 
 // Sets a short integer vector that is nearly parallel to v.
-bool set_near_vector(const double (&v)[3], double (&w)[3]) {
+bool set_near_vector(const double (&v)[3], Vec& w) {
   const double largest = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
   for (double size = 1; size <= kShortVector; ++size) {
     double off = 0;
@@ -42,7 +49,8 @@ bool set_near_vector(const double (&v)[3], double (&w)[3]) {
 }
 
 // The shortest integer vector along a x b; false if it is zero or not that short.
-bool set_normal(const double (&a)[3], const double (&b)[3], double (&normal)[3]) {
+template <class B>
+bool set_normal(const Vec& a, const B& b, Vec& normal) {
   constexpr double kLongest = 0x1p26;
   double bit = HUGE_VAL;
   for (int k = 0; k < 3; ++k) {
@@ -64,15 +72,32 @@ bool set_normal(const double (&a)[3], const double (&b)[3], double (&normal)[3])
   return divisor != 0;
 }
 
+bool is_perpendicular(const double (&v)[3], const Vec& normal) {
+  Expansion along =
+      sum_of_products(Expansion(v[0]), Expansion(normal[0]), Expansion(v[1]), Expansion(normal[1]), 1);
+  along.add_product(Expansion(v[2]), Expansion(normal[2]));
+  return along.is_exact() && along.is_zero();
+}
+
+// Is a line perpendicular to the normal farther than r from all planes?
+bool is_beside(const Vec& normal, const Vec& home, double r) {
+  Wide level(0);  // of the home cell's point over the line, in units of the planes' distance
+  double size2 = 0;
+  for (int k = 0; k < 3; ++k) {
+    level = level + Wide::product(normal[k], home[k]);
+    size2 += normal[k] * normal[k];
+  }
+  const double beside = std::fabs(level.hi - std::nearbyint(level.hi) + level.lo);
+  return beside > r * std::sqrt(size2) * (1 + kAmple);
+}
+
 }  // namespace
 
 double unrounded_slack(int dimension, const double* v, const Wide* N, const double* home, double r) {
   const Expansion radius(r), square = sum_of_products(radius, radius, radius, Expansion(), 1);
   Expansion d[3], speed[3], speed2, slack;
   for (int k = 0; k < dimension; ++k) {
-    d[k] = Expansion(N[k].hi);
-    d[k].add(N[k].lo);
-    d[k].add(home[k]);
+    d[k] = place_without_rounding(N[k], home[k]);
     speed[k] = Expansion(v[k]);
     speed2.add_product(speed[k], speed[k]);
   }
@@ -86,18 +111,27 @@ double unrounded_slack(int dimension, const double* v, const Wide* N, const doub
   return slack.is_exact() && std::fabs(value) > kFlushedSlack ? value : 0;
 }
 
-bool stays_between_planes(const double (&v)[3], const double (&home)[3], double r) {
-  double near[3], normal[3];
-  if (!set_near_vector(v, near) || !set_normal(near, v, normal)) return false;
-  Wide level;  // of the home cell's point over the line, in units of the planes' distance
-  double size2 = 0;
-  level = Wide(0);
-  for (int k = 0; k < 3; ++k) {
-    level = level + Wide::product(normal[k], home[k]);
-    size2 += normal[k] * normal[k];
-  }
-  const double beside = std::fabs(level.hi - std::nearbyint(level.hi) + level.lo);
-  return beside > r * std::sqrt(size2) * (1 + kAmple);
+void unrounded_place(const double (&v)[3], const Wide (&N)[3], const Vec& home, double begin, Vec& place) {
+  Expansion d[3], speed[3], forms[3];
+  for (int k = 0; k < 3; ++k) d[k] = place_without_rounding(N[k], home[k]), speed[k] = Expansion(v[k]);
+  forms[0] = sum_of_products(speed[0], d[1], speed[1], d[0], -1);
+  const Expansion level = sum_of_products(speed[0], d[0], speed[1], d[1], 1),
+                  square = sum_of_products(speed[0], speed[0], speed[1], speed[1], 1);
+  forms[1] = sum_of_products(square, d[2], speed[2], level, -1);
+  forms[2] = level;
+  forms[2].add_product(speed[2], d[2]);
+  forms[2].add(-begin);
+  for (int k = 0; k < 3; ++k) place[k] = forms[k].is_exact() ? forms[k].value() : std::nan("");
+}
+
+bool stays_between_planes(const double (&v)[3], const Vec& home, double r) {
+  Vec near, normal;
+  return set_near_vector(v, near) && set_normal(near, v, normal) && is_beside(normal, home, r);
+}
+
+bool stays_between_planes(const double (&v)[3], const Vec& home, double r, const Vec& a, const Vec& b) {
+  Vec normal;
+  return set_normal(a, b, normal) && is_perpendicular(v, normal) && is_beside(normal, home, r);
 }
 
 }  // namespace lorentz

@@ -2,13 +2,14 @@
 
 /// A lattice point relative to the anchor. `size` and `extent` are those of the terms from which p and z were
 /// summed.
-template <class Numbers>
+template <class Numbers, class Integer = typename Numbers::Number>
 struct PointOf3 {
   using Number = typename Numbers::Number;
 
-  Number n[3], p[2], z, size, extent;
+  Integer n[3];
+  Number p[2], z, size, extent;
 
-  LORENTZ_INLINE PointOf3 step(Number k, const ArmOf3<Numbers>& arm) const {
+  LORENTZ_INLINE PointOf3 step(Number k, const ArmOf3<Numbers, Integer>& arm) const {
     PointOf3 to;
     for (int i = 0; i < 3; ++i) to.n[i] = n[i] + k * arm.n[i];
     for (int i = 0; i < 2; ++i) to.p[i] = stepped(p[i], k, arm.p[i]);
@@ -20,17 +21,19 @@ struct PointOf3 {
 };
 
 /// The balls of a lattice line that the flight meets: those with |q + k p| < 1, which is a quadratic in k.
-template <class Numbers>
+template <class Numbers, class Integer = typename Numbers::Number>
 struct LineOf3 {
   using Number = typename Numbers::Number;
   using Mask = typename Numbers::Mask;
+  using Point = PointOf3<Numbers, Integer>;
+  using Arm = ArmOf3<Numbers, Integer>;
 
   Number a, b, discriminant, unsure;
   Number first, last, slack;  ///< the range of k, and how far its ends may be off
 
   /// Sets the quadratic from a point of the line, which errs by `unsure_across` across, and the step. False
   /// where all balls are missed.
-  LORENTZ_INLINE Mask set(const PointOf3<Numbers>& q, const ArmOf3<Numbers>& arm, Number unsure_across) {
+  LORENTZ_INLINE Mask set(const Point& q, const Arm& arm, Number unsure_across) {
     unsure = unsure_across;
     a = square_of(arm.p), b = sum_of_products(q.p[0], arm.p[0], q.p[1], arm.p[1]);
     const Number moment = moment_of_line(q.p, arm.p);
@@ -45,8 +48,7 @@ struct LineOf3 {
   }
 
   /// Makes the range wider by the slack, but no longer than the part [z_first, z_last] of the window.
-  LORENTZ_INLINE void cut(const PointOf3<Numbers>& q, const ArmOf3<Numbers>& arm, Number z_first,
-                          Number z_last) {
+  LORENTZ_INLINE void cut(const Point& q, const Arm& arm, Number z_first, Number z_last) {
     first = first - slack, last = last + slack;
     const Mask ahead = arm.z > all(0);
     if (Numbers::kOne && nowhere(ahead)) return;
@@ -57,7 +59,7 @@ struct LineOf3 {
 };
 
 /// Arch computes products and sums of double-double; Numbers holds the results in between.
-template <class Arch, class Numbers, bool kUnit, bool kBall>
+template <class Arch, class Numbers, bool kUnit, bool kBall, class Integer = typename Numbers::Number>
 class WindowOf3 {
  protected:
   using DD = DoubleDouble<Arch>;
@@ -66,13 +68,14 @@ class WindowOf3 {
  public:
   using Number = typename Numbers::Number;
   using Mask = typename Numbers::Mask;
-  using Direction = DirectionOf3<Numbers, kUnit, kBall>;
-  using Point = PointOf3<Numbers>;
-  using Arm = ArmOf3<Numbers>;
+  using Direction = DirectionOf3<Numbers, kUnit, kBall, Integer>;
+  using Basis = BasisOf3<Numbers, Integer>;
+  using Point = PointOf3<Numbers, Integer>;
+  using Arm = ArmOf3<Numbers, Integer>;
 
   const Bravais& lattice;
   const Direction& to;
-  const BasisOf3<Numbers>* basis;
+  const Basis* basis;
   Number begin;  ///< in units of s
   Point anchor_point;
   Number p_error, s_error, z_error;  ///< of the anchor
@@ -198,7 +201,7 @@ class WindowOf3 {
 
   // Makes this the point from which others are counted.
   static LORENTZ_INLINE void set_zero(Point& point) {
-    for (Number& n : point.n) n = all(0);
+    for (Integer& n : point.n) n = all(0);
     point.size = Abs(point.p[0]) + Abs(point.p[1]);
     point.extent = Abs(point.z);
   }
@@ -274,6 +277,6 @@ class WindowOf3 {
     return Ceil(here + basis->slope) - here - basis->slope;
   }
 
-  BasisOf3<Numbers> longer_;
+  Basis longer_;
   Number error_, start_size_;
 };

@@ -11,24 +11,27 @@ inline bool are_countable(double low, double high) {
   return std::fabs(low) < kMaxCoefficient && std::fabs(high) < kMaxCoefficient;
 }
 
-template <class Arch, bool kUnit, bool kBall>
-class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall> {
-  using Base = WindowOf3<Arch, SplitProduct, kUnit, kBall>;
+template <class Arch, bool kUnit, bool kBall, class Integer>
+class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall, Integer> {
+  using Base = WindowOf3<Arch, SplitProduct, kUnit, kBall, Integer>;
   using typename Base::DD;
 
  public:
   using Base::anchor_point, Base::basis, Base::begin, Base::lengthen, Base::to;
+  using Base::p_error, Base::s_error, Base::z_error, Base::z_first;
+  using typename Base::Basis, typename Base::Point, typename Base::Arm;
 
   const Offset<SplitProduct, 3>& offset;
   Wide anchor[3];  ///< from the home cell, in the short basis
 
-  Window3(const Bravais& of_lattice, const Direction3<kUnit, kBall>& direction,
+  Window3(const Bravais& of_lattice, const typename Base::Direction& direction,
           const Offset<SplitProduct, 3>& from_offset)
       : Base(of_lattice, direction, from_offset), offset(from_offset) {}
 
   /// False if no anchor is found that is known well enough.
   bool set_anchor() {
     if (!find_anchor()) return false;
+    if constexpr (std::is_same_v<Integer, Wide>) return set_errors_without_rounding();
     double n[3];
     for (int j = 0; j < 3; ++j) {
       n[j] = anchor[j].hi;
@@ -37,19 +40,22 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall> {
     return this->set_errors(n);
   }
 
+  /// The ball of the home cell, of a unit lattice.
+  Vec home() const { return {offset.d[0].hi, offset.d[1].hi, offset.d[2].hi}; }
+
   /// The same point, with its coordinates recomputed from the integers.
-  Point3 recomputed(const Point3& point) const {
+  Point recomputed(const Point& point) const {
     Wide N[3];
     for (int i = 0; i < 3; ++i) N[i] = anchor[i] + Wide(point.n[i]);
-    Point3 same = at(N);
+    Point same = at(N);
     for (int i = 0; i < 3; ++i) same.n[i] = point.n[i];
     return same;
   }
 
   /// The point's coefficients, counted from the home cell; false if they are not exact.
-  bool cell_of(const Point3& point, Wide (&N)[3]) const {
+  bool cell_of(const Point& point, Wide (&N)[3]) const {
     for (int i = 0; i < 3; ++i) {
-      if (!(std::fabs(point.n[i]) < kMaxCoefficient)) return false;
+      if (!(std::fabs(high_of(point.n[i])) < kLargest<Integer>)) return false;
       N[i] = anchor[i] + Wide(point.n[i]);
     }
     return true;
@@ -77,20 +83,43 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall> {
     for (int j = 0; j < 3; ++j) {
       double sum = anchor[j].hi, size = std::fabs(sum);
       for (int i = 0; i < 3; ++i) {
-        const double step = k[i] * basis->b[i].n[j];
+        const double step = k[i] * high_of(basis->b[i].n[j]);
         sum += step, size += std::fabs(step);
       }
       if (size < kMaxCoefficient && anchor[j].lo == 0) {
         anchor[j] = Wide(sum);
         continue;
       }
-      for (int i = 0; i < 3; ++i) anchor[j] = anchor[j] + Wide::product(k[i], basis->b[i].n[j]);
+      for (int i = 0; i < 3; ++i) anchor[j] = anchor[j] + k[i] * Wide(basis->b[i].n[j]);
     }
   }
 
-  Point3 at(const Wide (&N)[3]) const {
+  bool set_errors_without_rounding() {
+    const double flushed = kForm * kFlushed;
+    p_error = kUnroundedPlace * kRoundoff * anchor_point.size + flushed * to.inverse_r;
+    s_error = kUnroundedPlace * kRoundoff * anchor_point.extent * basis->length + kRoundoff * begin + flushed;
+    z_error = s_error / basis->length;
+    z_first = -(2 * z_error + kWindowStart);
+    return std::ranges::all_of(anchor, [](const Wide& n) { return std::fabs(n.hi) < kMaxCell; }) &&
+           p_error < kSlop3d / 2;
+  }
+
+  // The point errs by kUnroundedPlace u of itself: less than what its doubled sizes grant it.
+  Point place_without_rounding(const Wide (&N)[3]) const {
+    Vec place;
+    unrounded_place(to.v, N, home(), begin, place);
+    Point point;
+    for (int i = 0; i < 2; ++i) point.p[i] = to.scale[i] * place[i];
+    point.z = place[2] / basis->length;
+    this->set_zero(point);
+    point.size *= 2, point.extent *= 2;
+    return point;
+  }
+
+  Point at(const Wide (&N)[3]) const {
+    if constexpr (std::is_same_v<Integer, Wide>) return place_without_rounding(N);
     const Wide from = begin == 0 ? this->start_[2] : this->start_[2] - Wide(begin);
-    Point3 point;
+    Point point;
     if (N[0].lo == 0 && N[1].lo == 0 && N[2].lo == 0) {  // nearly always; both ways give the same bits
       const double n[3] = {N[0].hi, N[1].hi, N[2].hi};
       this->set_place(n, from, point);
