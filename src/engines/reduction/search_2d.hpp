@@ -73,41 +73,43 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
     if (meets == Decision::no) return ball.h < 0 || !to_.rises ? Look2::beyond : Look2::before;
     if (ball.s < -ball.s_error) return Look2::before;
     if (ball.s - ball.s_error > std::min(found.s + found.s_error, s_limit_)) return Look2::beyond;
-    Wide N[2];
-    if (!set_name(n, m, N)) return Look2::doubtful;
-    if (from_ && same(N, from_)) return Look2::before;
+    double N[2];
+    if (!this->name_ball(n, m, N)) return look_far(n, m, ball.h);
+    if (from_ && N[0] == from_[0].hi && N[1] == from_[1].hi && from_[0].lo == 0 && from_[1].lo == 0)
+      return Look2::before;
     if (meets == Decision::yes && ball.s > ball.s_error)
       return offer(N, ball.s, ball.s_error, this->slack_of(ball), this->slack_error_of(ball), ball.h);
     return look_closely(N, ball.h);
   }
 
-  // Its coefficients; false if double-double does not hold them.
-  bool set_name(double n, double m, Wide (&N)[2]) const {
-    double near[2];
-    if (this->name_ball(n, m, near)) return N[0] = near[0], N[1] = near[1], true;
+  // A ball with coefficients that need double-double.
+  [[gnu::noinline]] Look2 look_far(double n, double m, double h) {
+    Wide N[2];
     bool held = kUnit && kBall && std::fabs(n) < kMaxCoefficient && std::fabs(m) < kMaxCoefficient;
     for (int i = 0; i < 2; ++i) {
       N[i] = Wide(this->anchor_[i]) + Wide::product(n, to_.R.n[i]) + Wide::product(m, to_.L.n[i]);
       held &= std::fabs(to_.R.n[i]) < kMaxCoefficient && std::fabs(N[i].hi) < kMaxCell;
     }
-    return held;
+    return !held ? Look2::doubtful : from_ && same(N, from_) ? Look2::before : look_closely(N, h);
   }
 
-  Look2 offer(const Wide (&N)[2], double s, double s_error, double slack, double slack_error, double h) {
+  template <class Integer>
+  Look2 offer(const Integer (&N)[2], double s, double s_error, double slack, double slack_error, double h) {
     if (!(s + s_error < found.s - found.s_error)) return Look2::doubtful;
-    found.N[0] = N[0], found.N[1] = N[1];
+    found.N[0] = Wide(N[0]), found.N[1] = Wide(N[1]);
     found.s = s, found.s_error = s_error, found.slack = slack, found.slack_error = slack_error;
     if constexpr (!kBall) found.h = to_.sigma * h;
     return Look2::taken;
   }
 
   // The same decisions in double-double, or without rounding.
-  [[gnu::noinline]] Look2 look_closely(const Wide (&N)[2], double h) {
+  template <class Integer>
+  [[gnu::noinline]] Look2 look_closely(const Integer (&N)[2], double h) {
     found.needs(Stage::double_double);
     auto ball = Rows::look_closely(N);
     if constexpr (kUnit && kBall)
       if (!ball.is_missed && !ball.is_met)
-        look_unrounded<2>(to_.v, N, this->offset_, this->lattice_.radius, ball);
+        look_unrounded<2>(to_.v, {Wide(N[0]), Wide(N[1])}, this->offset_, this->lattice_.radius, ball);
     if (ball.is_missed) return h < 0 || !to_.rises ? Look2::beyond : Look2::before;
     if (!ball.is_met) return Look2::doubtful;
     if (ball.is_behind) return Look2::before;
