@@ -37,10 +37,10 @@ class ComparedQuestions {
   /// The questions since the last call that were not asked. Logged answers to them must be skipped.
   std::vector<question::Question> passed_over() { return std::exchange(passed_over_, {}); }
 
-  /// Whether the queries are columns. If so, rows of answers are matched to them by number.
+  /// Whether the queries are columns, which need a scene. Rows of answers are matched to them by number.
   bool are_columns() const { return given_ && given_->are_columns(); }
-  int dimension() const { return place_ ? place_->scene().dimension : 0; }
-  Components components() const { return place_ ? Components(place_->scene()) : 0; }
+  int dimension() const { return place_->scene().dimension; }
+  Components components() const { return Components(place_->scene()); }
 
  private:
   using Questions = std::vector<question::Question>;

@@ -24,7 +24,7 @@ namespace lorentz::question {
 struct AnswererOptions {
   static constexpr double kDefaultTimeout = 60;
 
-  oracle::Request request;
+  oracle::Request request = {};
   double timeout = kDefaultTimeout;  ///< seconds that an external engine may be silent while it owes answers
   Listener listener = {};            ///< gets messages about an external engine
   bool strict = false;               ///< an unknown key makes an answer invalid

@@ -83,25 +83,13 @@ Answer read_answer(const std::string& line) {
   return answer;
 }
 
-// The answer as a line that can be read back. It leaves out what answer streams cannot express: a time that
-// is NaN or minus infinity, and the bytes of a message that are not ASCII, if they are not UTF-8.
+// The answer as a line that can be read back. It leaves out a time that is NaN or minus infinity.
 std::string answer_text(const std::string& id, Answer answer, const Scene& scene) {
   if (!(answer.time.value_or(0) > -HUGE_VAL)) answer.time.reset();
-  const auto line_of = [&] {
-    std::string line;
-    append_answer_line(line, id, answer, scene);
-    line.pop_back();
-    return line;
-  };
-  const std::string line = line_of();
-  try {
-    read_answer(line);
-    return line;
-  } catch (const FileError&) {
-    for (char& c : answer.message)
-      if (static_cast<unsigned char>(c) > 126) c = '?';
-    return line_of();
-  }
+  std::string line;
+  append_answer_line(line, id, answer, scene);
+  line.pop_back();
+  return line;
 }
 
 bool is_plain(std::string_view text) {

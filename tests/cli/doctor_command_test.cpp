@@ -1,6 +1,6 @@
 // lorentz doctor: this machine is fit, and one with broken arithmetic is not.
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 #include <cfenv>
 #include <cmath>
 #include <functional>

@@ -300,6 +300,8 @@ TEST_CASE("horizon: a search of seconds is seen on a terminal, and nowhere else"
 
 TEST_CASE("horizon: the tail, or that there is none", "[cli][scene_command]") {
   const Folder folder;
+  CHECK(contains(folder.lorentz("horizon cubic --radius 0.5").out,
+                 "in 3 planes\n\nplanes (1 0 0): the obstacles just touch; cylindrical channels in all but"));
   CHECK(contains(folder.lorentz("horizon triangular").out, "tail: none, the free path is bounded\n"));
   CHECK(
       contains(folder.lorentz("horizon overlapping-pockets").out, "tail: none, the free path is bounded\n"));
@@ -337,6 +339,7 @@ TEST_CASE("scene draw: window, size, title, legend, channels", "[cli][scene_comm
   CHECK(fine.status == 0);
   CHECK(contains(fine.err, "no channels are drawn: too many directions"));
   for (const char* bad : {"square --window 0,0,1", "square --window 1,0,0,1", "square --window 0,0,x,1",
+                          "square --window 0,0,1,1e300", "square --window 0,0,1e300,1",
                           "cubic --window 0,0,1,1", "square --size 10", "square --size 300x",
                           "square --size x", "square --size 300x300x3", "square --channels 0"}) {
     INFO(bad);

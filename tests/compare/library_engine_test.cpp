@@ -250,6 +250,13 @@ TEST_CASE("A hundred thousand queries have their answers in order", "[compare][l
   CHECK_FALSE(engine->failed());
 }
 
+TEST_CASE("A library is asked many queries at once", "[compare][library_engine]") {
+  const Run run = ask(Folder(), "alone 1000", 3000);  // it aborts if more than 1000 come alone
+  INFO(run.err);
+  CHECK(run.status == 0);
+  CHECK(run.out == all_but(-1, "", 3000));
+}
+
 TEST_CASE("A library that fails after its last row, or now and then, loses no answer",
           "[compare][library_engine]") {
   const Folder folder;

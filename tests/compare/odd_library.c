@@ -169,8 +169,10 @@ static void answer(const lorentz_queries* queries, int64_t i, const lorentz_answ
 
 void lorentz_engine_answer(lorentz_engine* engine, const lorentz_queries* queries,
                            const lorentz_answers* answers) {
+  static long alone;
   int64_t i;
   (void)engine;
+  if (is_odd("alone") && queries->count == 1 && ++alone > at()) abort();
   for (i = 0; i < queries->count; ++i)
     answer(queries, is_odd("backwards") ? queries->count - 1 - i : i, answers);
   if (is_odd("backwards"))

@@ -190,6 +190,15 @@ TEST_CASE("Tail exponent: by hand", "[flights][fit]") {
   const double sigma = 1 / (std::log(2) * std::sqrt(2 * 3968.0));
   CHECK(tail->high - tail->exponent == Approx(1.96 * sigma).epsilon(0.03));
   CHECK(tail->exponent - tail->low == Approx(1.96 * sigma).epsilon(0.03));
+  // A flat tail: 4^5 paths, of which three in four go on at each edge. P(path > t) = (3/4)^log2(t).
+  const auto flat = tail_exponent_from(0, edges, Counts{0, 256, 192, 144, 108, 81, 243});
+  REQUIRE(flat);
+  CHECK(flat->exponent == Approx(1 + std::log2(4.0 / 3)).epsilon(1e-12));
+}
+
+TEST_CASE("A tail begins later among more flights", "[flights][fit]") {
+  CHECK(tail_begins(1, 1'000'000) == Approx(16));
+  CHECK(tail_begins(2, 16'000'000) == Approx(16));  // 8 of a million's, times the fourth root of 16
 }
 
 TEST_CASE("Tail exponent: of so few of the longest paths that the law is a power there", "[flights][fit]") {

@@ -8,6 +8,7 @@
 
 #include "judge/golden/find_sets.hpp"
 #include "judge/golden/index.hpp"
+#include "judge/golden/seen.hpp"
 #include "tests/golden/golden_support.hpp"
 
 using namespace lorentz;
@@ -72,4 +73,31 @@ TEST_CASE("golden make --all leaves an index and sums of others as they are", "[
     CHECK(folder.read(std::string("sets/") + name) == "{\"mine\":1}");
     fs::remove(folder.file(std::string("sets/") + name));
   }
+}
+
+TEST_CASE("The index of the committed sets is what the program makes of them", "[golden][own_sets]") {
+  const std::string folder = LORENTZ_SOURCE_DIR "/data/golden";
+  std::stringstream index;
+  index << std::ifstream(folder + "/index.json").rdbuf();
+  std::vector<std::string> names;  // in its order
+  const std::string key = R"("file":")", text = index.str();
+  for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at))
+    at += key.size(), names.push_back(text.substr(at, text.find('"', at) - at));
+  CHECK(names.size() > 30);
+  CHECK(golden::index_of(folder, names) == text);
+}
+
+TEST_CASE("golden make sees small directions in space, and flights beyond 10^6 cells", "[golden][own_sets]") {
+  const Scene cubic = unit_scene(3, 0.1), square = unit_scene(2, 0.1);
+  const auto tags = [](const Scene& scene, const Query& query, const char* time) {
+    Answer exact = Answer::hit({}, 0);
+    exact.time_decimal = time;
+    return golden::tags_seen(scene, query, exact, {});
+  };
+  using Tags = std::vector<std::string>;
+  CHECK(tags(cubic, {{0.5, 0.5, 0.5}, {1, 2, 1}, {}}, "1") == Tags{"near-rational"});
+  CHECK(tags(cubic, {{0.5, 0.5, 0.5}, {1, 2, 1.0001}, {}}, "1") == Tags{"plain"});
+  CHECK(tags(square, {{0.5, 0.5, 0}, {0, 1, 0}, {}}, "1000000") == Tags{"near-rational", "zero-component"});
+  CHECK(tags(square, {{0.5, 0.5, 0}, {0, 1, 0}, {}}, "1000000.1") ==
+        Tags{"near-rational", "zero-component", "far"});
 }

@@ -240,6 +240,25 @@ TEST_CASE("Two faults with one cause are two findings, each with its own example
   CHECK((all[1].count == 20 && all[1].by_row.at("row") == 20));
 }
 
+TEST_CASE("Of one cause up to three faults are told apart", "[judge][findings]") {
+  const Scene scene = unit_scene(2, 0.25);
+  std::vector<Question> questions;
+  const auto ask = [&](int number, const Vec& x, const Vec& v) {
+    for (int i = 0; i < number; ++i) questions.push_back(asked(scene, x, v));
+  };
+  const Vec sideways{1, 0, 0};
+  ask(40, {-2.5, 0, 0}, sideways), ask(30, {2.5, 0, 0}, {3, 0, 0}), ask(20, {1e6 + 0.5, 0, 0}, sideways);
+  ask(10, {2.5, 0, 0}, sideways);
+  const std::size_t failing = questions.size();
+  ask(200, {2.5, 0, 0}, sideways), ask(100, {3.5, 0, 0}, sideways);
+  const auto all = found(questions, [&](const Question& question, Answer& given) {
+                     if (&question < &questions[failing]) given = Answer::never();
+                   }).all(rows(questions.size()));
+  REQUIRE(all.size() == 3);
+  CHECK(all[0].count + all[1].count + all[2].count == 100);
+  CHECK(contains(all[2].summary(), "in other cases"));
+}
+
 TEST_CASE("Two faults that say only are told before one that says nearly always", "[judge][findings]") {
   // It loses hits at a start on the surface, and those of flights from cells below 0, which are mostly short here.
   const Scene scene = unit_scene(2, 0.25);

@@ -213,6 +213,9 @@ TEST_CASE("What was unsupported, what there was no time for, and what was given 
         "right: no wrong answer in 1002; 5 of 1037 answers missing; given up in 1 of 4 rows");
   for (const char* state : {"asked", "unsupported", "no time", "given up"})
     CHECK(contains(report.json(), R"("state":")" + std::string(state) + '"'));
+  CHECK_FALSE(contains(report.json(), R"("state":"too slow")"));
+  turn(report.rows[1], Count::too_slow, 1);
+  CHECK(contains(report.json(), R"("state":"too slow")"));
 }
 
 TEST_CASE("The first twenty lines have three findings with what to do, and the verdict",

@@ -18,6 +18,15 @@ report::Primitive primitive(const Scene& scene, const Query& query, const Obstac
 
 }  // namespace
 
+TEST_CASE("A line that touches a ball is said to miss it, by nothing", "[report][reason]") {
+  const Scene square = unit_scene(2, 0.25);
+  const Query along{{0.5, 0.25, 0}, {1, 0, 0}, {}};
+  const auto dispute = report::dispute_of(oracle::Margins(square), square, along, Answer::never(),
+                                          Answer::hit({0, 0, {1, 0, 0}}, 0.5), {});
+  REQUIRE(dispute);
+  CHECK(dispute->text == "the line misses lattice 0, atom 0, cell (1, 0) by 0 of its radii");
+}
+
 TEST_CASE("The one question has the ball's exact centre, the sign of the discriminant, and the entry",
           "[report][primitive]") {
   const Scene square = unit_scene(2, 0.25);
