@@ -61,9 +61,8 @@ struct Task;            // internal: a query with its limit, in the engine's uni
 ///  - queries that the error bounds do not decide;
 ///  - queries that start more than 2^51 cells from the origin on a unit lattice (is_unit_scene), or more than
 ///    2^44 cells on another lattice;
-///  - queries for which the search needs integers of 2^53 or more: as coefficients of a lattice basis, or as
-///    coordinates of a cell. Very long flights in a direction near a rational one need them (seen: flights of
-///    10^12 cells and more).
+///  - queries for which the search needs integers beyond 2^53 (2^61 on unit lattices): very long flights in a
+///    direction near a rational one.
 /// `Certified` (certified.hpp) asks the oracle about undecided queries.
 ///
 /// Cost: about 85 ns per flight in 2D and 420 ns in 3D at r = 0.1, and about 13 ns (2D) or 115 ns (3D) more

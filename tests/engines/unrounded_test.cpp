@@ -80,7 +80,7 @@ TEST_CASE("A sum without rounding has the sign and the size of the exact one", "
   }
 }
 
-TEST_CASE("A slack without rounding is right at the boundary", "[engines][unrounded]") {
+TEST_CASE("The slack of a far ball is right at the boundary", "[engines][unrounded]") {
   Draw draw(20261130);
   int met = 0, missed = 0;
   for (int i = 0; i < 20'000; ++i) {
@@ -99,9 +99,11 @@ TEST_CASE("A slack without rounding is right at the boundary", "[engines][unroun
     const double passed = std::sqrt(static_cast<double>(Exact(-at_0 / unit)));
     const double r = passed * (1 + (static_cast<double>(draw.below(5)) - 2) * 0x1p-53);
     const Exact exact = slack_of(dimension, v, N, home, r);
-    const double slack = unrounded_slack(dimension, v, N, home, r);
-    REQUIRE(abs(Exact(slack) - exact) <= Exact(4 * kRoundoff) * abs(exact));
-    (slack > 0 ? met : missed) += 1;
+    double error;
+    const double slack = close_slack(v, N, {home[0], home[1], home[2]}, r, error);
+    REQUIRE(abs(Exact(slack) - exact) <= Exact(error));
+    REQUIRE(error < 0x1p-90);
+    (slack > error ? met : missed) += std::fabs(slack) > error;
   }
   CHECK((met > 5000 && missed > 5000));
 }
@@ -131,13 +133,14 @@ TEST_CASE("A line in a plane of given lattice vectors is told from one beside it
   CHECK_FALSE(stays_between_planes(v, home, reach / 2, a, a));
 }
 
-TEST_CASE("A place without rounding errs by a few roundoffs, where large terms cancel",
-          "[engines][unrounded]") {
+TEST_CASE("Places and v x d err by a few roundoffs, where large terms cancel", "[engines][unrounded]") {
   Draw draw(20261130);
   int cancelled = 0;
+  const double u2 = kCross * kRoundoff * kRoundoff;
   for (int i = 0; i < 20000; ++i) {
     const Vec w = near_rational(draw, 3);
     double v[3] = {std::fabs(w[0]), std::fabs(w[1]), std::fabs(w[2])};
+    if (draw.one_in(4)) v[draw.below(3)] = draw.between(0x1p-60, 0x1p-50);  // 61 bits do not hold all three
     std::sort(v, v + 3, std::greater<>());
     const Vec home = draw.vec(3, -0.5, 0.5);
     const double steps = std::nearbyint(std::exp2(draw.between(0, 56))), begin = draw.one_in(2) ? 0 : 0x1p40;
@@ -147,17 +150,29 @@ TEST_CASE("A place without rounding errs by a few roundoffs, where large terms c
       N[k] = Wide::product(steps, std::nearbyint(v[k])) + Wide(static_cast<double>(draw.below(9)) - 4);
       d[k] = Exact(N[k].hi) + Exact(N[k].lo) + Exact(home[k]), speed[k] = Exact(v[k]);
     }
-    const Exact level = speed[0] * d[0] + speed[1] * d[1];
-    const Exact exact[3] = {speed[0] * d[1] - speed[1] * d[0],
-                            (speed[0] * speed[0] + speed[1] * speed[1]) * d[2] - speed[2] * level,
-                            level + speed[2] * d[2] - Exact(begin)};
+    Wide cross[3], along;
     Vec place;
+    REQUIRE(set_cross(v, N, home, cross, along));
     unrounded_place(v, N, home, begin, place);
-    for (int k = 0; k < 3; ++k)
-      if (abs(Exact(place[k]) - exact[k]) > Exact(kUnroundedPlace * kRoundoff) * abs(exact[k])) {
-        CAPTURE(i, k, place[k]);
-        FAIL("its error is too large");
-      }
+    const double of_home =
+        std::hypot(v[0], v[1], v[2]) * (std::hypot(home[0], home[1], home[2]) + kFromOrigin);
+    const auto is_near = [&](const Exact& value, const Exact& exact, double own, double granted) {
+      return abs(value - exact) <= Exact(own) * abs(exact) + Exact(granted);
+    };
+    const auto exact_of = [](const Wide& a) { return Exact(a.hi) + Exact(a.lo); };
+    double size = of_home;
+    for (int k = 0; k < 3; ++k) {
+      const int l = (k + 1) % 3, m = (k + 2) % 3;
+      REQUIRE(is_near(exact_of(cross[k]), speed[l] * d[m] - speed[m] * d[l], u2, u2 * of_home));
+      size += std::fabs(cross[k].hi);
+    }
+    const Exact level = speed[0] * d[0] + speed[1] * d[1], whole = level + speed[2] * d[2];
+    REQUIRE(is_near(exact_of(along), whole, u2, u2 * of_home));
+    const Exact across = (speed[0] * speed[0] + speed[1] * speed[1]) * d[2] - speed[2] * level;
+    const double own = kUnroundedPlace * kRoundoff;
+    REQUIRE(is_near(Exact(place[0]), speed[0] * d[1] - speed[1] * d[0], own, u2 * of_home));
+    REQUIRE(is_near(Exact(place[1]), across, own, 2 * u2 * (v[0] + v[1]) * size));
+    REQUIRE(is_near(Exact(place[2]), whole - Exact(begin), own, u2 * (of_home + std::fabs(along.hi))));
     cancelled += std::fabs(place[0]) < 0x1p-20 * steps;
   }
   CHECK(cancelled > 5000);

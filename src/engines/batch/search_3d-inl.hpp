@@ -32,7 +32,7 @@ class LaneWindow3 : public WindowOf3<LaneFma, LaneFma, kUnit, kBall> {
 
   /// Makes the window longer from here on, with a basis that suits its length.
   HWY_INLINE void lengthen(Lanes& lanes) {
-    Base::lengthen(select(lanes.active, all(kLonger), all(1)), lanes.active);
+    Base::lengthen(lanes.active);
     lanes.leave_unless(basis->usable);
   }
 
@@ -115,6 +115,8 @@ class LaneSearch3 {
       const M at_end = ends(lanes);
       done = Or(done, at_end);
       lanes.leave(at_end);
+      if constexpr (kUnit && kBall)  // most of them need what only single flights can
+        if (window == 0) lanes.leave(And(window_.is_nearly_parallel(), lanes.active));
       if (window >= 1) window_.lengthen(lanes);
     }
     lanes.active = done;

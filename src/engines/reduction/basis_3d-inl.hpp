@@ -67,6 +67,7 @@ struct BasisOf3 {
   Number normal[2];                  ///< and its direction
   Number dual1_normal, dual1_level;  ///< dual_1 across: along the normal, and perpendicular to it
   Number tilt_error;                 ///< of dual_2's component along the line
+  Number inverse_volume;             ///< of a cell
   Mask usable;                       ///< the integers are below kLargest; nearly orthogonal (kMaxDefect)
 
   /// dual_2's component along the line.
@@ -75,10 +76,10 @@ struct BasisOf3 {
   /// Sets the rest from the three vectors, which are turned to point forward.
   LORENTZ_INLINE void set_dual() {
     for (Arm& arm : b) arm.point_forward();
-    const Number inverse_volume = set_dual_vectors();
+    inverse_volume = Abs(set_dual_vectors());
     set_usable();
     set_normal();
-    tilt_error = kTilt * kRoundoff * reach(b[0]) * reach(b[1]) * Abs(inverse_volume);
+    tilt_error = kTilt * kRoundoff * reach(b[0]) * reach(b[1]) * inverse_volume;
   }
 
  private:

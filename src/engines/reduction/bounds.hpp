@@ -7,8 +7,7 @@
 
 namespace lorentz {
 
-/// Unit roundoff of binary64: one operation errs by at most u times its result. And its square, the unit of
-/// double-double.
+/// u of binary64: one operation errs by at most u times its result. And u^2, the unit of double-double.
 inline constexpr double kRoundoff = 0x1p-53, kWideRoundoff = 0x1p-106;
 
 // ---- Errors of formulas, in units of the roundoff if not said otherwise -----------------------------------
@@ -33,12 +32,10 @@ inline constexpr double kInside = 6;
 /// d . G d - r^2 for an ellipsoid, relative to |G| |d|^2 + r^2.
 inline constexpr double kInsideEllipsoid = 16;
 
-/// The height of an anchor, from the compensated sum of its terms: relative to it, and (absolutely) to the
-/// terms.
+/// The height of an anchor, a compensated sum: relative to it, and (absolutely) to its terms.
 inline constexpr double kAnchor = 3, kAnchorTerms = 0x1p-100;
 
-/// A sum s + n S_R + m S_L of positions along the line, relative to its terms; on the unit square, where S is one
-/// sum of products.
+/// Positions along the line s + n S_R + m S_L, relative to the terms; on the unit square S is one sum of products.
 inline constexpr double kAlong = 9, kAlongOnUnit = 8;
 
 /// r |v| as computed from the sum of squares, and the roundings of a comparison with it.
@@ -57,8 +54,9 @@ inline constexpr double kRowSlope = 0x1p-48;
 /// terms; and the scale of the coordinates (of ellipsoids: times the condition of the shape).
 inline constexpr double kAcross = 8, kScale = 32;
 
-/// What a sum without rounding loses when it is rounded, in units of u.
-inline constexpr double kUnroundedPlace = 4;
+/// What a sum without rounding loses when it is rounded, in units of u. And v x d whose large terms are summed
+/// without rounding: in units of u^2 of itself and of what |v| takes with the home cell, and this beside it.
+inline constexpr double kUnroundedPlace = 4, kCross = 12, kFromOrigin = 6;
 
 /// 3D, where a lattice line enters the cylinder: its moment about the flight, relative to the sizes of the
 /// terms; in units of that, how far its discriminant is raised, and the ends of its interval are moved out.
@@ -67,8 +65,7 @@ inline constexpr double kLine = 32, kDiscriminant = 8, kLineEnd = 4;
 /// 3D, the tilt of a family of lattice planes, relative to the two vectors that it is computed from.
 inline constexpr double kTilt = 32;
 
-/// 3D, the distance xi at which the line passes a lattice plane, relative to the terms that it is summed
-/// from.
+/// 3D, the distance xi at which the line passes a lattice plane, relative to its terms.
 inline constexpr double kPlane = 512;
 
 /// 3D, z in a window (which is of length 1) from the anchor (absolutely).
@@ -106,8 +103,7 @@ inline constexpr double kSparse = 10, kSparseOfShape = 16;
 /// The height over a layer, and the speed towards it: relative to the sizes of the terms of a . (b_0 x b_1).
 inline constexpr double kLayer = 8;
 
-/// The error of a form of a vector (height, along, or across in units of r), relative to the error of each
-/// component of the vector.
+/// The error of a form of a vector (height, along, across in units of r), relative to that of each component.
 inline constexpr double kForm = 4;
 
 /// A vector of the short basis, relative to the largest of its terms, in units of u^2.
@@ -154,8 +150,7 @@ inline constexpr double kEntryCurvature = 0x1p-7, kEntrySlop = 2;
 // another both are right: a wrong value here costs answers or time, it does not make an answer wrong. Where a
 // cap is what a bound above relies on, the line says so.
 
-/// 3D: lattice vectors with smaller coefficients, nearer to the line than this, may lie with it in a lattice plane
-/// of short vectors.
+/// 3D: a lattice vector so short and so near to the line may lie with it in a plane of short lattice vectors.
 inline constexpr double kShortVector = 0x1p8, kNearlyParallel = 0x1p-30;
 
 /// Integers of the search, held in binary64: exact below this, and never used beyond.
@@ -188,12 +183,11 @@ inline constexpr double kMaxCondition = 0x1p14, kMaxShapeRadius = 0x1p100, kMaxM
 /// known so well for what lies within kHomeCell of each basis vector are not done.
 inline constexpr double kMaxHomeError = 0x1p-12, kHomeCell = 0.6;
 
-/// An obstacle that reaches less far into its cell contains no point of another one's; one that reaches less
-/// far on the unit lattice is found by one step along each axis.
+/// An obstacle that reaches less far into its cell contains no point of another's; if less far on the unit
+/// lattice, one step along each axis finds it.
 inline constexpr double kReachAtHome = 0.499, kReachOfAxes = 0.99;
 
-/// Starts farther than this many cells from the atom's origin are beyond the general lattices; the unit
-/// lattices go to kMaxStart.
+/// Starts farther than this many cells from the atom's origin are not done (unit lattices: kMaxStart).
 inline constexpr double kMaxGeneralStart = 0x1p44;
 
 /// Added before a coordinate is rounded down to that of its home cell. Not 0.5, which takes 1/2 - 2^-54 to 1:
@@ -203,8 +197,7 @@ inline constexpr double kBelowHalf = 0x1.fffffffffffffp-2;
 /// Cells that the search names, from the home cell.
 inline constexpr double kMaxCell = 0x1p61;
 
-/// Powers of two: `from` is not near x if its cell is beyond the first, or beyond the second from the home
-/// cell.
+/// `from` is not near x if its cell is beyond 2 to the first, or beyond 2 to the second from the home cell.
 inline constexpr int kFarthestCellBits = 84, kFarthestHereBits = 62;
 
 /// 2D: positive heights below this vanish when they are multiplied by the inverse of an area.
@@ -227,14 +220,13 @@ inline constexpr double kMaxUnsure = 0.25;
 /// still fit 64 bits); the longest jump, in windows; where in a window its anchor is.
 inline constexpr double kWindowCells = 2, kFarthest = 0x1p61, kMaxJump = 0x1p70, kMiddle = 0.5;
 
-/// 3D: by how much later windows are longer.
-inline constexpr double kLonger = 4;
+/// 3D: how many times longer later windows are, at least; or how many cells of the lattice of lines they pass.
+inline constexpr double kLonger = 4, kLinesInWindow = 0.125;
 
 /// 3D: steps from an anchor to the next one; beyond kNearAnchor another step follows.
 inline constexpr double kMaxAnchorStep = 0x1p60, kNearAnchor = 0x1p20;
 
-/// 3D: sections with more lines than this are searched in parts; each part is at first at most this many
-/// cells large.
+/// 3D: sections with more lines are searched in parts, each at first at most so many cells large.
 inline constexpr double kManyLines = 12, kPartCells = 2;
 
 /// 3D: half of the lines of a part.
@@ -259,8 +251,7 @@ inline constexpr int kMaxShorteningPasses = 1000, kMaxHomePasses = 8, kMaxRenorm
                      kMaxCandidatesOnLine = 64, kMaxEntryPasses = 6, kMaxReductionRounds = 60,
                      kMaxReductionSteps = 300, kMaxPlaneReductionSteps = 200;
 
-/// Many flights at once: times of balls of smaller radius are rounded from the slack in binary64, if that
-/// suffices.
+/// Many flights at once: below this radius times are rounded from the slack in binary64, if that suffices.
 inline constexpr double kSoonRadius = 0x1p-5;
 
 /// Times are s - q, where q is half the chord. In binary64: if s < kNear q, the difference would cancel, and

@@ -51,13 +51,14 @@ class Candidates3 {
     return {window_.to.v, d, error, window_.lattice};
   }
 
-  /// The slack of a ball, with an error below `most` if that can be had.
-  void set_slack(const Wide (&N)[3], double most, double& slack, double& error) const {
-    const auto meeting = meeting_at(N);
-    slack = meeting.slack.hi, error = meeting.slack_error;
-    if (!(kUnit && kBall) || error < most) return;
-    slack = unrounded_slack(window_.to.v, N, window_.offset, window_.lattice.radius);
-    error = kUnroundedPlace * kRoundoff * std::fabs(slack);
+  /// The slack of a ball.
+  void set_slack(const Wide (&N)[3], double& slack, double& error) const {
+    if constexpr (kUnit && kBall) {
+      slack = close_slack(window_.to.v, N, window_.home(), window_.lattice.radius, error);
+    } else {
+      const auto meeting = meeting_at(N);
+      slack = meeting.slack.hi, error = meeting.slack_error;
+    }
   }
 
  private:

@@ -61,7 +61,7 @@ class Lines3 {
       if (!window_.cell_of(there, N)) return false;
       const double inward = -2 * (there.p[0] * arm.p[0] + there.p[1] * arm.p[1]);
       double slack, slack_error;
-      candidates_.set_slack(N, inward * rho2, slack, slack_error);
+      candidates_.set_slack(N, slack, slack_error);
       const double outside = -slack / rho2, step = outside / inward;  // |p|^2 - 1
       if (inward > 0 && std::fabs(step) * speed * speed < kEntryCurvature * inward) {
         const double unsure =

@@ -122,8 +122,8 @@ class GreedyReduction {
   bool fresh_ = true;  // the coordinates are those of the coefficients, not sums of rounded ones
 };
 
-/// Recomputes a vector's across and along from its coefficients; where these are in double-double and the
-/// large terms cancel so far that it matters, without rounding.
+/// Recomputes a vector's across and along from its coefficients; from set_cross, where these are in double-double
+/// and the large terms cancel so far that it matters.
 template <class Arch, class Frame, class Integer>
 void recompute(const Frame& frame, ArmOf3<SplitProduct, Integer>& arm, double length) {
   frame.template recompute<Arch>(arm, length);
@@ -134,7 +134,7 @@ void recompute(const Frame& frame, ArmOf3<SplitProduct, Integer>& arm, double le
     unrounded_place(frame.v, arm.n, {}, 0, place);
     for (int i = 0; i < 2; ++i) arm.p[i] = frame.scale[i] * place[i];
     arm.z = place[2] / length;
-    arm.cancellation = kUnroundedPlace * reach();
+    arm.cancellation = kUnroundedPlace * reach() + 16 * kCross * kRoundoff * frame.inverse_r;
   }
 }
 

@@ -2,8 +2,6 @@
 // window, and in each window plane by plane. Private to the reduction engine.
 #pragma once
 
-#include <algorithm>
-
 #include "src/engines/reduction/thin_section_3d.hpp"
 
 namespace lorentz {
@@ -37,15 +35,11 @@ class Search3 {
     candidates_.from = from;
     candidates_.s_limit = s_limit;
     if constexpr (!(kUnit && kBall)) return search(s_limit);
-    const bool early = std::ranges::any_of(window_.basis->b, [&](const typename Window::Arm& arm) {
-      const double across = (std::fabs(arm.p[0]) + std::fabs(arm.p[1])) * window_.lattice.radius;
-      return across < kNearlyParallel && arm.largest_coefficient() < kShortVector;
-    });
-    if (early && is_between_short_planes()) return Outcome::never;
+    const bool early = window_.is_nearly_parallel();
+    if (early && stays_between_planes(window_.to.v, window_.home(), window_.lattice.radius)) return never();
     const Outcome outcome = search(s_limit);
     if (outcome != Outcome::undecided) return outcome;
-    if ((!early && is_between_short_planes()) || is_between_planes()) return Outcome::never;
-    return search_with_wide_integers(s_limit);
+    return is_between_planes() ? never() : search_with_wide_integers(s_limit);
   }
 
  private:
@@ -78,27 +72,22 @@ class Search3 {
       window_.advance(none_met_, kappa_);
       if (window_.begin > s_limit || window_.begin > 2 * period()) return Outcome::never;
       if (!(window_.begin < kFarthest)) return found.give_up();
-      if (window >= 1) window_.lengthen(kLonger, true);
+      if (window >= 1) window_.lengthen(true);
     }
     return found.give_up();
   }
 
-  // Does the line stay between two planes of short lattice vectors?
-  bool is_between_short_planes() {
-    return note(stays_between_planes(window_.to.v, window_.home(), window_.lattice.radius));
-  }
-
-  // .. or of those by which the window is searched?
+  // Does the line stay between two of the planes by which the window is searched?
   bool is_between_planes() {
     Vec b[2];
     for (int k = 0; k < 2; ++k)
       for (int i = 0; i < 3; ++i) b[k][i] = high_of(window_.basis->b[k].n[i]);
-    return note(stays_between_planes(window_.to.v, window_.home(), window_.lattice.radius, b[0], b[1]));
+    return stays_between_planes(window_.to.v, window_.home(), window_.lattice.radius, b[0], b[1]);
   }
 
-  bool note(bool stays) {
-    if (stays) found.stage = Stage::double_double;
-    return stays;
+  Outcome never() {
+    found.stage = Stage::double_double;
+    return Outcome::never;
   }
 
   // Scans the planes k b_2 + (b_0, b_1) that meet the window. False, here and below: undecided.

@@ -19,18 +19,10 @@ Expansion sum_of_products(const Expansion& a, const Expansion& b, const Expansio
   return sum;
 }
 
-Expansion place_without_rounding(const Wide& N, double home) {
-  Expansion d(N.hi);
-  d.add(N.lo);
-  d.add(home);
-  return d;
-}
-
-// The value of the last bit that is set in a != 0.
+// The value of the last bit that is set in a normal number.
 double lowest_bit(double a) {
-  constexpr int kBits = 52;
-  const auto mantissa = std::bit_cast<std::uint64_t>(a) | std::uint64_t{1} << kBits;
-  return std::ldexp(1, std::ilogb(a) - kBits + std::countr_zero(mantissa));
+  const auto bits = std::bit_cast<std::uint64_t>(a);
+  return bits << 12 == 0 ? std::fabs(a) : std::fabs(a - std::bit_cast<double>(bits & (bits - 1)));
 }
 
 // Sets a short integer vector that is nearly parallel to v.
@@ -93,35 +85,48 @@ bool is_beside(const Vec& normal, const Vec& home, double r) {
 
 }  // namespace
 
-double unrounded_slack(int dimension, const double* v, const Wide* N, const double* home, double r) {
-  const Expansion radius(r), square = sum_of_products(radius, radius, radius, Expansion(), 1);
-  Expansion d[3], speed[3], speed2, slack;
-  for (int k = 0; k < dimension; ++k) {
-    d[k] = place_without_rounding(N[k], home[k]);
-    speed[k] = Expansion(v[k]);
-    speed2.add_product(speed[k], speed[k]);
+// v = m bit + rest: the products of m with the cell are integers, and the others are small.
+bool set_cross(const double (&v)[3], const Wide (&N)[3], const Vec& home, Wide (&cross)[3], Wide& along) {
+  const double largest = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
+  const double bit = std::ldexp(1, std::ilogb(largest) - 60);
+  const auto rounded = [&](WideInteger n) -> Wide {
+    const auto high = static_cast<double>(n);
+    return {high * bit, static_cast<double>(n - static_cast<WideInteger>(high)) * bit};
+  };
+  WideInteger m[3], n[3];
+  double rest[3];
+  for (int k = 0; k < 3; ++k) {
+    if (!(std::fabs(N[k].hi) < kMaxCell)) return false;
+    n[k] = static_cast<std::int64_t>(N[k].hi) + static_cast<std::int64_t>(N[k].lo);
+    m[k] = static_cast<std::int64_t>(v[k] / bit), rest[k] = v[k] - static_cast<double>(m[k]) * bit;
   }
-  slack.add_product(square, speed2);
-  for (int i = 0; i < dimension; ++i)
-    for (int j = i + 1; j < dimension; ++j) {
-      const Expansion across = sum_of_products(d[i], speed[j], d[j], speed[i], -1);
-      slack.add_product(across, across, -1);
-    }
-  const double value = slack.value();
-  return slack.is_exact() && std::fabs(value) > kFlushedSlack ? value : 0;
+  const auto small = [&](int i, int j) { return rest[i] * N[j] + Wide::product(v[i], home[j]); };
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    cross[k] = rounded(m[i] * n[j] - m[j] * n[i]) + (small(i, j) - small(j, i));
+  }
+  along = rounded(m[0] * n[0] + m[1] * n[1] + m[2] * n[2]) + (small(0, 0) + small(1, 1) + small(2, 2));
+  return true;
 }
 
 void unrounded_place(const double (&v)[3], const Wide (&N)[3], const Vec& home, double begin, Vec& place) {
-  Expansion d[3], speed[3], forms[3];
-  for (int k = 0; k < 3; ++k) d[k] = place_without_rounding(N[k], home[k]), speed[k] = Expansion(v[k]);
-  forms[0] = sum_of_products(speed[0], d[1], speed[1], d[0], -1);
-  const Expansion level = sum_of_products(speed[0], d[0], speed[1], d[1], 1),
-                  square = sum_of_products(speed[0], speed[0], speed[1], speed[1], 1);
-  forms[1] = sum_of_products(square, d[2], speed[2], level, -1);
-  forms[2] = level;
-  forms[2].add_product(speed[2], d[2]);
-  forms[2].add(-begin);
-  for (int k = 0; k < 3; ++k) place[k] = forms[k].is_exact() ? forms[k].value() : std::nan("");
+  Wide cross[3], along;
+  if (!set_cross(v, N, home, cross, along)) return place.fill(std::nan(""));
+  place = {cross[2].hi, (v[1] * cross[0] - v[0] * cross[1]).hi, (along - begin).hi};
+}
+
+double close_slack(const double (&v)[3], const Wide (&N)[3], const Vec& home, double r, double& error) {
+  Wide cross[3], along, speed2 = 0, across2 = 0;
+  if (!set_cross(v, N, home, cross, along)) return error = HUGE_VAL;
+  double from_origin = kFromOrigin;
+  for (int k = 0; k < 3; ++k) {
+    speed2 = speed2 + Wide::product(v[k], v[k]), across2 = across2 + cross[k] * cross[k];
+    from_origin += std::fabs(home[k]);
+  }
+  const Wide rho2 = Wide::product(r, r) * speed2;
+  const double terms = rho2.hi + across2.hi + std::sqrt(across2.hi * speed2.hi) * from_origin;
+  error = 4 * kCross * kRoundoff * kRoundoff * terms + kFlushedSlack;
+  return (rho2 - across2).hi;
 }
 
 bool stays_between_planes(const double (&v)[3], const Vec& home, double r) {

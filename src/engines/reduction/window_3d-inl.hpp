@@ -88,6 +88,17 @@ class WindowOf3 {
     start_size_ = (Abs(start.d[0].hi) + Abs(start.d[1].hi)) + Abs(start.d[2].hi);
   }
 
+  /// Is a short vector of a unit lattice nearly parallel to the flight?
+  LORENTZ_INLINE Mask is_nearly_parallel() const {
+    Mask any_of_three = Not(everywhere(true));
+    for (const Arm& arm : basis->b) {
+      const Number across = (Abs(arm.p[0]) + Abs(arm.p[1])) * all(lattice.radius);
+      any_of_three =
+          Or(any_of_three, And(across < all(kNearlyParallel), arm.largest_coefficient() < all(kShortVector)));
+    }
+    return any_of_three;
+  }
+
   // ---- Planes: k b_2 + (b_0, b_1) -----------------------------------------------------------------------
 
   /// The number of the plane through the point. The plane through the start of the window's axis has a number
@@ -224,7 +235,8 @@ class WindowOf3 {
   }
 
   // Makes the window longer from here on, with a basis that suits its length.
-  LORENTZ_INLINE void lengthen(Number factor, Mask wanted) {
+  LORENTZ_INLINE void lengthen(Mask wanted) {
+    const Number factor = select(wanted, growth(), all(1));
     if (basis != &longer_) longer_ = *basis;
     to.template lengthen<Arch>(longer_, factor, wanted);
     basis = &longer_;
@@ -262,6 +274,15 @@ class WindowOf3 {
     return p_error + all(to.scale_error) +
            basis->inverse_slope *
                (basis->tilt_error + Abs(g[2]) * s_error / basis->length + kPlane * kRoundoff * terms);
+  }
+
+  // By how much the next window is longer. Near the direction of the shortest vector it is as long as can be
+  // while it meets few lines of the lattice, if not few balls, and while integers hold its cells.
+  LORENTZ_INLINE Number growth() const {
+    const Number(&p)[2] = basis->b[0].p;
+    const Number few_lines = all(kLinesInWindow) / (basis->inverse_volume * (Abs(p[0]) + Abs(p[1]))),
+                 in_range = all(kLargest<Integer> / 8) * sqrt(to.v2) / basis->length;
+    return Max(all(kLonger), Min(few_lines, in_range));
   }
 
   // The line meets planes at k + kappa - tilt z = 0. Returns how many windows ahead the nearest of them comes

@@ -46,7 +46,7 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall, Integer> {
   /// The same point, with its coordinates recomputed from the integers.
   Point recomputed(const Point& point) const {
     Wide N[3];
-    for (int i = 0; i < 3; ++i) N[i] = anchor[i] + Wide(point.n[i]);
+    cell_of(point, N);
     Point same = at(N);
     for (int i = 0; i < 3; ++i) same.n[i] = point.n[i];
     return same;
@@ -54,11 +54,12 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall, Integer> {
 
   /// The point's coefficients, counted from the home cell; false if they are not exact.
   bool cell_of(const Point& point, Wide (&N)[3]) const {
+    bool is_exact = true;
     for (int i = 0; i < 3; ++i) {
-      if (!(std::fabs(high_of(point.n[i])) < kLargest<Integer>)) return false;
+      is_exact &= std::fabs(high_of(point.n[i])) < kLargest<Integer>;
       N[i] = anchor[i] + Wide(point.n[i]);
     }
-    return true;
+    return is_exact;
   }
 
  private:
@@ -95,16 +96,17 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall, Integer> {
   }
 
   bool set_errors_without_rounding() {
-    const double flushed = kForm * kFlushed;
-    p_error = kUnroundedPlace * kRoundoff * anchor_point.size + flushed * to.inverse_r;
-    s_error = kUnroundedPlace * kRoundoff * anchor_point.extent * basis->length + kRoundoff * begin + flushed;
+    const double of_home = 16 * kCross * kRoundoff * kRoundoff + kForm * kFlushed;
+    p_error = kUnroundedPlace * kRoundoff * anchor_point.size + of_home * to.inverse_r;
+    s_error = kUnroundedPlace * kRoundoff * anchor_point.extent * basis->length + kRoundoff * begin +
+              of_home * std::sqrt(to.v2);
     z_error = s_error / basis->length;
     z_first = -(2 * z_error + kWindowStart);
     return std::ranges::all_of(anchor, [](const Wide& n) { return std::fabs(n.hi) < kMaxCell; }) &&
            p_error < kSlop3d / 2;
   }
 
-  // The point errs by kUnroundedPlace u of itself: less than what its doubled sizes grant it.
+  // The point errs by less than what its doubled sizes and p_error grant it.
   Point place_without_rounding(const Wide (&N)[3]) const {
     Vec place;
     unrounded_place(to.v, N, home(), begin, place);
