@@ -111,12 +111,12 @@ class LaneSearch3 {
       done = Or(done, met);
       lanes.leave(met);
       if (nowhere(lanes.active) || window == kMaxWindowsInLanes) break;
+      if constexpr (kUnit && kBall)  // most of them need what only single flights can
+        if (window == 0) lanes.leave(window_.is_nearly_parallel());
       window_.advance(none_met_, kappa_);
       const M at_end = ends(lanes);
       done = Or(done, at_end);
       lanes.leave(at_end);
-      if constexpr (kUnit && kBall)  // most of them need what only single flights can
-        if (window == 0) lanes.leave(And(window_.is_nearly_parallel(), lanes.active));
       if (window >= 1) window_.lengthen(lanes);
     }
     lanes.active = done;

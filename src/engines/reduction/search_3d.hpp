@@ -55,7 +55,7 @@ class Search3 {
       wide.candidates_.from = candidates_.from, wide.candidates_.s_limit = s_limit;
       wide.window_.begin = window_.begin;
       Outcome outcome = wide.search(s_limit);
-      if (outcome == Outcome::undecided && wide.is_between_planes()) outcome = Outcome::never;
+      if (outcome == Outcome::undecided && wide.is_between_planes()) outcome = wide.never();
       found = wide.found;
       found.needs(Stage::double_double);
       return outcome;
