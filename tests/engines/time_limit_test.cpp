@@ -109,7 +109,7 @@ double chord_time(const Scene& scene, const Query& query) {
     for (const Atom& atom : lattice.atoms)
       for (int i = 0; i < scene.dimension; ++i)
         size = std::max(size, length(semiaxes_of(atom, scene.dimension)[i]));
-  return size / length(query.v);
+  return size / std::hypot(query.v[0], query.v[1], query.v[2]);  // whose square may overflow
 }
 
 bool has_tiny_component(const Vec& v) {
