@@ -97,6 +97,11 @@ TEST_CASE("golden make sees small directions in space, and flights beyond 10^6 c
   using Tags = std::vector<std::string>;
   CHECK(tags(cubic, {{0.5, 0.5, 0.5}, {1, 2, 1}, {}}, "1") == Tags{"near-rational"});
   CHECK(tags(cubic, {{0.5, 0.5, 0.5}, {1, 2, 1.0001}, {}}, "1") == Tags{"plain"});
+  Scene two = square;  // the direction is a vector of the second lattice
+  two.lattices.push_back(two.lattices[0]);
+  two.lattices[1].vectors[1] = {0, 1.4142135, 0};
+  CHECK(tags(square, {{0.5, 0.5, 0}, {1, 1.4142135, 0}, {}}, "1") == Tags{"plain"});
+  CHECK(tags(two, {{0.5, 0.5, 0}, {1, 1.4142135, 0}, {}}, "1") == Tags{"near-rational"});
   CHECK(tags(square, {{0.5, 0.5, 0}, {0, 1, 0}, {}}, "1000000") == Tags{"near-rational", "zero-component"});
   CHECK(tags(square, {{0.5, 0.5, 0}, {0, 1, 0}, {}}, "1000000.1") ==
         Tags{"near-rational", "zero-component", "far"});
