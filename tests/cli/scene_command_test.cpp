@@ -338,8 +338,10 @@ TEST_CASE("scene draw: window, size, title, legend, channels", "[cli][scene_comm
   const Run fine = folder.lorentz("scene draw square --radius 1e-9 --channels 1");
   CHECK(fine.status == 0);
   CHECK(contains(fine.err, "no channels are drawn: too many directions"));
+  for (const char* large : {"0,0,1,1e300", "0,0,1e300,1"})
+    CHECK(contains(folder.lorentz("scene draw square --window " + std::string(large)).err,
+                   "--window: is too large"));
   for (const char* bad : {"square --window 0,0,1", "square --window 1,0,0,1", "square --window 0,0,x,1",
-                          "square --window 0,0,1,1e300", "square --window 0,0,1e300,1",
                           "cubic --window 0,0,1,1", "square --size 10", "square --size 300x",
                           "square --size x", "square --size 300x300x3", "square --channels 0"}) {
     INFO(bad);
