@@ -58,7 +58,7 @@ std::unique_ptr<LoggedAnswers> logged_in(const std::string& path, const Compared
     throw InputError("--answers: " + path +
                      ": its rows are matched by their numbers; --queries needs columns, too");
   if (path.ends_with(".npy"))
-    return std::make_unique<LoggedAnswers>(read_npy_answers(path, questions.dimension()));
+    return std::make_unique<LoggedAnswers>(read_npy_answers(path, questions.components().of_vectors()));
   return std::make_unique<LoggedAnswers>(std::make_unique<CsvAnswerReader>(path, questions.components()));
 }
 

@@ -39,7 +39,6 @@ class ComparedQuestions {
 
   /// Whether the queries are columns, which need a scene. Rows of answers are matched to them by number.
   bool are_columns() const { return given_ && given_->are_columns(); }
-  int dimension() const { return place_->scene().dimension; }
   Components components() const { return Components(place_->scene()); }
 
  private:

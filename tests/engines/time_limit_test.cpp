@@ -345,6 +345,22 @@ TEST_CASE("Limits within ulps of the time: every decided answer is right, alone 
   CHECK(held.undecided_far == 0);
 }
 
+TEST_CASE("Near a lattice vector a limit ends a flight in a batch as it ends it alone",
+          "[engines][time_limit]") {
+  // Alone, the line is seen to stay between two lattice planes: in double-double.
+  const Scene cubic = unit_scene(3, 0.1177);
+  const Query query{{-0.9145, 0.4325, -0.6452}, {-512, 256.00000000000006, -512}, {}};
+  const Batch batch(cubic);
+  QueryTable table;
+  for (const double limit : {0x1p-25, 0x1p-7, 0x1p40}) table.push_back(query, limit);
+  FlightTable flights;
+  flights.resize(table.size());
+  batch.fly(table.columns(), flights.columns());
+  for (std::size_t i = 0; i < table.size(); ++i)
+    CHECK(same_bits(flights[i], batch.one_at_a_time().fly(query, table.columns().max_time[i])));
+  CHECK(flights[0].stage == Stage::double_double);
+}
+
 TEST_CASE("Limits within ulps of the time, a million flights", "[engines][time_limit][long]") {
   const Held held = hold_targets(kSeed + 1, 1000);
   CHECK(held.cases > 1'000'000);

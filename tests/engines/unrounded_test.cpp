@@ -108,6 +108,21 @@ TEST_CASE("The slack of a far ball is right at the boundary", "[engines][unround
   CHECK((met > 5000 && missed > 5000));
 }
 
+TEST_CASE("A slack of one square of the roundoff has its sign", "[engines][unrounded]") {
+  // Pell's equation: 2 m^2 - k^2 is 1 and -1 in turn, so that r = m / 2^53 and |v x d| = k / 2^53 give 2^-106.
+  const double v[3] = {1, 1, 0};
+  const Wide N[3] = {Wide(0), Wide(0), Wide(0)};
+  double sign = 1;
+  for (double k = 1, m = 1; k < 0x1p53; sign = -sign) {
+    double error;
+    const double slack = close_slack(v, N, {0, k * 0x1p-53, 0}, m * 0x1p-53, error);
+    CHECK(slack == sign * 0x1p-106);
+    CHECK(error < 0x1p-106);
+    const double next = m + k;
+    k += 2 * m, m = next;
+  }
+}
+
 TEST_CASE("A line between two lattice planes is told from one that meets their balls by a hair",
           "[engines][unrounded]") {
   // Along (7, 6, 5) but for ulps of (1, 2, -2): in planes of the normal (-22, 19, 8), whose length is 30.15.

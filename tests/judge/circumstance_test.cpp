@@ -240,7 +240,7 @@ TEST_CASE("Two faults with one cause are two findings, each with its own example
   CHECK((all[1].count == 20 && all[1].by_row.at("row") == 20));
 }
 
-TEST_CASE("Of one cause up to three faults are told apart", "[judge][findings]") {
+TEST_CASE("Up to three faults with one cause are told apart", "[judge][findings]") {
   const Scene scene = unit_scene(2, 0.25);
   std::vector<Question> questions;
   const auto ask = [&](int number, const Vec& x, const Vec& v) {

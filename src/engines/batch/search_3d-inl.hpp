@@ -17,7 +17,7 @@ class LaneWindow3 : public WindowOf3<LaneFma, LaneFma, kUnit, kBall> {
   using Base::start_;
 
  public:
-  using Base::anchor_point, Base::basis, Base::begin;
+  using Base::anchor_point, Base::basis, Base::begin, Base::lengthen;
 
   V anchor[3];
 
@@ -28,12 +28,6 @@ class LaneWindow3 : public WindowOf3<LaneFma, LaneFma, kUnit, kBall> {
   HWY_INLINE void set_anchor(bool at_start, Lanes& lanes) {
     find_anchor(at_start, lanes);
     lanes.leave_unless(this->set_errors(anchor));
-  }
-
-  /// Makes the window longer from here on, with a basis that suits its length.
-  HWY_INLINE void lengthen(Lanes& lanes) {
-    Base::lengthen(lanes.active);
-    lanes.leave_unless(basis->usable);
   }
 
  private:
@@ -117,7 +111,9 @@ class LaneSearch3 {
       const M at_end = ends(lanes);
       done = Or(done, at_end);
       lanes.leave(at_end);
-      if (window >= 1) window_.lengthen(lanes);
+      if (window == 0) continue;
+      window_.lengthen(lanes.active);
+      lanes.leave_unless(window_.basis->usable);
     }
     lanes.active = done;
   }

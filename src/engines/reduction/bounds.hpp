@@ -62,17 +62,12 @@ inline constexpr double kUnroundedPlace = 4, kCross = 12, kFromOrigin = 6;
 /// terms; in units of that, how far its discriminant is raised, and the ends of its interval are moved out.
 inline constexpr double kLine = 32, kDiscriminant = 8, kLineEnd = 4;
 
-/// 3D, the tilt of a family of lattice planes, relative to the two vectors that it is computed from.
-inline constexpr double kTilt = 32;
+/// 3D, the tilt of a family of lattice planes, relative to the two vectors that it is computed from; and the
+/// distance xi at which the line passes a plane, relative to its terms.
+inline constexpr double kTilt = 32, kPlane = 512;
 
-/// 3D, the distance xi at which the line passes a lattice plane, relative to its terms.
-inline constexpr double kPlane = 512;
-
-/// 3D, z in a window (which is of length 1) from the anchor (absolutely).
-inline constexpr double kWindowStart = 0x1p-48;
-
-/// 3D, where the next window begins.
-inline constexpr double kNextWindow = 2;
+/// 3D, z in a window (which is of length 1) from the anchor (absolutely); and where the next window begins.
+inline constexpr double kWindowStart = 0x1p-48, kNextWindow = 2;
 
 /// v x d, v . d and d . d in double-double, relative to |v| |d|, |v| |d|, |d|^2 (absolutely).
 inline constexpr double kStable = 0x1p-102;
@@ -226,11 +221,9 @@ inline constexpr double kLonger = 4, kLinesInWindow = 0.125;
 /// 3D: steps from an anchor to the next one; beyond kNearAnchor another step follows.
 inline constexpr double kMaxAnchorStep = 0x1p60, kNearAnchor = 0x1p20;
 
-/// 3D: sections with more lines are searched in parts, each at first at most so many cells large.
-inline constexpr double kManyLines = 12, kPartCells = 2;
-
-/// 3D: half of the lines of a part.
-inline constexpr double kMaxLinesInPart = 64;
+/// 3D: a section with more lines is searched in parts; the first has at most this many cells; half of the
+/// lines of a part.
+inline constexpr double kManyLines = 12, kPartCells = 2, kMaxLinesInPart = 64;
 
 /// 3D: shorter stretches of a line that binary64 does not resolve are walked, candidate by candidate; how far
 /// Newton's step may be off in candidates.

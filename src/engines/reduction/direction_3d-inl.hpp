@@ -45,21 +45,6 @@ struct DirectionOf3 : FrameOf3<Numbers, kUnit, kBall> {
     shorten<Arch>(basis, wanted);
   }
 
-  /// The same direction with other integers, for a window of this length.
-  template <class Arch>
-  LORENTZ_INLINE void set(const DirectionOf3<Numbers, kUnit, kBall>& same, Number length) {
-    static_cast<Frame&>(*this) = same;
-    basis.length = length;
-    for (int i = 0; i < 3; ++i) {
-      typename Basis::Arm& arm = basis.b[i];
-      const ArmOf3<Numbers>& from = same.basis.b[i];
-      for (int j = 0; j < 3; ++j) arm.n[j] = Integer(from.n[j]);
-      arm.p[0] = from.p[0], arm.p[1] = from.p[1], arm.z = from.z * (same.basis.length / length);
-      arm.cancellation = from.cancellation;
-    }
-    shorten<Arch>(basis, everywhere(true));
-  }
-
   /// For a longer window. The basis is reduced further from its present state.
   template <class Arch>
   LORENTZ_INLINE void lengthen(Basis& longer, Number factor, Mask wanted) const {

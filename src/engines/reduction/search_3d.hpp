@@ -47,10 +47,7 @@ class Search3 {
   [[gnu::noinline]] Outcome search_with_wide_integers(double s_limit) {
     if constexpr (kUnit && kBall && std::is_same_v<Integer, double>) {
       DirectionOf3<SplitProduct, kUnit, kBall, Wide> direction;
-      if (window_.to.basis.usable)
-        direction.template set<Arch>(window_.to, window_.basis->length);
-      else
-        direction.template set<Arch>(window_.lattice, window_.to.v, true);
+      direction.template set<Arch>(window_.lattice, window_.to.v, true);
       Search3<Arch, kUnit, kBall, Wide> wide(window_.lattice, direction, window_.offset);
       wide.candidates_.from = candidates_.from, wide.candidates_.s_limit = s_limit;
       wide.window_.begin = window_.begin;

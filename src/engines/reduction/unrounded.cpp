@@ -11,11 +11,18 @@
 namespace lorentz {
 namespace {
 
-Expansion sum_of_products(const Expansion& a, const Expansion& b, const Expansion& c, const Expansion& d,
-                          double sign) {
+// a b - c d.
+Expansion difference(double a, const Expansion& b, double c, const Expansion& d) {
   Expansion sum;
-  sum.add_product(a, b);
-  sum.add_product(c, d, sign);
+  sum.add_product(Expansion(a), b);
+  sum.add_product(Expansion(c), d, -1);
+  return sum;
+}
+
+template <class B>
+Expansion dot(const double (&a)[3], const B& b) {
+  Expansion sum;
+  for (int k = 0; k < 3; ++k) sum.add_product(Expansion(a[k]), Expansion(b[k]));
   return sum;
 }
 
@@ -47,8 +54,7 @@ bool set_normal(const Vec& a, const B& b, Vec& normal) {
   double bit = HUGE_VAL;
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
-    Expansion component =
-        sum_of_products(Expansion(a[i]), Expansion(b[j]), Expansion(a[j]), Expansion(b[i]), -1);
+    Expansion component = difference(a[i], Expansion(b[j]), a[j], Expansion(b[i]));
     normal[k] = component.value();
     component.add(-normal[k]);
     if (!component.is_exact() || !component.is_zero()) return false;
@@ -64,13 +70,6 @@ bool set_normal(const Vec& a, const B& b, Vec& normal) {
   return divisor != 0;
 }
 
-bool is_perpendicular(const double (&v)[3], const Vec& normal) {
-  Expansion along =
-      sum_of_products(Expansion(v[0]), Expansion(normal[0]), Expansion(v[1]), Expansion(normal[1]), 1);
-  along.add_product(Expansion(v[2]), Expansion(normal[2]));
-  return along.is_exact() && along.is_zero();
-}
-
 // Is a line perpendicular to the normal farther than r from all planes?
 bool is_beside(const Vec& normal, const Vec& home, double r) {
   Wide level(0);  // of the home cell's point over the line, in units of the planes' distance
@@ -81,6 +80,21 @@ bool is_beside(const Vec& normal, const Vec& home, double r) {
   }
   const double beside = std::fabs(level.hi - std::nearbyint(level.hi) + level.lo);
   return beside > r * std::sqrt(size2) * (1 + kAmple);
+}
+
+// r^2 |v|^2 - |v x d|^2: the sign is right, and the error at most 4 u of it; 0 if that is not certain.
+double exact_slack(const double (&v)[3], const Wide (&N)[3], const Vec& home, double r) {
+  Expansion d[3], square, slack;
+  for (int k = 0; k < 3; ++k) d[k] = Expansion(N[k].hi), d[k].add(N[k].lo), d[k].add(home[k]);
+  square.add_product(Expansion(r), Expansion(r));
+  slack.add_product(square, dot(v, v));
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const Expansion across = difference(v[i], d[j], v[j], d[i]);
+    slack.add_product(across, across, -1);
+  }
+  const double value = slack.value();
+  return slack.is_exact() && std::fabs(value) > kFlushedSlack ? value : 0;
 }
 
 }  // namespace
@@ -126,7 +140,11 @@ double close_slack(const double (&v)[3], const Wide (&N)[3], const Vec& home, do
   const Wide rho2 = Wide::product(r, r) * speed2;
   const double terms = rho2.hi + across2.hi + std::sqrt(across2.hi * speed2.hi) * from_origin;
   error = 4 * kCross * kRoundoff * kRoundoff * terms + kFlushedSlack;
-  return (rho2 - across2).hi;
+  const double slack = (rho2 - across2).hi;
+  if (std::fabs(slack) > error) return slack;
+  const double exact = exact_slack(v, N, home, r);
+  error = exact == 0 ? error : kUnroundedPlace * kRoundoff * std::fabs(exact);
+  return exact;
 }
 
 bool stays_between_planes(const double (&v)[3], const Vec& home, double r) {
@@ -136,7 +154,9 @@ bool stays_between_planes(const double (&v)[3], const Vec& home, double r) {
 
 bool stays_between_planes(const double (&v)[3], const Vec& home, double r, const Vec& a, const Vec& b) {
   Vec normal;
-  return set_normal(a, b, normal) && is_perpendicular(v, normal) && is_beside(normal, home, r);
+  if (!set_normal(a, b, normal)) return false;
+  const Expansion along = dot(v, normal);
+  return along.is_exact() && along.is_zero() && is_beside(normal, home, r);
 }
 
 }  // namespace lorentz

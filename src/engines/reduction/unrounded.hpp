@@ -16,7 +16,8 @@ bool set_cross(const double (&v)[3], const Wide (&N)[3], const Vec& home, Wide (
 /// set_cross grants |v|. For turned velocities.
 void unrounded_place(const double (&v)[3], const Wide (&N)[3], const Vec& home, double begin, Vec& place);
 
-/// r^2 |v|^2 - |v x d|^2 from set_cross, and a bound on its error.
+/// r^2 |v|^2 - |v x d|^2 and a bound on its error: from set_cross, or in sums without rounding where that leaves
+/// the sign open.
 double close_slack(const double (&v)[3], const Wide (&N)[3], const Vec& home, double r, double& error);
 
 /// Is a line in the direction v, through the start of a lattice whose home cell is at `home`, farther than r
