@@ -4,7 +4,6 @@
 #include <lorentz/scene.hpp>
 #include "question/precisions/big_number.hpp"
 #include "question/precisions/published_in.hpp"
-#include "question/precisions/wide_number.hpp"
 #include "src/engines/base/unsupported.hpp"
 
 namespace lorentz::question {
@@ -23,8 +22,6 @@ constexpr struct {
   std::unique_ptr<Engine> (*make)(const Scene&);
 } kPrecisions[] = {
     {"published-float", make<float>},
-    {"published-dd", make<Wide>},
-    {"published-128", make<BigNumber<128>>},
     {"published-256", make<BigNumber<256>>},
 };
 

@@ -11,8 +11,7 @@
 
 namespace lorentz::question {
 
-/// "published-float" (binary32), "published-dd" (double-double, about 106 bits), "published-128" and
-/// "published-256" (128 and 256 bits).
+/// "published-float" (binary32) and "published-256" (256 bits).
 std::vector<std::string> precision_names();
 
 /// The engine of this name for a valid scene, or null for another name. Everything is computed in its
