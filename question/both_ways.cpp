@@ -3,14 +3,8 @@
 #include <cstring>
 #include <memory>
 
-#include "src/problem/same_answer.hpp"
-
 namespace lorentz::question {
 namespace {
-
-Flight fly_prepared(const Reduction& engine, const Query& query, double max_time) {
-  return engine.fly(engine.direction(query.v), query.x, query.from ? &*query.from : nullptr, max_time);
-}
 
 Flight fly_alone(const Batch& batch, const Query& query, double max_time, Batch::Time time) {
   return batch.one_at_a_time().fly(query, max_time, time);
@@ -35,21 +29,6 @@ bool fits_columns(const Query& query) {
 }
 
 }  // namespace
-
-SceneEngine reduction_both_ways(const Scene& scene, const Traits& traits, FlyPrepared prepared) {
-  if (const auto why_not = Reduction::beyond(scene)) return SceneEngine::unsupported(scene, traits, *why_not);
-  if (!prepared) prepared = fly_prepared;
-  const auto engine = std::make_shared<const Reduction>(scene);
-  return {scene, traits,
-          [engine, prepared](const Query& query, const oracle::Request& request, Reply& reply) {
-            const double limit = limit_of(request);
-            const Flight flight = engine->fly(query, limit);
-            reply.answer = answer_of(flight);
-            reply.stage = flight.stage;
-            if (!same_answer(reply.answer, answer_of(prepared(*engine, query, limit))))
-              reply.answer = Answer::error("a prepared direction gives another answer");
-          }};
-}
 
 SceneEngine batch_both_ways(const Scene& scene, const Traits& traits, FlyAlone alone) {
   if (const auto why_not = Reduction::beyond(scene)) return SceneEngine::unsupported(scene, traits, *why_not);

@@ -64,11 +64,6 @@ int main() try {
   std::printf("%-13s %s, by %.3g ulps of the inputs\n", "the row above",
               judgement.verdict == oracle::Verdict::wrong ? "is wrong" : "is ill-posed", judgement.departs);
 
-  // Many particles with the same velocity: the lattice is reduced along it once.
-  const Reduction::Direction direction = fast.direction({1, 0.3, 0});
-  int hits = 0;
-  for (int i = 0; i < 1000; ++i) hits += fast.fly(direction, {0.001 * i, 0.4, 0}).outcome == Outcome::hit;
-  std::printf("%d of 1000 starts hit something\n", hits);
 } catch (const InputError& error) {  // an invalid scene or query: the message says where and why
   return std::fprintf(stderr, "%s\n", error.what()), 1;
 }

@@ -11,8 +11,7 @@
 
 namespace lorentz {
 
-struct AtomDirections;  // internal: numbers computed in advance from a velocity, atom by atom
-struct Task;            // internal: a query with its limit, in the engine's units
+struct Task;  // internal: a query with its limit, in the engine's units
 
 /// First hits in one scene, in binary64.
 ///
@@ -33,15 +32,11 @@ struct Task;            // internal: a query with its limit, in the engine's uni
 ///     use fast-math. This project's build files see to both.
 ///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
 ///             "lorentz doctor finds this machine fit, and says what it looked at"
-///  4. A flight along a Direction, which is a velocity prepared once (below), has the same bits as a flight with
-///     this velocity in the query.
-///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
-///             "A prepared direction keeps the limit, at any speed"
-///  5. `fly` allocates nothing, throws nothing and ends: every loop has a bound.
+///  4. `fly` allocates nothing, throws nothing and ends: every loop has a bound.
 ///     held by "A flight allocates nothing, in any model"
-///  6. Any number of threads may use one engine, and share a direction.
+///  5. Any number of threads may use one engine.
 ///     held by "Many threads may ask one engine, oracle, walk and judge"
-///  7. On the unit square and cubic lattices random queries are decided. There is one exception: a query may
+///  6. On the unit square and cubic lattices random queries are decided. There is one exception: a query may
 ///     be undecided if its exact answer is `never`. (Few random queries have this answer.) The test asks 3000
 ///     queries at each of 8 radii in the square lattice, the smallest 1e-12. In the cubic lattice it does so
 ///     at 6 radii, the smallest 1e-7.
@@ -55,10 +50,10 @@ struct Task;            // internal: a query with its limit, in the engine's uni
 /// 8. The error can be larger if the obstacle is hit within about 1e-16 r of the start.
 ///
 /// Ranges: the engine does not support scenes with very flat cells, or with obstacles that are too small, too
-/// slender, or overlap their own copies in other cells. `beyond` tells whether a scene is supported.
+/// slender, or overlap many of their own copies in other cells. `beyond` tells whether a scene is supported.
 ///
 /// These queries are `undecided`:
-///  - queries that the error bounds do not decide;
+///  - queries with numbers so small that products of them underflow, and that the error bounds do not decide;
 ///  - queries that start more than 2^51 cells from the origin on a unit lattice (is_unit_scene), or more than
 ///    2^44 cells on another lattice;
 ///  - queries for which the search needs integers beyond 2^53 (2^61 on unit lattices): very long flights in a
@@ -109,36 +104,14 @@ class Reduction : public Engine {
   Flight fly(const Query& query, double max_time = std::numeric_limits<double>::infinity(),
              Time time = Time::close) const;
 
-  /// A velocity that many particles share. What depends on the velocity alone is computed once.
-  class Direction;
-
-  /// Finds lattice bases that suit flights along v. v must be finite and not zero (this is asserted). The
-  /// direction works with this engine only, and the engine must live as long as the direction. A flight along
-  /// it costs about 57 ns (2D) or 200 ns (3D), whatever the radius. Allocates.
-  Direction direction(const Vec& v) const;
-  /// The same as the other `fly`, to the bit, along a direction. `from` is as in Query, or null.
-  Flight fly(const Direction& direction, const Vec& x, const ObstacleId* from = nullptr,
-             double max_time = std::numeric_limits<double>::infinity(), Time time = Time::close) const;
-
   struct Model;
 
  private:
   void first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const override;
   bool decides_limit() const override { return true; }
-  void fly(const Ray& ray, const AtomDirections* directions, double max_time, Time time,
-           Flight& flight) const;
+  void fly(const Ray& ray, double max_time, Time time, Flight& flight) const;
   void fly_to_limit(Task task, Flight& flight) const;
   Pimpl<const Model> model_;
-};
-
-/// A velocity with the bases that one engine has found for it. The engine's `direction` makes it; a
-/// default-constructed one is empty. It is cheap to copy: the copies share the data.
-class Reduction::Direction {
- private:
-  friend class Reduction;
-  Vec v_{}, scaled_v_{};
-  int exponent_ = 0;
-  std::shared_ptr<const AtomDirections> atoms_;
 };
 
 /// Turn a flight into an Answer, the form that all engines share. set_answer writes into the caller's Answer,

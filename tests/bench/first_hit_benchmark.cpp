@@ -81,17 +81,6 @@ void certified(benchmark::State& state, const Scene& scene) {
   }
 }
 
-void precomputed_direction(benchmark::State& state, const Scene& scene) {
-  const auto queries = drawn(scene);
-  const Reduction engine(scene);
-  const auto direction = engine.direction(queries[0].v);
-  std::size_t i = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(engine.fly(direction, queries[i].x).time);
-    i = (i + 1) % queries.size();
-  }
-}
-
 void bare(benchmark::State& state, double r) {
   const auto queries = drawn(unit_scene(2, r));
   std::size_t i = 0;
@@ -129,10 +118,6 @@ int main(int argc, char** argv) {
     benchmark::RegisterBenchmark(name("hexagonal/reduction", r).c_str(), reduction, hexagonal(r));
     benchmark::RegisterBenchmark(name("fcc/reduction", r).c_str(), reduction, fcc(r));
     benchmark::RegisterBenchmark(name("triclinic/reduction", r).c_str(), reduction, triclinic(r));
-    benchmark::RegisterBenchmark(name("square/precomputed_direction", r).c_str(), precomputed_direction,
-                                 unit_scene(2, r));
-    benchmark::RegisterBenchmark(name("cubic/precomputed_direction", r).c_str(), precomputed_direction,
-                                 unit_scene(3, r));
   }
   benchmark::RegisterBenchmark("square/corridor_2^-k", channel, unit_scene(2, 0.1),
                                Query{{0, 0.5, 0}, {1, 0, 0}, {}})

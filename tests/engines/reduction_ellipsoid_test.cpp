@@ -107,8 +107,7 @@ TEST_CASE("Among ellipsoids the reduction engine agrees with the oracle on drawn
   CHECK(count.inside > 1'500);                // 2 242 seen
   CHECK(count.stages.binary64 > 14'000);      // 19 905 seen
   CHECK(count.stages.double_double > 2'100);  // 2 666 seen
-  CHECK(count.stages.undecided > 1'100);      // 1 429 seen
-  CHECK(count.stages.undecided < 2'000);      // 1 429 seen
+  CHECK(count.stages.undecided < 1'200);      // 946 seen
 }
 
 TEST_CASE("Motifs of many atoms: balls of few or many radii, ellipsoids of few or many shapes",
@@ -262,7 +261,7 @@ TEST_CASE("The model of a scene of ellipsoids", "[engines][reduction_ellipsoid]"
   scene.lattices[0].atoms.push_back({{0.5, 0.5}, 0.1, {}});
   CHECK(model(scene) == "several atoms, ellipsoids");
   scene.lattices[0].atoms = {{{}, 0, {Vec{0.7, 0}, Vec{0, 0.1}}}};  // overlaps its translate
-  CHECK(Reduction::beyond(scene)->find("overlap") != std::string::npos);
+  CHECK(model(scene) == "several atoms, ellipsoids");
   scene.lattices[0].atoms = {{{}, 0, {Vec{0.3, 0}, Vec{0, 1e-6}}}};
   CHECK(Reduction::beyond(scene)->find("slender") != std::string::npos);
 }
@@ -284,8 +283,8 @@ TEST_CASE("certified is exact among ellipsoids, whatever the engine says of them
       REQUIRE(same(certified.first_hit(query, {}, &tally), exact.first_hit(query)));
     }
   }
-  CHECK(tally.binary64 > 1'500);   // 2 284 seen
-  CHECK(tally.undecided > 2'700);  // 3 386 seen
+  CHECK(tally.binary64 > 1'500);  // 2 284 seen
+  CHECK(tally.undecided > 70);    // 99 seen
 }
 
 // The line passes the ellipse at (1 - e) of its half width, e as small as makes the second stage look, and

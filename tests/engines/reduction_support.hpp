@@ -36,8 +36,6 @@ inline void check(const Scene& scene, const Query& query, Count& count) {
   count.stages.count(flight.stage);
   REQUIRE(same_bits(flight, split.fly(query)));
   REQUIRE(same_bits(rounded, split.fly(query, kNoLimit, Reduction::Time::rounded)));
-  REQUIRE(
-      same_bits(flight, fused.fly(fused.direction(query.v), query.x, query.from ? &*query.from : nullptr)));
   REQUIRE((flight.outcome == Outcome::undecided) == (flight.stage == Stage::undecided));
   if (flight.outcome == Outcome::undecided) return;
   const Answer given = answer_of(flight);

@@ -14,7 +14,7 @@ using namespace lorentz::test;
 namespace {
 
 struct Answers {
-  std::vector<Flight> flights, prepared;
+  std::vector<Flight> flights;
   std::vector<Answer> certified, exact, walked;
   std::vector<double> departs;
 };
@@ -24,7 +24,6 @@ struct Shared {
   Scene scene;
   std::vector<Query> queries;
   Reduction engine{scene};
-  Reduction::Direction direction = engine.direction({0.3, 0.7, 0.2});
   oracle::Certified certified{scene};
   oracle::Oracle oracle{scene};
   oracle::Walk walk{scene, 1000};
@@ -34,7 +33,6 @@ struct Shared {
     Answers answers;
     for (const Query& query : queries) {
       answers.flights.push_back(engine.fly(query));
-      answers.prepared.push_back(engine.fly(direction, query.x));
       answers.certified.push_back(certified.first_hit(query));
       answers.exact.push_back(oracle.first_hit(query));
       answers.walked.push_back(walk.first_hit(query));
@@ -50,9 +48,8 @@ struct Shared {
 bool same_answers(const Answers& a, const Answers& b) {
   bool same = a.departs == b.departs;
   for (std::size_t i = 0; i < a.flights.size(); ++i)
-    same = same && same_bits(a.flights[i], b.flights[i]) && same_bits(a.prepared[i], b.prepared[i]) &&
-           test::same(a.certified[i], b.certified[i]) && test::same(a.exact[i], b.exact[i]) &&
-           test::same(a.walked[i], b.walked[i]);
+    same = same && same_bits(a.flights[i], b.flights[i]) && test::same(a.certified[i], b.certified[i]) &&
+           test::same(a.exact[i], b.exact[i]) && test::same(a.walked[i], b.walked[i]);
   return same;
 }
 

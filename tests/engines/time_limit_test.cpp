@@ -309,34 +309,6 @@ TEST_CASE("A hit is before a limit iff its exact time is, and certified says wha
   CHECK(outcomes[Outcome::inside] > 50);  // 85 seen
 }
 
-TEST_CASE("A prepared direction keeps the limit, at any speed", "[engines][time_limit]") {
-  Draw draw(12);
-  INFO("seed 12");
-  std::map<Outcome, int> outcomes;
-  each(100, [&](const Scene& scene, const Query& drawn) {
-    if (Reduction::beyond(scene)) return;
-    const Reduction engine(scene);
-    Query query = drawn;
-    const double speed = draw.between(1, 3) * std::ldexp(1, static_cast<int>(draw.below(41)) - 20);
-    for (double& component : query.v) component *= speed;
-    if (flaw_of(query, scene)) return;
-    const ObstacleId* from = query.from ? &*query.from : nullptr;
-    const Reduction::Direction direction = engine.direction(query.v);
-    const Flight free = engine.fly(query);
-    for (const double limit : limits_around(free.outcome == Outcome::hit ? free.time : 1 / speed))
-      for (const auto time : {Reduction::Time::close, Reduction::Time::rounded}) {
-        INFO("speed times " << speed << ", limit " << limit);
-        const Flight limited = engine.fly(query, limit, time);
-        REQUIRE(is_cut(free, limited, limit));
-        REQUIRE(same_bits(engine.fly(direction, query.x, from, limit, time), limited));
-        ++outcomes[limited.outcome];
-      }
-  });
-  CHECK(outcomes[Outcome::hit] > 2400);    // 3 140 seen
-  CHECK(outcomes[Outcome::later] > 3000);  // 4 276 seen
-  CHECK(outcomes[Outcome::never] > 90);    // 116 seen
-}
-
 TEST_CASE("Limits within ulps of the time: every decided answer is right, alone and in a batch",
           "[engines][time_limit]") {
   const Held held = hold_targets(kSeed, 2);

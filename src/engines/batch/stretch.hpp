@@ -58,11 +58,11 @@ struct StretchKernels {
   const char* instructions;
   StretchKernel balls[2], ellipsoids[2];  ///< in the plane, in space
 
-  /// Rows and layers are flown one at a time, and so are single ellipsoids.
+  /// Rows and layers are flown one at a time, and so are single ellipsoids, and what overlaps its translates.
   StretchKernel of(const PreparedScene& scene) const {
     const int dimension = scene.atoms[0].dimension;
     const bool single_balls = scene.most_rank == 0 && !scene.ellipsoids;
-    if (scene.least_rank < dimension && !single_balls) return nullptr;
+    if (scene.strides || (scene.least_rank < dimension && !single_balls)) return nullptr;
     return (scene.ellipsoids ? ellipsoids : balls)[dimension - 2];
   }
 };

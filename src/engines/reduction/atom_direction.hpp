@@ -1,6 +1,7 @@
 // One atom's lattice seen along a velocity. Private to the reduction engine.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "src/engines/reduction/offset.hpp"
@@ -29,7 +30,8 @@ struct AtomDirection {
   template <class Arch>
   static void set(std::optional<AtomDirection>& to, Arch arch, const Bravais* before, const Bravais& lattice,
                   const Vec& v) {
-    const bool same_lattice = before && before->lattice == lattice.lattice;
+    const bool same_lattice =
+        before && before->lattice == lattice.lattice && std::ranges::equal(before->stride, lattice.stride);
     if (same_lattice && before->radius == lattice.radius && (kBall || before->shape == lattice.shape)) return;
     if constexpr (D == 3 && kBall)
       if (same_lattice) return to->direction.template retarget<Arch>(lattice, true);

@@ -3,7 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
 
+#include "src/engines/reduction/obstacle_unrounded.hpp"
 #include "src/engines/reduction/offset.hpp"
 
 namespace lorentz {
@@ -23,7 +27,7 @@ class AtomStart {
   }
 
   /// Does x lie in an obstacle (`from` excepted)? If so, N is its cell.
-  Decision inside(const ObstacleId* from, Wide (&N)[D], Stage& stage) const {
+  Decision inside(const Task& task, Wide (&N)[D], Stage& stage) const {
     for (Wide& n : N) n = Wide();
     double other[D]{};
     int others = 0;
@@ -34,7 +38,7 @@ class AtomStart {
       if (decision == Decision::no) return decision;
     }
     Wide leaving[D];
-    const bool has_from = find_from(from, leaving);
+    const bool has_from = find_from(task.ray.from, leaving);
     for (int which = 0; which <= others; ++which) {
       if ((which & others) != which) continue;
       Wide d[D];
@@ -44,9 +48,11 @@ class AtomStart {
         for (int i = 0; i < D; ++i) N[i] = which >> i & 1 ? Wide(other[i]) : Wide();
         error = place_of<kUnit>(*lattice, offset, N, d);
       }
-      const Decision decision = is_inside<kUnit, kBall>(d, error, *lattice, stage);
+      Decision decision = is_inside<kUnit, kBall>(d, error, *lattice, stage);
       if (decision == Decision::no || (has_from && same(leaving, N))) continue;
-      return decision;
+      if (decision == Decision::doubtful)
+        if (const auto obstacle = unrounded(task, N)) decision = is_inside_unrounded(*obstacle);
+      if (decision != Decision::no) return decision;
     }
     return Decision::no;
   }
@@ -66,8 +72,12 @@ class AtomStart {
       cell[k] = *n;
     }
     for (int i = 0; i < D; ++i) {
-      WideInteger sum = -static_cast<WideInteger>(offset.home[i]);
+      WideInteger sum = -home(i);
       for (int k = 0; k < D; ++k) sum += cell[k] * (kUnit ? k == i : lattice->inverse[k][i]);
+      if constexpr (!kUnit) {
+        if (lattice->stride[i] > 1 && sum % lattice->stride[i] != 0) return false;
+        if (lattice->stride[i] > 1) sum /= lattice->stride[i];
+      }
       if (sum > kFarthestHere || sum < -kFarthestHere) return false;
       const double high = static_cast<double>(sum);
       here[i] = Wide(high, static_cast<double>(sum - static_cast<WideInteger>(high)));
@@ -79,9 +89,10 @@ class AtomStart {
   bool set_cell(const Wide (&N)[D], std::array<std::int64_t, 3>& cell) const {
     std::int64_t n[3]{};
     for (int i = 0; i < D; ++i) {
-      if (!(std::fabs(N[i].hi) < kMaxCell)) return false;
-      n[i] = static_cast<std::int64_t>(N[i].hi) + static_cast<std::int64_t>(N[i].lo) +
-             static_cast<std::int64_t>(offset.home[i]);
+      const double stride = kUnit ? 1 : static_cast<double>(lattice->stride[i]);
+      if (!(std::fabs(N[i].hi * stride) < kMaxCell)) return false;
+      n[i] =
+          static_cast<std::int64_t>(N[i].hi * stride) + static_cast<std::int64_t>(N[i].lo * stride) + home(i);
     }
     if constexpr (kUnit) {
       for (int k = 0; k < D; ++k) cell[k] = n[k];
@@ -99,7 +110,19 @@ class AtomStart {
     return true;
   }
 
+  /// The obstacle of cell N, from which nothing is rounded; nothing where that is not known.
+  [[gnu::noinline]] std::optional<UnroundedObstacle> unrounded(const Task& task, const Wide (&N)[D]) const {
+    std::array<std::int64_t, 3> cell{};
+    if (!set_cell(N, cell)) return std::nullopt;
+    return UnroundedObstacle::of(task, *lattice, cell);
+  }
+
  private:
+  // Coordinate i of the home cell, in strides of one.
+  std::int64_t home(int i) const {
+    return static_cast<std::int64_t>(offset.home[i] * (kUnit ? 1 : static_cast<double>(lattice->stride[i])));
+  }
+
   // The steps to the cells besides the home cell whose obstacle may contain x: up to one along each basis
   // vector. Returns a bit for each.
   int neighbours(double (&other)[D]) const {
@@ -111,6 +134,21 @@ class AtomStart {
       bits |= 1 << i;
     }
     return bits;
+  }
+};
+
+/// Decides about the obstacles that a search names what double-double leaves open.
+template <int D, bool kUnit, bool kBall>
+struct UnroundedLook {
+  const Task& task;
+  const AtomStart<D, kUnit, kBall>& start;
+  const Octant* octant;  ///< by which the search is turned; null: it is not
+
+  [[gnu::noinline]] void at(const Wide (&N)[D], CloseLook<SplitProduct>& close) const {
+    if (close.is_missed || (close.is_met && (close.is_behind || close.is_ahead))) return;
+    Wide here[D];
+    octant ? octant->undo(N, here) : void(std::copy(N, N + D, here));
+    if (const auto obstacle = start.unrounded(task, here)) look_unrounded(*obstacle, close);
   }
 };
 

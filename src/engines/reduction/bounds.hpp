@@ -54,9 +54,10 @@ inline constexpr double kRowSlope = 0x1p-48;
 /// terms; and the scale of the coordinates (of ellipsoids: times the condition of the shape).
 inline constexpr double kAcross = 8, kScale = 32;
 
-/// What a sum without rounding loses when it is rounded, in units of u. And v x d whose large terms are summed
+/// What a sum without rounding loses when it is rounded, in units of u; a slack in the metric of a shape, which
+/// is such a sum and the fourth power of a quotient of two of them. And v x d whose large terms are summed
 /// without rounding: in units of u^2 of itself and of what |v| takes with the home cell, and this beside it.
-inline constexpr double kUnroundedPlace = 4, kCross = 12, kFromOrigin = 6;
+inline constexpr double kUnroundedPlace = 4, kUnroundedSlack = 64, kCross = 12, kFromOrigin = 6;
 
 /// 3D, where a lattice line enters the cylinder: its moment about the flight, relative to the sizes of the
 /// terms; in units of that, how far its discriminant is raised, and the ends of its interval are moved out.
@@ -165,10 +166,13 @@ inline constexpr double kMaxTransform = 0x1p20;
 /// The range of the first lattice's shortest vector, and of the others relative to it.
 inline constexpr double kMaxLength = 0x1p400, kMaxSpacing = 0x1p60;
 
-/// Radii, in units of the shortest lattice vector (of ellipsoids: both in the metric of their shape): at most
-/// 1/2 (then the obstacles of one atom do not overlap, and are entered in the order of their centres), at
-/// least this, or numbers of cells leave the exact integers.
+/// Radii, in units of the shortest lattice vector (of ellipsoids: both in the metric of their shape): at least
+/// this, or numbers of cells leave the exact integers.
 inline constexpr double kSmallestRadius2d = 1e-12, kSmallestRadius3d = 1e-7;
+
+/// Obstacles of one lattice do not overlap, and so are entered in the order of their centres: those of an atom
+/// that do belong to so many lattices at most, each of vectors that are multiples of the scene's.
+inline constexpr int kMaxLatticesOfAtom = 64;
 
 /// More slender ellipsoids are not done, nor larger or smaller ones, nor those whose metric errs by more than
 /// this in the directions in which they are long: so that in binary64 its error never counts.
@@ -210,6 +214,10 @@ inline constexpr double kMaxGamma = 0x1p-10;
 
 /// What a candidate's number may be unsure by before it is computed in double-double.
 inline constexpr double kMaxUnsure = 0.25;
+
+/// 2D: D_L is summed without rounding if its error, over the m that lead from one row to the next, is this part of
+/// itself.
+inline constexpr double kRoughHeight = 0x1p-10;
 
 /// 3D: the expected number of obstacles in the first window; how far the windows go, in s (the cells there
 /// still fit 64 bits); the longest jump, in windows; where in a window its anchor is.

@@ -8,13 +8,14 @@
 #include <lorentz/geometry.hpp>
 #include "src/engines/reduction/bounds.hpp"
 #include "src/engines/reduction/formulas.hpp"
-#include "src/engines/reduction/overlap.hpp"
+#include "src/engines/reduction/obstacle_unrounded.hpp"
 
 namespace lorentz {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr const char* kTooSkewed = "does not do cells as skewed as this one";
+constexpr const char* kOverlap = "does not do obstacles that overlap so many of their own translates";
 
 Vec rounded(const WideVec& a) {
   return {a[0].hi, a[1].hi, a[2].hi};
@@ -212,7 +213,8 @@ bool overlaps_itself(const Bravais& bravais, const Metric& metric, const Shorten
     if (overlaps || length > 2 * r + error) return;
     Vec sum{};
     for (int i = 0; i < bravais.rank; ++i)
-      for (int j = 0; j < bravais.rank; ++j) sum[j] += t[i] * shortening.T[i][j];
+      for (int j = 0; j < bravais.rank; ++j)
+        sum[j] += t[i] * static_cast<double>(bravais.stride[i]) * shortening.T[i][j];
     overlaps = length < 2 * r - error || !shortening.complete ||
                overlaps_translate(metric.shape ? metric.shape->semiaxes : ball, u, sum).value_or(true);
   });
@@ -235,11 +237,8 @@ std::string beyond(const Bravais& bravais, const Metric& metric, const Shortenin
   const double shortest = shortest_vector(bravais, metric);
   if (!(shortest > 1 / kMaxSpacing && shortest < kMaxSpacing && home_error(bravais) < kMaxHomeError))
     return "does not do lattices of so different spacings, or so flat a cell";
-  if (overlaps_itself(bravais, metric, shortening))
-    return metric.shape ? "does ellipsoids only that do not overlap their own translates"
-                        : "does radii up to half the shortest lattice vector only";
-  if (!(std::ranges::max(bravais.reach) < 1 - 2 * kMaxHomeError))
-    return "does not do obstacles that reach so far into a cell so flat";
+  if (overlaps_itself(bravais, metric, shortening)) return kOverlap;
+  if (!(std::ranges::max(bravais.reach) < 1 - 2 * kMaxHomeError)) return kOverlap;
   if (bravais.rank == bravais.dimension && !(bravais.radius >= smallest * shortest))
     return "does radii from " + std::string(bravais.dimension == 2 ? "1e-12" : "1e-7") +
            " of the shortest lattice vector only";
@@ -249,13 +248,16 @@ std::string beyond(const Bravais& bravais, const Metric& metric, const Shortenin
 bool set_basis(Bravais& bravais, const Shortening& shortening) {
   double largest = 0;
   for (int i = 0; i < 3; ++i) {
-    bravais.basis[i] = shortening.B[i];
+    const auto stride = static_cast<double>(bravais.stride[i]);
     for (int k = 0; k < 3; ++k) {
+      bravais.basis[i][k] = {stride * shortening.B[i][k].hi, stride * shortening.B[i][k].lo};
       bravais.transform[i][k] = std::llround(shortening.T[i][k]);
       for (int j = 0; j < 3; ++j)
-        largest = std::max(largest, std::fabs(shortening.T[i][j] * shortening.primitive[j][k]));
+        largest = std::max(largest, std::fabs(stride * shortening.T[i][j] * shortening.primitive[j][k]));
     }
   }
+  std::ranges::copy(shortening.primitive, bravais.primitive);
+  bravais.whole &= shortening.complete;
   bravais.exact = shortening.is_exact();
   bravais.basis_error = bravais.exact ? 0 : kBasis * kWideRoundoff * largest;
   set_dual(bravais);
@@ -283,9 +285,11 @@ class LatticePreparation {
       bravais.rank = static_cast<std::int8_t>(lattice_.rank(scene_.dimension));
       bravais.lattice = index_;
       bravais.atom = a;
-      const std::string why = prepared.ellipsoids ? set_ellipsoid(bravais) : set_ball(bravais);
+      std::string why;
+      do why = prepared.ellipsoids ? set_ellipsoid(bravais) : set_ball(bravais);
+      while (why == kOverlap && widen(bravais));
       if (!why.empty()) return why;
-      prepared.atoms.push_back(bravais);
+      add(bravais, prepared);
     }
     return "";
   }
@@ -300,9 +304,32 @@ class LatticePreparation {
   std::string set_ball(Bravais& bravais) const {
     const Atom& atom = lattice_.atoms[bravais.atom];
     set_place(bravais);
-    bravais.unit = is_unit_ && atom.position == Vec{};
+    bravais.unit = is_unit_ && atom.position == Vec{} && std::ranges::max(bravais.stride) == 1;
     bravais.radius = atom.radius * scale_;
     return set_basis(bravais, short_) ? finish(bravais, {}, short_) : kTooSkewed;
+  }
+
+  // Doubles the stride along the shortest vector; false if there would be too many lattices.
+  static bool widen(Bravais& bravais) {
+    int shortest = 0;
+    for (int i = 1; i < bravais.rank; ++i)
+      if (length(rounded(bravais.basis[i])) < length(rounded(bravais.basis[shortest]))) shortest = i;
+    bravais.stride[shortest] *= 2;
+    return bravais.stride[0] * bravais.stride[1] * bravais.stride[2] <= kMaxLatticesOfAtom;
+  }
+
+  // Adds the lattices of an atom.
+  static void add(Bravais& bravais, PreparedScene& prepared) {
+    const auto& [first, second, third] = bravais.stride;
+    prepared.strides |= first * second * third > 1;
+    for (std::int64_t i = 0; i < first; ++i)
+      for (std::int64_t j = 0; j < second; ++j)
+        for (std::int64_t k = 0; k < third; ++k) {
+          const std::int64_t n[3] = {i, j, k};
+          for (int axis = 0; axis < 3; ++axis)
+            bravais.shift[axis] = static_cast<double>(n[axis]) / static_cast<double>(bravais.stride[axis]);
+          prepared.atoms.push_back(bravais);
+        }
   }
 
   // Uses a short basis in the metric of the shape: that of the previous atom, if it has the same shape.
@@ -324,7 +351,8 @@ class LatticePreparation {
     bravais.radius = shape_->radius;
     if (!set_basis(bravais, *shaped_)) return kTooSkewed;
     std::string why = finish(bravais, {&*shape_}, *shaped_);
-    if (is_unit_ && is_alone() && atom.position == Vec{} && why.empty()) use_axes(bravais);
+    const bool is_unit = is_unit_ && is_alone() && atom.position == Vec{};
+    if (is_unit && std::ranges::max(bravais.stride) == 1 && why.empty()) use_axes(bravais);
     return why;
   }
 
@@ -344,7 +372,14 @@ class LatticePreparation {
   }
 
   void set_place(Bravais& bravais) const {
-    for (int k = 0; k < 3; ++k) bravais.position[k] = lattice_.atoms[bravais.atom].position[k] * scale_;
+    const Atom& atom = lattice_.atoms[bravais.atom];
+    const auto scaled = [&](double a) {
+      bravais.whole &= a == 0 || a * scale_ != 0;
+      return a * scale_;
+    };
+    bravais.whole = true, bravais.is_ball = atom.is_ball();
+    for (const Vec& axis : atom.semiaxes) std::ranges::for_each(axis, scaled);
+    std::ranges::transform(atom.position, bravais.position.begin(), scaled);
   }
 
   static void set_reach(Bravais& bravais, const Metric& metric) {
@@ -382,6 +417,26 @@ double first_length(const Scene& scene) {
 }
 
 }  // namespace
+
+void set_height_unrounded(const Bravais& lattice, const double (&v)[2], const double (&n)[2], Wide& height,
+                          double& error) {
+  Expansion sum;
+  for (int j = 0; j < 2; ++j) {
+    Expansion steps, across;
+    for (int i = 0; i < 2; ++i) {
+      const auto step = static_cast<double>(lattice.stride[i] * lattice.transform[i][j]);
+      steps.add_product(Expansion(n[i]), Expansion(step));
+    }
+    across.add_product(Expansion(v[0]), Expansion(lattice.primitive[j][1]));
+    across.add_product(Expansion(v[1]), Expansion(lattice.primitive[j][0]), -1);
+    sum.add_product(steps, across);
+  }
+  if (!lattice.whole || !sum.is_exact()) return;
+  const double high = sum.value();
+  sum.add(-high);
+  height = Wide::sum(high, sum.value());
+  error = kAnchorTerms * std::fabs(height.hi) + kFlushed;
+}
 
 PreparedScene prepare(const Scene& scene) {
   checked(scene);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "src/engines/reduction/atom_start.hpp"
 #include "src/engines/reduction/found.hpp"
 #include "src/engines/reduction/offset.hpp"
 #include "src/engines/reduction/unrounded.hpp"
@@ -20,10 +21,12 @@ class Candidates3 {
 
   Found<3> found;
 
+  const UnroundedLook<3, kUnit, kBall>& unrounded;
   const Wide* from = nullptr;  ///< coefficients of the ball that is being left
   double s_limit = 0;          ///< balls that are entered after it may be ignored
 
-  explicit Candidates3(const Window& window) : window_(window) {}
+  Candidates3(const Window& window, const UnroundedLook<3, kUnit, kBall>& unrounded)
+      : unrounded(unrounded), window_(window) {}
 
   /// The place in the window beyond which nothing more is needed.
   double end() const { return window_.end_before(found.s); }
@@ -43,6 +46,12 @@ class Candidates3 {
     if (meets == Decision::yes && s > s_error)
       return offer(N, s, s_error, margin * (rho * rho), 2 * spread * (rho * rho));
     return look_closely(N);
+  }
+
+  /// Is this ball certainly not met, whether ahead or behind?
+  bool is_missed(const typename Window::Point& point) {
+    Wide N[3];
+    return window_.cell_of(point, N) && close_look(N).is_missed;
   }
 
   StableMeeting<SplitProduct, 3, kBall> meeting_at(const Wide (&N)[3]) const {
@@ -69,13 +78,19 @@ class Candidates3 {
     return Look::taken;
   }
 
-  // The same decisions in double-double, or without rounding.
-  [[gnu::noinline]] Look look_closely(const Wide (&N)[3]) {
+  // Decided in double-double, or without rounding.
+  CloseLook<SplitProduct> close_look(const Wide (&N)[3]) {
     found.needs(Stage::double_double);
     CloseLook<SplitProduct> close(meeting_at(N));
     if constexpr (kUnit && kBall)
-      if (!close.is_missed && !close.is_met)
-        look_unrounded<3>(window_.to.v, N, window_.offset, window_.lattice.radius, close);
+      look_with_integers<3>(window_.to.v, N, window_.offset, window_.lattice.radius, close);
+    unrounded.at(N, close);
+    return close;
+  }
+
+  // The same decisions.
+  [[gnu::noinline]] Look look_closely(const Wide (&N)[3]) {
+    const CloseLook<SplitProduct> close = close_look(N);
     if (close.is_missed || (close.is_met && close.is_behind)) return Look::missed;
     if (!(close.is_met && close.is_ahead)) return Look::doubtful;
     return offer(N, close.s, close.s_error, close.slack, close.slack_error);

@@ -316,12 +316,27 @@ struct Direction2 {
         usable =
             And(usable, And(Abs(arm->n[0]) < all(kMaxCoefficient), Abs(arm->n[1]) < all(kMaxCoefficient)));
     }
+    if constexpr (!kUnit) {
+      const Mask rough = L.D_error * (R.D + rho) > kRoughHeight * L.D * L.D;
+      if constexpr (!Arch::kOne)
+        usable = AndNot(And(rough, L.D > all(0)), usable);
+      else if (rough)
+        sum_height_of_L(lattice);
+    }
     usable = And(usable, L.D < passable);
     rises = L.D > all(0);
     know_slope<Arch>(lattice);
     inverse_A = 1 / (kUnit ? v2 : v2 * all(lattice.volume));
     inverse_D_L = 1 / L.D;
     inverse_S_L = 1 / L.S;
+  }
+
+  // Without rounding.
+  LORENTZ_NOINLINE void sum_height_of_L(const Bravais& lattice) {
+    Wide height = {-sigma * L.D, -sigma * L.D_low};
+    set_height_unrounded(lattice, v, L.n, height, L.D_error);
+    L.D = -sigma * height.hi, L.D_low = -sigma * height.lo;
+    usable = usable && L.D >= 0;
   }
 
   // Rows are parallel to the line, exactly, or they certainly rise towards it: by a height of whose error the

@@ -39,9 +39,8 @@ class EntryTime
     for (int i = 0; i < D; ++i) N[i] = DoubleDouble<A>(this->N_[i]);
     const double d_error = place_of<kUnit>(this->lattice_, this->offset_, N, d);
     StableMeeting<A, D, kBall> meeting(this->v_, d, d_error, this->lattice_);
-    if constexpr (kBall && kUnit)
-      if (this->entry_.slack_error < meeting.slack_error)  // it was decided without rounding
-        meeting.slack = DoubleDouble<A>(this->entry_.slack), meeting.slack_error = this->entry_.slack_error;
+    if (!(meeting.slack.hi > meeting.slack_error))  // it was decided without rounding
+      meeting.slack = DoubleDouble<A>(this->entry_.slack), meeting.slack_error = this->entry_.slack_error;
     return meeting.time(d, d_error, this->lattice_, error);
   }
 };

@@ -3,6 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <tuple>
 #include <type_traits>
 
 #include "src/engines/reduction/atom_direction.hpp"
@@ -37,21 +41,29 @@ class AtomFlight {
   bool start(const Bravais& lattice, const Vec& x) { return start_.template set<Arch>(lattice, x); }
 
   /// Does x lie in an obstacle (`from` excepted)?
-  Decision inside(const ObstacleId* from) { return start_.inside(from, N_, stage); }
+  Decision inside(const Task& task) { return start_.inside(task, N_, stage); }
 
   /// Obstacles that are entered after max_time may be ignored.
-  void find(const Direction& to, const ObstacleId* from, double max_time) {
-    if constexpr (kModel == SceneModel::sparse)
-      search<SparseSearch<D, kBall>>(to, from, max_time);
-    else if (kModel == SceneModel::mixed && start_.lattice->rank < D)
-      search<SparseSearch<D, kBall>>(to, from, max_time);
-    else
-      search<SearchInCrystal>(to, from, max_time);
+  void find(const Direction& to, const Task& task, double max_time) {
+    if constexpr (kModel == SceneModel::sparse || kModel == SceneModel::mixed)
+      if (start_.lattice->rank < D) return search<SparseSearch<D, kBall>>(to, task, max_time);
+    if constexpr (kModel != SceneModel::sparse) search<SearchInCrystal>(to, task, max_time);
   }
 
   /// Sets the cell of the obstacle found, in the scene's own primitive vectors; false if 64 bits do not hold
   /// it.
   bool cell(std::array<std::int64_t, 3>& cell) const { return start_.set_cell(N_, cell); }
+
+  /// The obstacle found.
+  std::optional<UnroundedObstacle> unrounded(const Task& task) const { return start_.unrounded(task, N_); }
+  bool has_smaller_name(const AtomFlight& other) const {
+    const auto name = [](const AtomFlight& flight) {
+      std::array<std::int64_t, 3> cell{};
+      flight.cell(cell);
+      return std::tuple(flight.start_.lattice->lattice, flight.start_.lattice->atom, cell);
+    };
+    return name(*this) < name(other);
+  }
 
   double rough_time(double& error) const { return entry_.rough_time(error); }
 
@@ -61,13 +73,15 @@ class AtomFlight {
 
  private:
   template <class Search>
-  [[gnu::always_inline]] void search(const Direction& to, const ObstacleId* from, double max_time) {
+  [[gnu::always_inline]] void search(const Direction& to, const Task& task, double max_time) {
     const double s_limit = (max_time * to.direction.v2 + to.direction.s_rho) * (1 + kAmple);
     Offset<SplitProduct, D> turned;
     if constexpr (kTurned) to.octant.apply(start_.offset.d, turned.d), turned.error = start_.offset.error;
-    Search search(*start_.lattice, to.direction, kTurned ? turned : start_.offset);
+    UnroundedLook<D, kUnit, kBall> unrounded{task, start_, nullptr};
+    if constexpr (kTurned) unrounded.octant = &to.octant;
+    Search search(*start_.lattice, to.direction, kTurned ? turned : start_.offset, unrounded);
     Wide leaving[D];
-    if (from && start_.find_from(from, leaving)) {
+    if (task.ray.from && start_.find_from(task.ray.from, leaving)) {
       Wide there[D];
       if constexpr (kTurned) to.octant.apply(leaving, there);
       outcome = search.run(kTurned ? there : leaving, s_limit);

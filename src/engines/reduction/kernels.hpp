@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include <lorentz/engine_base.hpp>
 #include <lorentz/reduction.hpp>
 #include "src/engines/reduction/bravais.hpp"
 
@@ -13,30 +14,29 @@ namespace lorentz {
 /// The input of a kernel.
 struct Task {
   const PreparedScene& scene;
+  const Ray& ray;
   const Vec& x;  ///< in the scene's scaled lengths
-  const Vec& v;  ///< its largest component lies in [1, 2)
-  const ObstacleId* from;
   double max_time;
-  double search_time;                ///< obstacles entered later need not be searched for; at least max_time
-  const AtomDirections* directions;  ///< for each atom; null: the kernel makes them
+  double search_time;  ///< obstacles entered later need not be searched for; at least max_time
   Reduction::Time time;
 
   bool is_limited() const { return max_time < std::numeric_limits<double>::infinity(); }
+
+  /// Did no component become zero when it was scaled?
+  bool is_whole() const {
+    bool whole = true;
+    for (int k = 0; k < 3; ++k)
+      whole &= (x[k] == 0) == (ray.x[k] == 0) && (ray.v[k] == 0) == (ray.given_v[k] == 0);
+    return whole;
+  }
 };
 
 using FlightKernel = void (*)(const Task&, Flight&);
-using DirectionsKernel = std::shared_ptr<const AtomDirections> (*)(const PreparedScene&, const Vec&);
 
-/// The kernels for a scene, on one kind of processor.
-struct Kernels {
-  FlightKernel fly = nullptr;
-  DirectionsKernel directions = nullptr;
-};
-
-/// For processors with a fused multiply-add, and for all processors. Both give the same bits. (Each set is a
-/// source file of its own, because it contains a dozen kernels.)
-Kernels kernels_with_fma(const PreparedScene& scene);
-Kernels kernels_without_fma(const PreparedScene& scene);
+/// The kernel for a scene, for processors with a fused multiply-add, and for all processors. Both give the same
+/// bits. (Each set is a source file of its own, because it contains a dozen kernels.)
+FlightKernel kernel_with_fma(const PreparedScene& scene);
+FlightKernel kernel_without_fma(const PreparedScene& scene);
 
 inline void give_up(Flight& flight) {
   flight.outcome = Outcome::undecided;

@@ -11,10 +11,10 @@ template <int D, SceneModel kModel, bool kBall>
 
 }  // namespace
 
-Kernels kernels_with_fma(const PreparedScene& scene) {
-  Kernels kernels = kernels_without_fma(scene);
-  for_scene(scene, [&]<int D, SceneModel kModel, bool kBall>() { kernels.fly = fly_fma<D, kModel, kBall>; });
-  return kernels;
+FlightKernel kernel_with_fma(const PreparedScene& scene) {
+  return for_scene(scene, []<int D, SceneModel kModel, bool kBall>() -> FlightKernel {
+    return fly_fma<D, kModel, kBall>;
+  });
 }
 
 }  // namespace lorentz

@@ -41,7 +41,9 @@ class Lines3 {
     const double distance = std::sqrt(first.p[0] * first.p[0] + first.p[1] * first.p[1]);
     const double unsure = kDiscriminant * window_.line_error(first);
     if (distance - drift > 1 + unsure) return true;
-    if (distance < 1 - unsure || k_last - k_first < kShortStretch || !(estimate > k_first))
+    const bool is_near = distance < 1 - unsure, is_parallel = !is_near && window_.is_parallel(arm);
+    if (is_parallel && candidates_.is_missed(first)) return true;  // and so is every ball of the line
+    if (is_near || is_parallel || k_last - k_first < kShortStretch || !(estimate > k_first))
       return scan_stretch(window_.recomputed(first), arm, 0, k_last - k_first);
     Point entry = window_.recomputed(q.step(std::nearbyint(estimate), arm));
     double k;

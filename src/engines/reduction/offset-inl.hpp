@@ -99,6 +99,8 @@ LORENTZ_INLINE typename Arch::Mask set_offset(const Bravais& lattice, const Vect
       for (int k = 0; k < D; ++k) coordinate = coordinate + all(lattice.dual[i][k]) * place[k].hi;
       wanted = And(wanted, Abs(coordinate) < all(kMaxGeneralStart));
       offset.home[i] = Round(coordinate);
+      if constexpr (Arch::kOne)
+        if (lattice.shift[i] != 0) offset.home[i] = Round(coordinate - lattice.shift[i]) + lattice.shift[i];
     }
     set_offset_from_home(lattice, place, size, offset);
     const auto far = AndNot(size * all(lattice.coordinate_error) < all(kMaxHomeError), wanted);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "src/engines/reduction/atom_start.hpp"
 #include "src/engines/reduction/found.hpp"
 #include "src/engines/reduction/one_flight.hpp"
 
@@ -10,14 +11,16 @@ namespace lorentz {
 
 enum class Look { met, missed, behind, doubtful };
 
-/// Is the obstacle at d, whose components err by at most `error`, entered ahead? If so, or if that is
+/// Is the obstacle of cell N at d, whose components err by at most `error`, entered ahead? If so, or if that is
 /// doubtful, `found` gets everything but its cell.
-template <int D>
-[[gnu::noinline]] Look look_closely_at(const Wide (&d)[D], double error, const Bravais& obstacle,
-                                       bool is_ball, const Vec& v, Found<D>& found) {
+template <int D, bool kBall>
+[[gnu::noinline]] Look look_closely_at(const Wide (&d)[D], double error, const Wide (&N)[D],
+                                       const Bravais& obstacle, const Vec& v,
+                                       const UnroundedLook<D, false, kBall>& unrounded, Found<D>& found) {
   found.needs(Stage::double_double);
   const auto decide = [&](const auto& meeting) {
-    const CloseLook<SplitProduct> close(meeting);
+    CloseLook<SplitProduct> close(meeting);
+    unrounded.at(N, close);
     if (close.is_missed) return Look::missed;
     if (close.is_met && close.is_behind) return Look::behind;
     found.s = close.s, found.s_error = close.s_error;
@@ -25,14 +28,14 @@ template <int D>
     if constexpr (D == 2) found.h = difference_of_products(d[1], v[0], d[0], v[1]).hi;
     return close.is_met && close.is_ahead ? Look::met : Look::doubtful;
   };
-  if (is_ball) return decide(StableMeeting<SplitProduct, D, true>(v, d, error, obstacle));
-  return decide(StableMeeting<SplitProduct, D, false>(v, d, error, obstacle));
+  return decide(StableMeeting<SplitProduct, D, kBall>(v, d, error, obstacle));
 }
 
 /// The same. A ball is decided in binary64 if that is certain; otherwise, and for an ellipsoid, in
 /// double-double. v2 = |v|^2.
 template <int D, bool kBall>
-inline Look look_at(const Wide (&d)[D], double error, const Bravais& obstacle, const Vec& v, double v2,
+inline Look look_at(const Wide (&d)[D], double error, const Wide (&N)[D], const Bravais& obstacle,
+                    const Vec& v, double v2, const UnroundedLook<D, false, kBall>& unrounded,
                     Found<D>& found) {
   if constexpr (kBall) {
     double velocity[D];
@@ -44,7 +47,7 @@ inline Look look_at(const Wide (&d)[D], double error, const Bravais& obstacle, c
     found.slack = ball.slack, found.slack_error = ball.slack_error;
     if (ball.is_met() && ball.is_ahead()) return Look::met;
   }
-  return look_closely_at<D>(d, error, obstacle, kBall, v, found);
+  return look_closely_at<D, kBall>(d, error, N, obstacle, v, unrounded, found);
 }
 
 }  // namespace lorentz

@@ -36,7 +36,7 @@ void rescale(Flight& flight, int exponent) {
 
 struct Reduction::Model {
   PreparedScene scene;
-  Kernels kernels;
+  FlightKernel fly;
 };
 
 Reduction::Reduction(const Scene& scene, Processor processor) : Engine(scene) {
@@ -44,7 +44,7 @@ Reduction::Reduction(const Scene& scene, Processor processor) : Engine(scene) {
   model->scene = prepare(scene);
   if (!model->scene.beyond.empty()) throw UnsupportedError("reduction " + model->scene.beyond);
   const bool fma = processor == Processor::this_one && has_fma();
-  model->kernels = fma ? kernels_with_fma(model->scene) : kernels_without_fma(model->scene);
+  model->fly = fma ? kernel_with_fma(model->scene) : kernel_without_fma(model->scene);
   model_ = std::move(model);
 }
 
@@ -71,23 +71,22 @@ const char* Reduction::model() const {
 // A search that ends at a limit may meet, beyond the first hit, an obstacle that it cannot decide. A search
 // without a limit never looks there, so it follows where the first one is undecided.
 inline void Reduction::fly_to_limit(Task task, Flight& flight) const {
-  model_->kernels.fly(task, flight);
+  model_->fly(task, flight);
   if (flight.outcome != Outcome::undecided || !task.is_limited()) return;
   task.search_time = HUGE_VAL;
   flight = {};
-  model_->kernels.fly(task, flight);
+  model_->fly(task, flight);
 }
 
-inline void Reduction::fly(const Ray& ray, const AtomDirections* directions, double max_time, Time time,
-                           Flight& flight) const {
+inline void Reduction::fly(const Ray& ray, double max_time, Time time, Flight& flight) const {
   const int exponent = model_->scene.exponent;
   if (exponent == 0) {
-    fly_to_limit({model_->scene, ray.x, ray.v, ray.from, max_time, max_time, directions, time}, flight);
+    fly_to_limit({model_->scene, ray, ray.x, max_time, max_time, time}, flight);
   } else {
     const double limit = scaled_limit(max_time, -exponent);
     Vec x;
     for (int i = 0; i < 3; ++i) x[i] = scaled_time(ray.x[i], -exponent);
-    fly_to_limit({model_->scene, x, ray.v, ray.from, limit, limit, directions, time}, flight);
+    fly_to_limit({model_->scene, ray, x, limit, limit, time}, flight);
     rescale(flight, exponent);
   }
   if (flight.outcome != Outcome::never) return;
@@ -99,30 +98,9 @@ Flight Reduction::fly(const Query& query, double max_time, Time time) const {
   assert(!flaw_of(query, scene(), max_time));
   Flight flight;
   const ScaledVelocity velocity(query.v);
-  fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr, query.v}, nullptr,
+  fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr, query.v},
       scaled_limit(max_time, velocity.exponent), time, flight);
   rescale(flight, -velocity.exponent);
-  return flight;
-}
-
-Reduction::Direction Reduction::direction(const Vec& v) const {
-  assert(!flaw_of(Query{{}, v, {}}, scene()));
-  const ScaledVelocity velocity(v);
-  Direction direction;
-  direction.v_ = v;
-  direction.scaled_v_ = velocity.scaled;
-  direction.exponent_ = velocity.exponent;
-  direction.atoms_ = model_->kernels.directions(model_->scene, velocity.scaled);
-  return direction;
-}
-
-Flight Reduction::fly(const Direction& direction, const Vec& x, const ObstacleId* from, double max_time,
-                      Time time) const {
-  assert(!flaw_of(from ? Query{x, direction.v_, *from} : Query{x, direction.v_, {}}, scene(), max_time));
-  Flight flight;
-  fly(Ray{x, direction.scaled_v_, from, direction.v_}, direction.atoms_.get(),
-      scaled_limit(max_time, direction.exponent_), time, flight);
-  rescale(flight, -direction.exponent_);
   return flight;
 }
 
@@ -143,7 +121,7 @@ Answer answer_of(const Flight& flight) {
 
 void Reduction::first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const {
   Flight flight;
-  fly(ray, nullptr, max_time, Time::close, flight);
+  fly(ray, max_time, Time::close, flight);
   set_answer(flight, answer);
 }
 

@@ -12,27 +12,14 @@
 
 namespace lorentz {
 
-/// A velocity as seen from each atom. The type depends on the scene's model (DirectionsOfModel).
-struct AtomDirections {};
-
-template <class Item>
-struct DirectionsOfModel : AtomDirections {
-  std::vector<Item> items;
-};
-
-template <class Item>
-const Item& direction_of(const AtomDirections& directions, std::size_t atom) {
-  return static_cast<const DirectionsOfModel<Item>&>(directions).items[atom];
-}
-
 template <class AtomFlight>
 inline void set_time(const AtomFlight& found, const Task& task, Flight& flight) {
   if (task.time == Reduction::Time::close) {
-    flight.time = found.time(task.v).close(true);
+    flight.time = found.time(task.ray.v).close(true);
     return;
   }
   double error;
-  const Wide t = found.time(task.v).rare(error);
+  const Wide t = found.time(task.ray.v).rare(error);
   flight.time = t.hi + (t.lo + error);
   flight.time_is_rounded = flight.time == t.hi + (t.lo - error);
 }
@@ -64,9 +51,18 @@ template <class AtomFlight>
 [[gnu::noinline]] bool keep_limit(const AtomFlight& found, const Task& task, Flight& flight) {
   // No time is below zero, whatever it errs by.
   const Decision sooner =
-      task.max_time > 0 ? is_sooner(found, TimeLimit{task.max_time}, task.v, flight.stage) : Decision::no;
+      task.max_time > 0 ? is_sooner(found, TimeLimit{task.max_time}, task.ray.v, flight.stage) : Decision::no;
   if (sooner == Decision::no) flight.outcome = Outcome::never;
   return sooner != Decision::doubtful;
+}
+
+/// The same without rounding, and where two are entered at once, has `one` the smaller name?
+template <class OneFlight>
+[[gnu::noinline]] Decision comes_first(const OneFlight& one, const OneFlight& other, const Task& task) {
+  const auto a = one.unrounded(task), b = other.unrounded(task);
+  const auto order = a && b ? order_of_entry(*a, *b) : std::nullopt;
+  if (!order) return Decision::doubtful;
+  return *order < 0 || (*order == 0 && one.has_smaller_name(other)) ? Decision::yes : Decision::no;
 }
 
 /// A flight in a scene with one atom.
@@ -76,13 +72,10 @@ inline void fly_one(const Task& task, Flight& flight) {
   using Direction = AtomDirection<D, kUnit, kBall>;
   AtomFlight<Arch, D, kUnit ? SceneModel::unit : SceneModel::one_atom, kBall> atom;
   if (!atom.start(lattice, task.x)) return give_up(flight);
-  const Decision inside = atom.inside(task.from);
+  const Decision inside = atom.inside(task);
   if (inside == Decision::doubtful) return give_up(flight);
   if (inside == Decision::no) {
-    if (task.directions)
-      atom.find(direction_of<Direction>(*task.directions, 0), task.from, task.search_time);
-    else
-      atom.find(Direction(Arch{}, lattice, task.v), task.from, task.search_time);
+    atom.find(Direction(Arch{}, lattice, task.ray.v), task, task.search_time);
     flight.outcome = atom.outcome;
   } else {
     flight.outcome = Outcome::inside;
@@ -113,6 +106,27 @@ class AtomFlights {
   std::size_t started_ = 0;
 };
 
+/// Names the obstacle of this atom that contains x: `one` of its lattice `a` or, if it has several, the smallest.
+/// False: undecided.
+template <class OneFlight>
+[[gnu::noinline]] bool name_containing(const OneFlight& one, AtomFlights<OneFlight>& flights, std::size_t a,
+                                       const Task& task, Flight& flight) {
+  const std::vector<Bravais>& atoms = task.scene.atoms;
+  flight.outcome = Outcome::inside;
+  flight.lattice = atoms[a].lattice, flight.atom = atoms[a].atom;
+  if (!one.cell(flight.cell)) return false;
+  while (++a < atoms.size() && atoms[a].lattice == flight.lattice && atoms[a].atom == flight.atom) {
+    OneFlight* other = flights.started(a, task);
+    const Decision inside = other ? other->inside(task) : Decision::doubtful;
+    if (other) flight.stage = std::max(flight.stage, other->stage);
+    if (inside == Decision::no) continue;
+    std::array<std::int64_t, 3> cell{};
+    if (inside == Decision::doubtful || !other->cell(cell)) return false;
+    flight.cell = std::min(flight.cell, cell);
+  }
+  return true;
+}
+
 /// Several atoms, in one lattice or several: the earliest of their hits.
 template <class OneFlight, class Arch>
 inline void fly_several(const Task& task, Flight& flight) {
@@ -122,13 +136,11 @@ inline void fly_several(const Task& task, Flight& flight) {
   for (std::size_t a = 0; a < atoms.size(); ++a) {  // the smallest obstacle that contains x
     OneFlight* one = flights.started(a, task);
     if (!one) return give_up(flight);
-    const Decision inside = one->inside(task.from);
+    const Decision inside = one->inside(task);
     flight.stage = std::max(flight.stage, one->stage);
     if (inside == Decision::no) continue;
     if (inside == Decision::doubtful) return give_up(flight);
-    flight.outcome = Outcome::inside;
-    flight.lattice = atoms[a].lattice, flight.atom = atoms[a].atom;
-    if (!one->cell(flight.cell)) give_up(flight);
+    if (!name_containing(*one, flights, a, task, flight)) give_up(flight);
     return;
   }
   flights.keep();
@@ -138,15 +150,15 @@ inline void fly_several(const Task& task, Flight& flight) {
   std::optional<Direction> own;
   double limit = task.search_time;
   for (std::size_t a = 0; a < atoms.size(); ++a) {
-    if (!task.directions) Direction::set(own, Arch{}, a > 0 ? &atoms[a - 1] : nullptr, atoms[a], task.v);
-    const Direction& to = task.directions ? direction_of<Direction>(*task.directions, a) : *own;
+    Direction::set(own, Arch{}, a > 0 ? &atoms[a - 1] : nullptr, atoms[a], task.ray.v);
     OneFlight* next = flights.started(a, task);
     if (!next) return give_up(flight);
-    next->find(to, task.from, limit);
+    next->find(*own, task, limit);
     flight.stage = std::max(flight.stage, next->stage);
     if (next->outcome == Outcome::undecided) return give_up(flight);
     if (next->outcome == Outcome::never) continue;
-    const Decision sooner = best_lattice ? is_sooner(*next, best, task.v, flight.stage) : Decision::yes;
+    Decision sooner = best_lattice ? is_sooner(*next, best, task.ray.v, flight.stage) : Decision::yes;
+    if (sooner == Decision::doubtful) sooner = comes_first(*next, best, task);
     if (sooner == Decision::doubtful) return give_up(flight);
     if (sooner == Decision::no) continue;
     best = *next, best_lattice = &atoms[a];

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "src/engines/reduction/atom_start.hpp"
 #include "src/engines/reduction/found.hpp"
 #include "src/engines/reduction/one_flight.hpp"
 #include "src/engines/reduction/predicates.hpp"
@@ -19,8 +20,8 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
 
  public:
   Search2(const Bravais& lattice, const Direction2<SplitProduct, kUnit, kBall>& direction,
-          const Offset<SplitProduct, 2>& offset)
-      : Rows(direction, lattice, offset) {}
+          const Offset<SplitProduct, 2>& offset, const UnroundedLook<2, kUnit, kBall>& unrounded)
+      : Rows(direction, lattice, offset), unrounded_(unrounded) {}
 
   Found<2> found;
 
@@ -85,7 +86,7 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
   // A ball with coefficients that need double-double.
   [[gnu::noinline]] Look2 look_far(double n, double m, double h) {
     Wide N[2];
-    bool held = kUnit && kBall && std::fabs(n) < kMaxCoefficient && std::fabs(m) < kMaxCoefficient;
+    bool held = std::fabs(n) < kMaxCoefficient && std::fabs(m) < kMaxCoefficient;
     for (int i = 0; i < 2; ++i) {
       N[i] = Wide(this->anchor_[i]) + Wide::product(n, to_.R.n[i]) + Wide::product(m, to_.L.n[i]);
       held &= std::fabs(to_.R.n[i]) < kMaxCoefficient && std::fabs(N[i].hi) < kMaxCell;
@@ -107,9 +108,10 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
   [[gnu::noinline]] Look2 look_closely(const Integer (&N)[2], double h) {
     found.needs(Stage::double_double);
     auto ball = Rows::look_closely(N);
+    const Wide cell[2] = {Wide(N[0]), Wide(N[1])};
     if constexpr (kUnit && kBall)
-      if (!ball.is_missed && !ball.is_met)
-        look_unrounded<2>(to_.v, {Wide(N[0]), Wide(N[1])}, this->offset_, this->lattice_.radius, ball);
+      look_with_integers<2>(to_.v, cell, this->offset_, this->lattice_.radius, ball);
+    unrounded_.at(cell, ball);
     if (ball.is_missed) return h < 0 || !to_.rises ? Look2::beyond : Look2::before;
     if (!ball.is_met) return Look2::doubtful;
     if (ball.is_behind) return Look2::before;
@@ -124,6 +126,7 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
     return this->start_of_level_row(n, true, m) && look_from(n, m);
   }
 
+  const UnroundedLook<2, kUnit, kBall>& unrounded_;
   const Wide* from_ = nullptr;
   double s_limit_ = 0;
 };

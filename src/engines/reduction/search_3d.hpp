@@ -19,9 +19,9 @@ class Search3 {
 
  public:
   Search3(const Bravais& lattice, const typename Window::Direction& direction,
-          const Offset<SplitProduct, 3>& offset)
+          const Offset<SplitProduct, 3>& offset, const UnroundedLook<3, kUnit, kBall>& unrounded)
       : window_(lattice, direction, offset),
-        candidates_(window_),
+        candidates_(window_, unrounded),
         lines_(window_, candidates_),
         found(candidates_.found) {}
   Search3(const Search3&) = delete;
@@ -48,7 +48,8 @@ class Search3 {
     if constexpr (kUnit && kBall && std::is_same_v<Integer, double>) {
       DirectionOf3<SplitProduct, kUnit, kBall, Wide> direction;
       direction.template set<Arch>(window_.lattice, window_.to.v, true);
-      Search3<Arch, kUnit, kBall, Wide> wide(window_.lattice, direction, window_.offset);
+      Search3<Arch, kUnit, kBall, Wide> wide(window_.lattice, direction, window_.offset,
+                                             candidates_.unrounded);
       wide.candidates_.from = candidates_.from, wide.candidates_.s_limit = s_limit;
       wide.window_.begin = window_.begin;
       Outcome outcome = wide.search(s_limit);
@@ -119,11 +120,8 @@ class Search3 {
   // The obstacles on the line repeat after this s: v . b of a lattice vector b that is exactly parallel to
   // the line.
   double period() const {
-    for (const typename Window::Arm& arm : window_.basis->b) {
-      const double n[3] = {high_of(arm.n[0]), high_of(arm.n[1]), high_of(arm.n[2])};
-      if (arm.p[0] == 0 && arm.p[1] == 0 && is_parallel<SplitProduct, 3>(window_.lattice, window_.to.v, n))
-        return arm.z * window_.basis->length;
-    }
+    for (const typename Window::Arm& arm : window_.basis->b)
+      if (window_.is_parallel(arm)) return arm.z * window_.basis->length;
     return Found<3>::kNothing;
   }
 

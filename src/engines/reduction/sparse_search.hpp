@@ -41,8 +41,13 @@ class SparseSearch {
   Found<D> found;
 
   template <class Direction>
-  SparseSearch(const Bravais& lattice, const Direction& to, const Offset<SplitProduct, D>& offset)
-      : lattice_(lattice), v_{to.v[0], to.v[1], D == 3 ? to.v[2] : 0}, v2_(to.v2), offset_(offset) {}
+  SparseSearch(const Bravais& lattice, const Direction& to, const Offset<SplitProduct, D>& offset,
+               const UnroundedLook<D, false, kBall>& unrounded)
+      : lattice_(lattice),
+        v_{to.v[0], to.v[1], D == 3 ? to.v[2] : 0},
+        v2_(to.v2),
+        offset_(offset),
+        unrounded_(unrounded) {}
 
   Outcome run(const Wide* from, double) {
     from_ = from;
@@ -76,7 +81,8 @@ class SparseSearch {
   bool look_at_only() {
     if (from_) return true;  // the only obstacle is the one that is left
     for (Wide& n : found.N) n = Wide();
-    const Look seen = look_at<D, kBall>(offset_.d, offset_.error, lattice_, v_, v2_, found);
+    const Look seen =
+        look_at<D, kBall>(offset_.d, offset_.error, found.N, lattice_, v_, v2_, unrounded_, found);
     if (seen != Look::met) found.s = Found<D>::kNothing;
     return seen != Look::doubtful;
   }
@@ -188,11 +194,11 @@ class SparseSearch {
     Wide d[D];
     const double error = place_of<false>(lattice_, offset_, N, d);
     Found<D> one;
-    const Look seen = look_at<D, kBall>(d, error, lattice_, v_, v2_, one);
+    std::copy(N, N + D, one.N);
+    const Look seen = look_at<D, kBall>(d, error, one.N, lattice_, v_, v2_, unrounded_, one);
     found.needs(one.stage);
     if (seen != Look::met || found.s + found.s_error < one.s - one.s_error) return seen;
     if (found.any() && !(one.s + one.s_error < found.s - found.s_error)) return Look::doubtful;
-    std::copy(N, N + D, one.N);
     one.stage = found.stage;
     found = one;
     return seen;
@@ -202,6 +208,7 @@ class SparseSearch {
   const Vec v_;
   const double v2_;
   const Offset<SplitProduct, D>& offset_;
+  const UnroundedLook<D, false, kBall>& unrounded_;
   const Wide* from_ = nullptr;
   double seen_v_[D];
   Vector start_;

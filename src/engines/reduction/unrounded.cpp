@@ -82,21 +82,6 @@ bool is_beside(const Vec& normal, const Vec& home, double r) {
   return beside > r * std::sqrt(size2) * (1 + kAmple);
 }
 
-// r^2 |v|^2 - |v x d|^2: the sign is right, and the error at most 4 u of it; 0 if that is not certain.
-double exact_slack(const double (&v)[3], const Wide (&N)[3], const Vec& home, double r) {
-  Expansion d[3], square, slack;
-  for (int k = 0; k < 3; ++k) d[k] = Expansion(N[k].hi), d[k].add(N[k].lo), d[k].add(home[k]);
-  square.add_product(Expansion(r), Expansion(r));
-  slack.add_product(square, dot(v, v));
-  for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    const Expansion across = difference(v[i], d[j], v[j], d[i]);
-    slack.add_product(across, across, -1);
-  }
-  const double value = slack.value();
-  return slack.is_exact() && std::fabs(value) > kFlushedSlack ? value : 0;
-}
-
 }  // namespace
 
 // v = m bit + rest: the products of m with the cell are integers, and the others are small.
@@ -140,11 +125,7 @@ double close_slack(const double (&v)[3], const Wide (&N)[3], const Vec& home, do
   const Wide rho2 = Wide::product(r, r) * speed2;
   const double terms = rho2.hi + across2.hi + std::sqrt(across2.hi * speed2.hi) * from_origin;
   error = 4 * kCross * kRoundoff * kRoundoff * terms + kFlushedSlack;
-  const double slack = (rho2 - across2).hi;
-  if (std::fabs(slack) > error) return slack;
-  const double exact = exact_slack(v, N, home, r);
-  error = exact == 0 ? error : kUnroundedPlace * kRoundoff * std::fabs(exact);
-  return exact;
+  return (rho2 - across2).hi;
 }
 
 bool stays_between_planes(const double (&v)[3], const Vec& home, double r) {

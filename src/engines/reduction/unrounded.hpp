@@ -16,8 +16,7 @@ bool set_cross(const double (&v)[3], const Wide (&N)[3], const Vec& home, Wide (
 /// set_cross grants |v|. For turned velocities.
 void unrounded_place(const double (&v)[3], const Wide (&N)[3], const Vec& home, double begin, Vec& place);
 
-/// r^2 |v|^2 - |v x d|^2 and a bound on its error: from set_cross, or in sums without rounding where that leaves
-/// the sign open.
+/// r^2 |v|^2 - |v x d|^2 and a bound on its error: from set_cross.
 double close_slack(const double (&v)[3], const Wide (&N)[3], const Vec& home, double r, double& error);
 
 /// Is a line in the direction v, through the start of a lattice whose home cell is at `home`, farther than r
@@ -31,9 +30,10 @@ bool stays_between_planes(const double (&v)[3], const Vec& home, double r, const
 
 /// Decides whether the ball of cell N is met where `close` does not.
 template <int D>
-[[gnu::noinline]] void look_unrounded(const double (&v)[D], const Wide (&N)[D],
-                                      const Offset<SplitProduct, D>& offset, double r,
-                                      CloseLook<SplitProduct>& close) {
+[[gnu::noinline]] void look_with_integers(const double (&v)[D], const Wide (&N)[D],
+                                          const Offset<SplitProduct, D>& offset, double r,
+                                          CloseLook<SplitProduct>& close) {
+  if (close.is_missed || close.is_met) return;
   double velocity[3] = {}, error;
   Wide cell[3] = {0, 0, 0};
   Vec home{};

@@ -62,6 +62,12 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall, Integer> {
     return is_exact;
   }
 
+  /// Is this lattice vector exactly parallel to the line?
+  bool is_parallel(const Arm& arm) const {
+    const double n[3] = {high_of(arm.n[0]), high_of(arm.n[1]), high_of(arm.n[2])};
+    return arm.p[0] == 0 && arm.p[1] == 0 && lorentz::is_parallel<SplitProduct, 3>(this->lattice, to.v, n);
+  }
+
  private:
   // Finds an anchor near the middle of the window, in a few steps from the home cell.
   bool find_anchor() {
