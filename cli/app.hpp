@@ -18,7 +18,6 @@ Command demo_command();
 Command bench_command();
 Command scene_command();
 Command flights_command();
-Command survival_command();
 Command trajectory_command();
 Command lyapunov_command();
 Command diffusion_command();

@@ -1,5 +1,4 @@
-// Statistics of several scenes, at several radii, one after the other: `lyapunov`, `diffusion`, `survival`,
-// `flights`.
+// Statistics of several scenes, at several radii, one after the other: `lyapunov`, `diffusion`, `flights`.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@
 #include "src/exchange/exchange_number.hpp"
 #include "src/exchange/exchange_write.hpp"
 #include "src/exchange/nearest_name.hpp"
-#include "statistics/survival/rival.hpp"
+#include "statistics/rival/rival.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -27,7 +27,7 @@ using oracle::Itinerary;
 using oracle::Journey;
 using oracle::JourneyEnd;
 using oracle::kMostBits;
-using survival::Rival;
+using rival::Rival;
 
 struct TrajectoryOptions {
   std::string starts = "-", precision = "binary64";
@@ -207,7 +207,7 @@ void TrajectoryRun::follow(const Id& id, const RationalScene& scene, const Start
     collision(met, rival.get());
     if (picture) {
       ++picture->collisions;
-      picture->path.push_back(survival::place_of(picture->scene, met));
+      picture->path.push_back(rival::place_of(picture->scene, met));
     }
     return true;
   });

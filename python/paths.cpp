@@ -10,7 +10,7 @@
 #include "python/signals.hpp"
 #include "question/engines.hpp"
 #include "question/starts/free_starts.hpp"
-#include "statistics/survival/rival.hpp"
+#include "statistics/rival/rival.hpp"
 
 namespace lorentz::python {
 namespace {
@@ -87,7 +87,7 @@ void follow_together(const Scene& scene, const std::vector<Query>& starts, doubl
 
 void follow_one_by_one(const question::EngineInfo& engine, const Scene& scene,
                        const std::vector<Query>& starts, double until, Precision precision, Paths& paths) {
-  const AskFirstHit ask = survival::asking(engine, scene);
+  const AskFirstHit ask = rival::asking(engine, scene);
   SignalWatch watch;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     Trajectory trajectory(ask, scene, starts[i], precision);

@@ -1,9 +1,8 @@
-// Statistics of trajectories: Lyapunov exponents, diffusion, and how long computed trajectories stay right.
+// Statistics of trajectories: Lyapunov exponents, diffusion.
 #include "python/engine.hpp"
 #include "python/signals.hpp"
 #include "statistics/chaos/diffusion.hpp"
 #include "statistics/chaos/lyapunov.hpp"
-#include "statistics/survival/survival.hpp"
 
 namespace lorentz::python {
 namespace {
@@ -28,15 +27,6 @@ std::string diffusion(const PyScene& scene, std::uint64_t count, double time, co
   });
 }
 
-// The report of `lorentz survival --json`.
-std::string survival_of(const PyScene& scene, std::uint64_t count, std::uint64_t collisions,
-                        const std::vector<long>& bits, const std::string& engine, std::uint64_t seed) {
-  const survival::SurvivalPlan plan{
-      "",  scene.crystal("right collisions are counted"), {}, own_engine(engine), count, collisions, seed,
-      bits};
-  return found_by([&](std::atomic<bool>& stop) { return survival::survival_of(plan, stop).json(); });
-}
-
 }  // namespace
 
 void bind_statistics(py::module_& module) {
@@ -44,8 +34,6 @@ void bind_statistics(py::module_& module) {
              py::arg("seed"), py::arg("jobs"));
   module.def("diffusion", diffusion, py::arg("scene"), py::arg("count"), py::arg("time"), py::arg("start"),
              py::arg("seed"), py::arg("jobs"));
-  module.def("survival", survival_of, py::arg("scene"), py::arg("count"), py::arg("collisions"),
-             py::arg("bits"), py::arg("engine"), py::arg("seed"));
 }
 
 }  // namespace lorentz::python

@@ -91,27 +91,6 @@ class Itinerary {
   Pimpl<const Impl> impl_;
 };
 
-/// A trajectory in plain arithmetic of `bits` bits: the same formulas, every result rounded to nearest, the
-/// next obstacle decided exactly for the rounded state. Nothing about it is certain; it is to be compared
-/// with certified itineraries.
-class RoundedItinerary {
- public:
-  /// `scene` and `start` are as for Itinerary and Itinerary::follow. Throws InputError
-  /// if they have a flaw, or if `bits` is below 2 or above kMostBits.
-  RoundedItinerary(const RationalScene& scene, const Start& start, long bits);
-  RoundedItinerary(RoundedItinerary&&) noexcept;
-  RoundedItinerary& operator=(RoundedItinerary&&) noexcept;
-  ~RoundedItinerary();
-
-  /// The next obstacle; nothing if the particle hits none, or lies inside one.
-  std::optional<ObstacleId> next();
-
-  struct Impl;
-
- private:
-  Pimpl<Impl> impl_;
-};
-
 /// The nearest binary64 of every number: the problem as binary64 programs see it. Numbers beyond binary64's
 /// range become infinite, which makes the result invalid (flaw_of). `degrees` become a velocity. Throws
 /// std::domain_error if a denominator is 0.

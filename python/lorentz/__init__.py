@@ -1,7 +1,7 @@
 """The periodic Lorentz gas, exactly: which obstacle is hit first?
 
 `first_hit` answers arrays of queries; `oracle` answers exactly, one query at a time. `trajectories` and
-`itinerary` follow particles. `flights` counts free paths. `lyapunov`, `diffusion` and `survival` compute
+`itinerary` follow particles. `flights` counts free paths. `lyapunov` and `diffusion` compute
 statistics of trajectories. `horizon` finds the channels that are never blocked. `judge` reports the errors of
 an engine, and `golden` has hard queries that break engines. docs/python.md has examples of all of them.
 """
@@ -23,8 +23,7 @@ from ._numbers import Number, Obstacle, Vector
 from ._paths import (STOPS, CertifiedCollision, Itinerary, Paths, Starts, draw_starts, itinerary,
                      memory_of_trajectories, trajectories)
 from ._scene import Scene, SceneLike, catalogue, unit_scene
-from ._statistics import (Diffusion, Estimate, Lyapunov, Survival, diffusion, lyapunov, scan,
-                          survival)
+from ._statistics import Diffusion, Estimate, Lyapunov, diffusion, lyapunov, scan
 from . import oracle
 from .oracle import judge_answer
 
@@ -36,10 +35,10 @@ __version__: str = _lorentz.VERSION
 __all__ = [
     "Answer", "Answers", "Certificate", "CertifiedCollision", "Diffusion", "Engine", "Error", "Estimate",
     "ExactTime", "FileError", "FreePaths", "GoldenRecord", "GoldenSet", "Itinerary", "Lyapunov", "Number",
-    "Obstacle", "Outcome", "Paths", "STOPS", "Scene", "SceneLike", "Starts", "Survival", "UnsupportedError",
+    "Obstacle", "Outcome", "Paths", "STOPS", "Scene", "SceneLike", "Starts", "UnsupportedError",
     "Vector", "catalogue", "diffusion", "draw_starts", "engines", "first_hit", "flights", "golden", "golden_sets",
     "hit", "horizon", "inside", "itinerary", "judge", "judge_answer", "laws", "lyapunov", "mean_free_path",
-    "memory_of_trajectories", "never", "oracle", "plot", "scan", "survival", "trajectories", "undecided",
+    "memory_of_trajectories", "never", "oracle", "plot", "scan", "trajectories", "undecided",
     "unit_scene", "unsupported",
 ]
 

@@ -106,8 +106,8 @@ def trajectories(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, collision
         ``lattice``, ``atom`` (N, K) and ``cell`` (N, K, d); ``count`` (N,), the number of collisions, and
         ``stop_code`` (N,), an index into `STOPS`.
 
-    A Lorentz gas is chaotic: a path in floats is right only for its first collisions (`survival` gives their
-    number). `itinerary` is certified.
+    A Lorentz gas is chaotic: a path in floats is right only for its first collisions. `itinerary` is
+    certified.
 
     Raises:
         Error: a row is not a start; the message has its number. Or the result does not fit into memory

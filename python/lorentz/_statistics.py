@@ -1,4 +1,4 @@
-"""Statistics of many trajectories: Lyapunov exponents, diffusion, how long they stay right; and scans."""
+"""Statistics of many trajectories: Lyapunov exponents, diffusion; and scans."""
 
 from __future__ import annotations
 
@@ -115,32 +115,6 @@ class Diffusion(Reported):
         return Estimate(self.report["D"], self.report["D_error"])
 
 
-@dataclass(frozen=True, repr=False)
-class Survival(Reported):
-    """How many collisions of trajectories are right. ``report`` is the report of `lorentz survival --json`."""
-
-    @property
-    def right(self) -> dict[int, list[int]]:
-        """By bits of the arithmetic: for each start the number of collisions before the first wrong one."""
-        return {one["bits"]: one["right"] for one in self.report["arithmetics"]}
-
-    def share(self, bits: int, collisions: int) -> float:
-        """The share of starts with at least ``collisions`` right collisions in arithmetic of ``bits`` bits."""
-        if bits not in self.right:
-            raise Error(f"bits: {bits!r} is not one of {', '.join(map(str, self.right))}")
-        right = self.right[bits]
-        return sum(n >= collisions for n in right) / len(right)
-
-    def to_dict(self) -> dict[str, Any]:
-        """One row of a table: the mean number of right collisions of each arithmetic."""
-        means = {f"mean_of_{one['bits']}_bits": float(one["mean"]) for one in self.report["arithmetics"]}
-        return single_numbers(self.report) | means
-
-    def __repr__(self) -> str:
-        told = ", ".join(f"{one['mean']:.4g} in {one['bits']} bits" for one in self.report["arithmetics"])
-        return f"Survival(right collisions, the mean of {self.report['count']} starts: {told})"
-
-
 def lyapunov(scene: SceneLike, radius: Number | None = None, *, collisions: int = 1_000_000, spectrum: bool = False,
              seed: int = SEED, jobs: int = 1) -> Lyapunov:
     """Lyapunov exponents with standard errors, and theory for comparison.
@@ -183,38 +157,13 @@ def diffusion(scene: SceneLike, radius: Number | None = None, *, count: int = 10
         _jobs(jobs)), place))
 
 
-def survival(scene: SceneLike, radius: Number | None = None, *, count: int = 100, collisions: int = 500,
-             bits: Sequence[int] = (53, 106, 128, 256), engine: str = "reduction", seed: int = SEED) -> Survival:
-    """How many collisions of a trajectory are right in floating point.
-
-    Args:
-        scene, radius: as of `lorentz.first_hit`.
-        count: the number of starts. Each is followed with certainty, and in each arithmetic until that hits a
-            wrong obstacle.
-        collisions: the most collisions of each start.
-        bits: the arithmetics: 53 is the engine in binary64, 106 in double-double, any other number is plain
-            arithmetic with that many bits.
-        engine: the engine of the binary64 and double-double trajectories.
-        seed: the seed of the starts, which are on the obstacles.
-
-    Source: docs/itineraries.md. Raises as `lyapunov` does.
-    """
-    place = Scene(scene, radius)
-    widths = [whole(width, "bits", 24, 100_000) for width in items(bits, "bits")]
-    if not widths:
-        raise Error("bits: needs at least one number")
-    return Survival(place, report_of(_lorentz.survival(
-        native(place), whole(count, "count", 1, 10**7), whole(collisions, "collisions", 1, 10**6), widths, word(engine, "engine"),
-        _seed(seed)), place))
-
-
 def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLike]],
          radii: Number | Iterable[Number] | None = None, *, on_error: str = "raise",
          **options: Any) -> list[dict[str, Any]]:
     """A table of the results of a function for each scene at each radius.
 
     Args:
-        function: `lyapunov`, `diffusion`, `survival`, `flights`, `mean_free_path`, `horizon`, or another
+        function: `lyapunov`, `diffusion`, `flights`, `mean_free_path`, `horizon`, or another
             function of a scene and a radius.
         scenes: one scene, or a list of scenes.
         radii: every ball gets each of these in turn; without radii the scenes are unchanged.

@@ -26,9 +26,9 @@ from ._lorentz import Error
 from ._numbers import Obstacle, finite
 from ._paths import Itinerary, Paths
 from ._scene import Scene, SceneLike, common_radius, scene_of
-from ._statistics import Diffusion, Survival
+from ._statistics import Diffusion
 
-__all__ = ["displacements", "flights", "free_paths", "scene", "survival", "survival_function", "trajectory"]
+__all__ = ["displacements", "flights", "free_paths", "scene", "survival_function", "trajectory"]
 
 #: Colours of the obstacles of lattice 0, 1, ..; lines have the other colours.
 OBSTACLES = ("#9db4c8", "#d8b48c", "#a9c9a4", "#c9a9c6")
@@ -140,17 +140,6 @@ def survival_function(runs: Runs, *, ax: Any = None) -> Any:
                       label=name if number == 0 else None)
         ax.loglog(t, measured[seen], ".", color=_colour(number), markersize=4, label=label)
     return _explained(ax, "t", "P(free path > t)")
-
-
-def survival(found: Survival, *, ax: Any = None) -> Any:
-    """The share of trajectories that are still right after a number of collisions, for each arithmetic."""
-    _check_kind(found, Survival)
-    ax = _axes(ax)
-    for number, (bits, right) in enumerate(found.right.items()):
-        collisions = np.arange(1, max(right) + 2)
-        shares = [(np.asarray(right) >= k).mean() for k in collisions]
-        ax.plot(collisions, shares, "-", color=_colour(number), label=f"{bits} bits")
-    return _explained(ax, "collisions", "share of starts still right")
 
 
 def displacements(found: Diffusion, *, ax: Any = None) -> Any:

@@ -286,7 +286,6 @@ MANY = np.full((2_000_000, 2), 0.5), np.full((2_000_000, 2), 0.3)
     lambda: lorentz.judge("reduction", time=60),
     lambda: lorentz.lyapunov("square", 0.2, collisions=10**9),
     lambda: lorentz.diffusion("square", 0.2, count=10**8),
-    lambda: lorentz.survival("square", 0.1, count=10**6),
 ])
 def test_an_interrupt_comes_through(work):
     begin = []

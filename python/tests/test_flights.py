@@ -69,7 +69,7 @@ def test_bad_arguments(call, text):
 
 def test_reports_name_their_scene():
     crystal = lorentz.Scene("triangular", 0.45)
-    found = (lorentz.flights(crystal, count=10), lorentz.lyapunov(crystal, collisions=100), lorentz.survival(crystal, count=2, bits=[53]),
+    found = (lorentz.flights(crystal, count=10), lorentz.lyapunov(crystal, collisions=100),
              lorentz.diffusion(crystal, count=10, max_time=2))
     assert {one.report["scene"] for one in found} == {lorentz.horizon(crystal)["scene"]} == {"triangular"}
     assert lorentz.flights(lorentz.unit_scene(2, 0.1), count=10).report["scene"] is None

@@ -37,8 +37,6 @@ CALLS = [
     (lorentz.lyapunov, dict(scene=SCENE, radius=0.2, collisions=10, seed=1, jobs=1), "scene radius collisions seed jobs"),
     (lorentz.diffusion, dict(scene=SCENE, radius=0.2, count=5, max_time=2.0, start="uniform", seed=1, jobs=1),
      "scene radius count max_time start seed jobs"),
-    (lorentz.survival, dict(scene=SCENE, radius=0.2, count=2, collisions=5, bits=[53], engine="reduction", seed=1),
-     "scene radius count collisions bits engine seed"),
     (lorentz.scan, dict(function=lorentz.mean_free_path, scenes=SCENE, radii=[0.1]), "scenes radii"),
     (lorentz.oracle.first_hit, dict(scene=SCENE, x=X, v=V, start_from=None, digits=0, max_time=5.0),
      "scene x v start_from digits max_time"),

@@ -133,10 +133,6 @@ def test_labels_of_free_paths_name_what_differs():
 
 
 def test_statistics_of_trajectories(tmp_path):
-    lasting = lorentz.survival("square", 0.1, count=20, bits=[53, 128], seed=SEED)
-    ax = lorentz.plot.survival(lasting)
-    assert labels(ax) == ["53 bits", "128 bits"]
-    assert ax.lines[0].get_ydata()[0] == lasting.share(53, 1) and ax.lines[0].get_ydata()[-1] == 0
     found = lorentz.diffusion("triangular", 0.45, count=2000, max_time=20, seed=SEED)
     ax = lorentz.plot.displacements(found)
     assert ax.lines[0].get_ydata()[-1] == pytest.approx(found.displacements[-1].value / (4 * 20))
@@ -145,8 +141,8 @@ def test_statistics_of_trajectories(tmp_path):
 
 
 def test_what_cannot_be_drawn():
-    for draw, name in ((lorentz.plot.survival, "found"), (lorentz.plot.displacements, "found"),
-                       (lorentz.plot.free_paths, "runs"), (lorentz.plot.survival_function, "runs")):
+    for draw, name in ((lorentz.plot.displacements, "found"), (lorentz.plot.free_paths, "runs"),
+                       (lorentz.plot.survival_function, "runs")):
         for odd in ([], [1], {"a": 1}):
             with pytest.raises(lorentz.Error, match=f"{name}: needs what lorentz"):
                 draw(odd)

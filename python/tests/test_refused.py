@@ -115,14 +115,11 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("max_time: True", lambda: lorentz.itinerary(SQUARE, X, V, max_time=True)),
     ("every: 0 ", lambda: lorentz.trajectories(SQUARE, [X], [V], 3, every=0)),
     ("every: 'first'", lambda: lorentz.trajectories(SQUARE, [X], [V], 3, every="first")),  # type: ignore[arg-type]
-    ("bits: needs", lambda: lorentz.survival(SQUARE, bits=())),
-    ("bits: 23 ", lambda: lorentz.survival(SQUARE, bits=[53, 23])),
     ("jobs: 0 ", lambda: lorentz.lyapunov(SQUARE, jobs=0)),
     ("collisions: 0 ", lambda: lorentz.lyapunov(SQUARE, collisions=0)),
     ("max_time: None", lambda: lorentz.diffusion(SQUARE, max_time=None)),  # type: ignore[arg-type]
     ("max_time: inf", lambda: lorentz.diffusion(SQUARE, max_time=math.inf)),
     ("start", lambda: lorentz.diffusion(SQUARE, start="nowhere")),
-    ("engine: arrays", lambda: lorentz.survival(SQUARE, engine="cmd:cat")),
     ("times: ", lambda: lorentz.laws("square", "x")),
     ("box: ", lambda: lorentz.plot.scene("square", (1, 0, 0, 1))),
     ("particle: there is no 1", lambda: lorentz.plot.trajectory(SQUARE, X, lorentz.trajectories(SQUARE, [X], [V], 2), 1)),
@@ -137,7 +134,6 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("^start_from names lattice 7", lambda: oracle.margin(SQUARE, X, V, start_from=(7, 0, (0, 0)))),
     ("^start_from.cell: has 3", lambda: oracle.first_hit(SQUARE, X, V, start_from=(0, 0, (0, 0, 0)))),
     ("^start: \"surfaces\"", lambda: lorentz.draw_starts(SQUARE, 1, "surfaces")),
-    ("bits: 64 is not one of 53, 106$", lambda: lorentz.survival(SQUARE, count=1, bits=[53, 106]).share(64, 3)),
     ("engine: .*scene, x, v, start_from", lambda: lorentz.judge(lambda x, v: lorentz.never())),
 ]
 

@@ -52,14 +52,6 @@ def test_estimates():
     assert rows[1] == {"scene": "square", "radius": 0.3, "value": 0.3, "error": 0.1}
 
 
-def test_more_bits_last_longer():
-    found = lorentz.survival("square", 0.1, count=30, bits=[53, 106, 200], seed=SEED)
-    means = [sum(right) / 30 for right in found.right.values()]
-    assert means == sorted(means) and means[0] > 3 and list(found.right) == [53, 106, 200]
-    assert found.share(53, 0) == 1 and found.share(53, 10**6) == 0
-    assert found.to_dict()["mean_of_53_bits"] == pytest.approx(means[0], rel=1e-4)
-
-
 def test_scans():
     rows = lorentz.scan(lorentz.lyapunov, "square", [0.1, 0.2], collisions=5000)
     assert [(row["scene"], row["radius"]) for row in rows] == [("square", 0.1), ("square", 0.2)]
@@ -79,7 +71,7 @@ def test_scans():
 
 @pytest.mark.parametrize("call", [
     lambda scene: lorentz.lyapunov(scene), lambda scene: lorentz.diffusion(scene),
-    lambda scene: lorentz.survival(scene), lambda scene: lorentz.flights(scene)])
+    lambda scene: lorentz.flights(scene)])
 def test_scenes_that_leave_no_statistics(call):
     rows = {"dimension": 2, "lattices": [{"vectors": [[1, 0]], "atoms": [{"position": [0, 0], "radius": 0.25}]}]}
     for scene in (rows, lorentz.unit_scene(2, 0.9)):

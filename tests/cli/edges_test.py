@@ -82,8 +82,6 @@ EDGES = {
     "trajectory": Edge("--scene square --radius 1/3 --time 10 start",
                        "--scene square --radius 1/3 --collisions 1e7 --csv OUT start", ["--csv", "--svg"],
                        "--scene square --time 1 /no/such/file", reports=True),
-    "survival": Edge("--count 2 --collisions 10", "--count 1e6 --csv OUT",
-                     ["--csv", "--html"], "--scene /no/such/file", reports=True),
     "lyapunov": Edge("--collisions 1e4 --radius 0.3", "--collisions 1e12", ["--csv", "--store"],
                      "--scene /no/such/file", reports=True),
     "diffusion": Edge("--count 1e3 --time 5 --radius 0.3", "--count 1e9 --csv OUT", ["--csv", "--store"],

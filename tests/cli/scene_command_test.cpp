@@ -136,9 +136,9 @@ atoms = [{ position = [0, 0], radius = 1 }, { position = [2, 0], radius = 1 },
     CHECK(contains(folder.lorentz(help).out, "Example:"));
 }
 
-TEST_CASE("Flights, exponents and survival refuse scenes that are not crystals", "[cli][scene_command]") {
+TEST_CASE("Flights and exponents refuse scenes that are not crystals", "[cli][scene_command]") {
   const Folder folder;
-  for (const char* command : {"flights --count 100", "lyapunov", "diffusion", "survival"}) {
+  for (const char* command : {"flights --count 100", "lyapunov", "diffusion"}) {
     const Run run = folder.lorentz(std::string(command) + " --scene layer");
     INFO(command << run.err);
     CHECK((run.status == 2 && run.out.empty()));

@@ -142,11 +142,6 @@ class Signals(unittest.TestCase):
             run = self.ended("lyapunov --radius 0.3 --collisions 2e7 --json", part_done, number)
             self.assertFalse(json.loads(run.out)["whole"])
 
-    def test_survival(self):
-        for number in WORDS:
-            self.ended("survival --count 1e6 --collisions 20 --csv s.csv", part_done, number)
-            self.assertGreater(len(self.rows("s.csv")), 1)
-
     def test_trajectory(self):
         for number in WORDS:
             words = "trajectory --scene square --radius 1/3 --collisions 1e7 --csv t.csv --svg t.svg start"

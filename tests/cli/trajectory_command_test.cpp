@@ -1,4 +1,4 @@
-// lorentz trajectory and lorentz survival, as their users call them.
+// lorentz trajectory, as its users call it.
 #include <catch2/catch.hpp>
 
 #include "report/page.hpp"
@@ -175,39 +175,6 @@ TEST_CASE("trajectory: what no precision decides says so", "[cli][trajectory]") 
   CHECK(run.status == 0);
   CHECK(run.out == "{\"id\":null,\"end\":\"undecided\",\"collisions\":0,\"bits\":2000}\n");
   CHECK(contains(run.err, "undecided at collision 1 with 2000 bits"));
-}
-
-TEST_CASE("survival: more bits, more right collisions", "[cli][survival]") {
-  const Folder folder;
-  const Run run =
-      folder.lorentz("survival --scene square --radius 0.1 --count 40 --json --csv " + folder.file("table"));
-  CHECK(run.status == 0);
-  // A collision costs lambda / ln 2 = 6.6 bits: 53 bits make 8, and 106, 128, 256 as many more.
-  const auto mean = [&](const std::string& bits) {
-    const std::string key = "{\"bits\":" + bits + ",\"mean\":";
-    const std::size_t at = run.out.find(key);
-    REQUIRE(at != std::string::npos);
-    return std::stod(run.out.substr(at + key.size()));
-  };
-  CHECK(mean("53") == Approx(8.1).margin(0.8));
-  CHECK(mean("106") == Approx(16.3).margin(1));
-  CHECK(mean("128") == Approx(19.3).margin(1));
-  CHECK(mean("256") == Approx(38.7).margin(1.2));
-  CHECK(folder.read("table").starts_with("collision,bits53,bits106,bits128,bits256\n1,1,1,1,1\n"));
-  CHECK(folder.lorentz("survival --count 0").status == 2);
-  CHECK(folder.lorentz("survival --bits 5").status == 2);
-}
-
-TEST_CASE("survival says nothing of collisions beyond those that it looked at", "[cli][survival]") {
-  const Folder folder;
-  const Run run =
-      folder.lorentz("survival --radius 0.4 --count 4 --collisions 3 --bits 256 --csv " + folder.file("csv") +
-                     (report::has_page() ? " --html " + folder.file("html") : ""));
-  INFO(run.out << run.err);
-  REQUIRE(run.status == 0);
-  CHECK(contains(run.out, "some starts were right to the end, 3 collisions: there the mean is too small"));
-  CHECK(folder.read("csv") == "collision,bits256\n1,1\n2,1\n3,1\n");
-  CHECK_FALSE(contains(folder.lorentz("survival --radius 0.1 --count 4 --bits 53").out, "too small"));
 }
 
 TEST_CASE("trajectory ends where the particle escapes for ever", "[cli][trajectory]") {

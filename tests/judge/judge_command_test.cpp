@@ -245,7 +245,7 @@ TEST_CASE("judge --golden: the simplest case of each fault is a set", "[judge][j
   CHECK(contains(check.out, "\"agree\":"));
 }
 
-TEST_CASE("flights and survival make pages of their curves", "[judge][judge_command]") {
+TEST_CASE("flights makes pages of its curves", "[judge][judge_command]") {
   if (!lorentz::report::has_page()) return;
   const Folder folder;
   CHECK(
@@ -258,11 +258,4 @@ TEST_CASE("flights and survival make pages of their curves", "[judge][judge_comm
                  R"("free_paths":[{"scene":"square","engine":"batch","radius":0.1,"from":"surface",)"));
   CHECK(contains(flights, R"("law":"Boca-Zaharescu, r -)"));
   CHECK(contains(flights, R"({"scene":"square","engine":"batch","radius":0.01,)"));
-  CHECK(
-      folder.lorentz("survival --radius 0.1 --count 20 --bits 53 --html " + folder.file("survival")).status ==
-      0);
-  const std::string survival = folder.read("survival");
-  CHECK(contains(survival,
-                 R"("survival":[{"scene":"square","engine":"reduction, binary64","radius":0.1,"points":[)"));
-  CHECK(contains(survival, R"({"collisions":1,"share":1,"low":0.83)"));
 }

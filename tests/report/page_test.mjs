@@ -84,7 +84,6 @@ const EXPECTED = {
     "time-against-radius": { dot: group(r).length, line: 5 },
     "error-histograms": { rect: 9 * bars(r) },
     calls: { rect: 2 }, // of the first engine: all right, but for a few that are undecided
-    survival: { dot: 90, line: 3 },
     "free-paths": { dot: 48, line: 2 },
   }),
   judge: (r) => ({ closeness: { dot: r.findings.length }, difficulties: { dot: faults(r) } }),
@@ -357,7 +356,6 @@ test("Hover shows the numbers of the mark", async () => {
       await hovered(page, "time-against-radius", dot, 0),
       /fit: r\^−0\.0\d\d \(95 %: −0\.\d+ to −?0\.\d+\)/,
     );
-    assert.match(await hovered(page, "survival", dot, 13), /after 14 collisions\s+50\u202f% still right/);
     assert.match(
       await hovered(page, "free-paths", dot, 5),
       /longer than [\d.]+: [\d.]+\u202f%\s+theory: [\d.]+/,
@@ -448,7 +446,6 @@ test("Every chart can be downloaded as SVG and CSV", async () => {
     "time-against-radius": 25,
     "error-histograms": 45,
     calls: 1,
-    survival: 90,
     "free-paths": 48,
     closeness: 12,
     difficulties: 8,

@@ -310,11 +310,6 @@ function bench() {
     worst: null,
     wrong: null,
   });
-  const points = (rate) =>
-    Array.from({ length: 30 }, (_, i) => {
-      const s = 1 / (1 + Math.exp(0.6 * (i + 1 - rate)));
-      return { collisions: i + 1, share: s, low: Math.max(0, s - 0.02), high: Math.min(1, s + 0.02) };
-    });
   return {
     format: 1,
     kind: "bench",
@@ -342,11 +337,6 @@ function bench() {
         { where: "square r=1e-05" },
       ),
     ],
-    survival: [
-      ["reduction", 14],
-      ["float", 6],
-      ["binary128", 28],
-    ].map(([engine, rate]) => ({ scene: "square", radius: 0.1, engine, points: points(rate) })),
     free_paths: [0.1, 0.01].map((radius) => ({
       scene: "square",
       radius,

@@ -165,8 +165,7 @@ except sqlite3.Error:
 
 TEST_CASE("Several scenes and radii give what each gives alone, and one table", "[chaos][chaos_command]") {
   const Folder folder;
-  for (const std::string command : {"lyapunov --collisions 5e3", "diffusion --count 500 --time 5",
-                                    "survival --count 3 --collisions 20 --bits 53,106"}) {
+  for (const std::string command : {"lyapunov --collisions 5e3", "diffusion --count 500 --time 5"}) {
     const auto of = [&](const std::string& places) {
       const Run run = folder.lorentz(command + " --json --csv " + folder.file("csv") + places);
       INFO(run.err);
@@ -198,8 +197,6 @@ TEST_CASE("Several scenes and radii give what each gives alone, and one table", 
   for (const char* command : {"lyapunov", "diffusion"})
     CHECK(contains(folder.lorentz(std::string(command) + " --radius 0.2,0.3 --store " + folder.file("s")).err,
                    "--store: parts are kept of one scene"));
-  CHECK(contains(folder.lorentz("survival --radius 0.2,0.3 --html " + folder.file("s.html")).err,
-                 "--csv has all"));
 }
 
 TEST_CASE("Statistics of trajectories: what cannot be done is said", "[chaos][chaos_command]") {

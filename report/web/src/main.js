@@ -13,7 +13,6 @@ import { callsOfCells } from "./charts/calls.js";
 import { freePaths } from "./charts/free_paths.js";
 import { histograms } from "./charts/histograms.js";
 import { speedError } from "./charts/speed_error.js";
-import { survival } from "./charts/survival.js";
 import { timeRadius } from "./charts/time_radius.js";
 
 const KEYED = { cells: "cell", difficulties: "difficulty", findings: "finding" };
@@ -28,9 +27,7 @@ function readReport() {
 }
 
 function enginesOf(report) {
-  return [...(report.cells ?? []), ...(report.survival ?? [])]
-    .map((row) => row.engine)
-    .concat(report.engine ?? []);
+  return (report.cells ?? []).map((row) => row.engine).concat(report.engine ?? []);
 }
 
 const grid = (...charts) => (charts.some(Boolean) ? h("div", { class: "grid" }, charts) : null);
@@ -47,9 +44,9 @@ function sections(report) {
   );
   const flights = section(
     "flights",
-    "Trajectories and free paths",
+    "Free paths",
     null,
-    grid(survival(report, looks), freePaths(report)),
+    grid(freePaths(report)),
   );
   const failures = failuresSection(report, looks, findings);
   const difficulties = difficultiesSection(report);

@@ -1,4 +1,4 @@
-#include "statistics/survival/rival.hpp"
+#include "statistics/rival/rival.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "question/engines.hpp"
 #include "src/exchange/exchange_number.hpp"
 
-namespace lorentz::survival {
+namespace lorentz::rival {
 namespace {
 
 constexpr double kForEver = std::numeric_limits<double>::infinity();
@@ -118,4 +118,4 @@ Vec place_of(const Scene& scene, const oracle::CertifiedCollision& collision) {
   return place;
 }
 
-}  // namespace lorentz::survival
+}  // namespace lorentz::rival

@@ -11,7 +11,7 @@
 #include "question/answerer.hpp"
 #include "question/engines.hpp"
 
-namespace lorentz::survival {
+namespace lorentz::rival {
 
 /// An engine of this program as the function that a trajectory asks.
 AskFirstHit asking(const question::EngineInfo& engine, const Scene& scene);
@@ -58,4 +58,4 @@ class Rival {
 /// The place of a certified collision, rounded.
 Vec place_of(const Scene& scene, const oracle::CertifiedCollision& collision);
 
-}  // namespace lorentz::survival
+}  // namespace lorentz::rival
