@@ -93,8 +93,7 @@ def install(folder, with_program):
     print("lorentz: building the extension module: some minutes of processor time", file=sys.stderr, flush=True)
     for command in (["cmake", "--log-level=WARNING", "--preset", "python", "-DBUILD_TESTING=OFF", "-DLORENTZ_PYTHON_DIR=.",
                      f"-DLORENTZ_CLI={'ON' if with_program else 'OFF'}", f"-DPython3_EXECUTABLE={sys.executable}",
-                     f"-DLORENTZ_AVX512={'OFF' if is_archive else 'ON'}",
-                     f"-DLORENTZ_FAST_BUILD={'ON' if is_archive else 'OFF'}"],
+                     f"-DLORENTZ_AVX512={'OFF' if is_archive else 'ON'}"],
                     ["cmake", "--build", BUILD, "--target", *targets, "-j", jobs],
                     ["cmake", "--install", BUILD, "--component", "python", "--prefix", folder, "--strip"]):
         subprocess.run(command, cwd=ROOT, check=True)

@@ -50,7 +50,7 @@ struct Task;  // internal: a query with its limit, in the engine's units
 /// 8. The error can be larger if the obstacle is hit within about 1e-16 r of the start.
 ///
 /// Ranges: the engine does not support scenes with very flat cells, or with obstacles that are too small, too
-/// slender, or overlap many of their own copies in other cells. `beyond` tells whether a scene is supported.
+/// slender, or reach over many cells. `beyond` tells whether a scene is supported.
 ///
 /// These queries are `undecided`:
 ///  - queries with numbers so small that products of them underflow, and that the error bounds do not decide;
@@ -98,9 +98,7 @@ class Reduction : public Engine {
   ///
   /// With a finite limit `max_time`, the outcome is `later` if nothing is entered before the limit, whether
   /// or not something is entered afterwards; `never` does not occur. The exact time of the hit is compared
-  /// with the limit. (Rounding may move the reported time to the limit or beyond.) If arithmetic in
-  /// double-double (sums of two binary64) cannot tell whether the exact time is before the limit, the outcome
-  /// is `undecided`.
+  /// with the limit. (Rounding may move the reported time to the limit or beyond.)
   Flight fly(const Query& query, double max_time = std::numeric_limits<double>::infinity(),
              Time time = Time::close) const;
 

@@ -38,18 +38,15 @@ function(lorentz_headers_with_fmt)
 endfunction()
 
 # lorentz_library(NAME SOURCES .. [PUBLIC targets] [PRIVATE targets] [SYSTEM folders of header-only libraries]
-#   [FAST] engines, the oracle's searches, readers: each source by itself, optimised as far as it goes)
+#   [FAST] engines, the oracle's searches, readers: each source by itself, optimised as far as it goes
+#   [PLAIN] commands, reports, families of cases: hardly optimised, because others take their time)
 # The sources of the others are compiled several at a time, which takes half of the time: most of that goes into headers and
 # the templates that they have in common. An unnamed namespace of one source is seen by the next:
 # tests/house/together_test.py refuses what could mean something else there. -DLORENTZ_UNITY=OFF compiles each by itself; CI
 # does so with clang, so that each includes what it uses.
 option(LORENTZ_UNITY "compile several sources of a library at once" ON)
-option(LORENTZ_FAST_BUILD "compile in less time: -O1 for all that is not FAST, fewer garbage collections of GCC" OFF)
-if(LORENTZ_FAST_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  add_compile_options(--param=ggc-min-heapsize=400000)
-endif()
 function(lorentz_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 its "FAST" "" "SOURCES;PUBLIC;PRIVATE;SYSTEM")
+  cmake_parse_arguments(PARSE_ARGV 1 its "FAST;PLAIN" "" "SOURCES;PUBLIC;PRIVATE;SYSTEM")
   set(kind STATIC)
   if(LORENTZ_SHARED)
     set(kind SHARED)
@@ -57,7 +54,7 @@ function(lorentz_library name)
   add_library(${name} ${kind} ${its_SOURCES})
   lorentz_settings(${name})
   if(NOT its_FAST)
-    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O$<IF:$<BOOL:${LORENTZ_FAST_BUILD}>,1,2>>)
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O$<IF:$<BOOL:${its_PLAIN}>,1,2>>)
   endif()
   if(LORENTZ_UNITY AND NOT its_FAST)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)

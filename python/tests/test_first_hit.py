@@ -207,8 +207,8 @@ def test_a_bad_row_is_named(engine):
 
 
 def test_what_an_engine_does_not_do_is_no_fault_of_the_row():
-    query = lorentz.unit_scene(2, 0.6), [[0.5, 0.5]], [[1, 0.1]]
-    with pytest.raises(lorentz.UnsupportedError, match="row 0: .*radi"):
+    query = lorentz.unit_scene(2, 6), [[0.5, 0.5]], [[1, 0.1]]
+    with pytest.raises(lorentz.UnsupportedError, match="row 0: .*reach over"):
         lorentz.first_hit(*query, engine="batch")
     answers = lorentz.first_hit(*query, engine="batch", on_error="mark")
     assert answers.outcome.tolist() == [Outcome.ERROR] and answers.reasons[0][1]

@@ -114,5 +114,5 @@ def test_bad_starts():
         lorentz.itinerary("square", [0.5, 0.5], [1, 0])
     with pytest.raises(lorentz.Error, match="time"):
         lorentz.itinerary("square", [0.5, 0.5], [1, 0], max_time="soon")
-    with pytest.raises(lorentz.Error, match="the engine batch does radii up to half"):
-        lorentz.trajectories(lorentz.unit_scene(2, 0.6), [[0.5, 0.5]], [[1, 0]], 3)
+    with pytest.raises(lorentz.Error, match="the engine batch does not do obstacles"):
+        lorentz.trajectories(lorentz.unit_scene(2, 6), [[0.5, 0.5]], [[1, 0]], 3)

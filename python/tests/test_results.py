@@ -73,7 +73,7 @@ def test_a_row_is_an_answer():
     answers = some_answers()
     assert answers[0] == lorentz.hit(26.950854326278535, (27, 1)) and answers[-5] == answers[0]
     assert answers[1] == answers[-4] == lorentz.hit(4.55e19, (LARGE, 1))
-    beyond = lorentz.first_hit(lorentz.unit_scene(2, 0.6), [0.5, 0.5], [1, 0.1], engine="batch", on_error="mark")
+    beyond = lorentz.first_hit(lorentz.unit_scene(2, 6), [0.5, 0.5], [1, 0.1], engine="batch", on_error="mark")
     assert beyond[0].outcome == "error" and beyond[0].unsupported
     assert answers[2] == lorentz.never() and answers[3] == lorentz.inside((0, 0))
     assert answers[4].outcome == "error" and "v" in answers[4].message and not answers[4].unsupported

@@ -63,10 +63,10 @@ def test_scans():
     assert [row["horizon"] for row in lorentz.scan(lorentz.horizon, "triangular", [0.4, 0.45])] == ["infinite", "finite"]
     assert [row["radius"] for row in lorentz.scan(lorentz.mean_free_path, ["honeycomb", "rock-salt"])] == [0.23, None]
     assert lorentz.scan(lorentz.mean_free_path, "square", 0.2) == lorentz.scan(lorentz.mean_free_path, "square", [0.2])
-    marked = lorentz.scan(lorentz.lyapunov, "square", [0.2, 0.6], collisions=1000, on_error="mark")
-    assert "exponent_1" in marked[0] and "radii up to half" in marked[1]["error"]
-    with pytest.raises(lorentz.Error, match="radii up to half"):
-        lorentz.scan(lorentz.lyapunov, "square", [0.2, 0.6], collisions=1000)
+    marked = lorentz.scan(lorentz.lyapunov, "square", [0.2, 6], collisions=1000, on_error="mark")
+    assert "exponent_1" in marked[0] and "reach over as many cells" in marked[1]["error"]
+    with pytest.raises(lorentz.Error, match="reach over as many cells"):
+        lorentz.scan(lorentz.lyapunov, "square", [0.2, 6], collisions=1000)
 
 
 @pytest.mark.parametrize("call", [

@@ -143,7 +143,7 @@ TEST_CASE("Radii and cells beyond the engine are named, certified does them all 
   CHECK_FALSE(Reduction::beyond(cubic(1e-7)));
   CHECK_FALSE(Reduction::beyond(square(4)));
   CHECK(Reduction::beyond(square(4.001)).value() ==
-        "does not do obstacles that overlap so many of their own translates");
+        "does not do obstacles that reach over as many cells as this one");
   CHECK(Reduction::beyond(square(9e-13)).value() ==
         "does radii from 1e-12 of the shortest lattice vector only");
   CHECK(Reduction::beyond(cubic(9e-8)).value() == "does radii from 1e-7 of the shortest lattice vector only");

@@ -161,6 +161,25 @@ TEST_CASE("Tangents, starts on surfaces and ties are decided", "[engines][unroun
   }
 }
 
+TEST_CASE("A limit at the very time of entry is later", "[engines][unrounded]") {
+  Scene ball = unit_scene(3, 0.25), ellipse = unit_scene(2, 1), single = unit_scene(2, 0.25);
+  ellipse.lattices[0].atoms[0] = {{}, 0, {Vec{0.25, 0, 0}, Vec{0.125, 0.375, 0}}};
+  single.lattices[0].missing = 2, single.lattices[0].vectors = {};
+  for (const Scene& scene : {ball, ellipse, single})
+    for (const double speed : {1.0, 3.0, 0x1p-700, 0x1p700})
+      for (const double x : {-0.5, -0.75}) {
+        const Query query{{x, 0, 0}, {speed, 0, 0}, {}};
+        INFO(stream(scene, query));
+        const Reduction engine(scene);
+        // An ellipse's boundary meets its first axis where the other semiaxis does not count.
+        const double exact = *oracle::Oracle(scene).first_hit(query).time, distance = -x - 0.25;
+        if (exact * speed != distance) continue;
+        CHECK(engine.fly(query, exact).outcome == Outcome::later);
+        CHECK(engine.fly(query, std::nextafter(exact, HUGE_VAL)).outcome == Outcome::hit);
+        CHECK(engine.fly(query, std::nextafter(exact, 0)).outcome == Outcome::later);
+      }
+}
+
 TEST_CASE("A line between two lattice planes is told from one that meets their balls by a hair",
           "[engines][unrounded]") {
   // Along (7, 6, 5) but for ulps of (1, 2, -2): in planes of the normal (-22, 19, 8), whose length is 30.15.

@@ -135,7 +135,7 @@ const std::vector<Room> kHouse{
      {"fmt/"}},
     {"statistics/rival",
      {"src/problem", "src/trajectory", "oracle", "oracle/itinerary"},
-     {"src/problem", "question"},
+     {"src/problem", "src/exchange", "question"},
      {}},
     {"judge/golden",
      {"src/problem", "oracle", "oracle/contacts", "oracle/margin", "oracle/walk", "oracle/certificate",

@@ -202,7 +202,7 @@ TEST_CASE("Several scenes and radii give what each gives alone, and one table", 
 TEST_CASE("Statistics of trajectories: what cannot be done is said", "[chaos][chaos_command]") {
   const Folder folder;
   for (const char* words :
-       {"lyapunov --radius 0.6", "lyapunov --collisions 0", "lyapunov --jobs 0", "lyapunov --seed x",
+       {"lyapunov --radius 6", "lyapunov --collisions 0", "lyapunov --jobs 0", "lyapunov --seed x",
         "lyapunov --radius -1", "diffusion --time 0", "diffusion --time x", "diffusion --from nowhere",
         "diffusion --count 0", "diffusion --scene ellipse --radius 1"}) {
     const Run run = folder.lorentz(words);
@@ -211,7 +211,7 @@ TEST_CASE("Statistics of trajectories: what cannot be done is said", "[chaos][ch
     CHECK(contains(run.err, "lorentz: "));
     CHECK(run.out.empty());
   }
-  CHECK(contains(folder.lorentz("lyapunov --radius 0.6").err, "the engine batch, which does"));
+  CHECK(contains(folder.lorentz("lyapunov --radius 6").err, "the engine batch, which does"));
   CHECK(contains(folder.lorentz("diffusion --from unifrom").err, "uniform?"));
   CHECK(folder.lorentz("diffusion --count 100 --time 5 --csv /nowhere/x").status == 3);
   for (const char* command : {"lyapunov", "diffusion"})
@@ -222,9 +222,9 @@ TEST_CASE("Statistics of trajectories: what cannot be done is said", "[chaos][ch
 TEST_CASE("lorentz diffusion: nothing is told of the few that met nothing", "[chaos][chaos_command]") {
   const Folder folder;
   const char* lattice =
-      "[[lattices]]\nvectors = [[1, 0], [0, 1]]\n[[lattices.atoms]]\nposition = [0, 0]\n"
-      "radius = 0.1\n";  // twice: all obstacles coincide, and no engine says which is hit
-  const std::string scene = folder.write("same.toml", std::string("dimension = 2\n") + lattice + lattice);
+      "[[lattices]]\nvectors = [[1, 0], [0, 1]]\n[[lattices.atoms]]\nposition = [1e15, 0.25]\n"
+      "radius = 0.1\n";  // all starts are beyond 2^44 cells from the atom, and the engine does not know
+  const std::string scene = folder.write("far.toml", std::string("dimension = 2\n") + lattice);
   const Run run = folder.lorentz("diffusion --count 2000 --time 20 --scene " + scene);
   CHECK(run.status == 3);
   CHECK(run.out.empty());

@@ -202,7 +202,7 @@ TEST_CASE("The error of a ratio is that of what its parts depart from it", "[cha
 }
 
 TEST_CASE("Scenes without exponents are refused", "[chaos]") {
-  CHECK_THROWS_AS(lyapunov_of({unit_scene(2, 0.6), 1, 1000, false}), InputError);
+  CHECK_THROWS_AS(lyapunov_of({unit_scene(2, 6), 1, 1000, false}), InputError);
   CHECK_THROWS_AS(lyapunov_of({unit_scene(2, 1e-6), 1, 1000, true}), InputError);  // e^-27 of e^27
   CHECK(lyapunov_of({unit_scene(2, 1e-6), 1, 1000, false}).map[0].value == Approx(27.5).margin(0.1));
 }

@@ -170,8 +170,8 @@ inline constexpr double kMaxLength = 0x1p400, kMaxSpacing = 0x1p60;
 /// this, or numbers of cells leave the exact integers.
 inline constexpr double kSmallestRadius2d = 1e-12, kSmallestRadius3d = 1e-7;
 
-/// Obstacles of one lattice do not overlap, and so are entered in the order of their centres: those of an atom
-/// that do belong to so many lattices at most, each of vectors that are multiples of the scene's.
+/// Obstacles of one lattice do not overlap, and so are entered in the order of their centres. Those of an atom that
+/// do belong to several lattices, at most this number, whose vectors are multiples of the scene's.
 inline constexpr int kMaxLatticesOfAtom = 64;
 
 /// More slender ellipsoids are not done, nor larger or smaller ones, nor those whose metric errs by more than

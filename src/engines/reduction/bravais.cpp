@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr const char* kTooSkewed = "does not do cells as skewed as this one";
-constexpr const char* kOverlap = "does not do obstacles that overlap so many of their own translates";
+constexpr const char* kOverlap = "does not do obstacles that reach over as many cells as this one";
 
 Vec rounded(const WideVec& a) {
   return {a[0].hi, a[1].hi, a[2].hi};

@@ -150,7 +150,18 @@ Expansion UnroundedObstacle::gap() const {
   return gap;
 }
 
-// One is entered at (s - sqrt(slack)) / v^2.
+// It is entered at (s - sqrt(slack)) / v^2.
+Decision is_entered_before(const UnroundedObstacle& obstacle, double time) {
+  Expansion late = obstacle.along(), difference;
+  late.add_product(dot(obstacle.v_, obstacle.v_), Expansion(time), -1);
+  const auto sign = sign_of(late);
+  if (sign && *sign < 0) return Decision::yes;
+  difference.add_product(late, late);
+  difference.add_product(obstacle.slack(), Expansion(-1));
+  const auto order = sign_of(difference);
+  return !sign || !order ? Decision::doubtful : *order < 0 ? Decision::yes : Decision::no;
+}
+
 std::optional<std::strong_ordering> order_of_entry(const UnroundedObstacle& one,
                                                    const UnroundedObstacle& other) {
   Expansion a, slack = one.slack(), other_slack = other.slack();

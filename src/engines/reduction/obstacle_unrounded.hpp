@@ -29,6 +29,8 @@ class UnroundedObstacle {
   /// A slack in the units of the engine, by which it is this one's value.
   double slack_scale() const { return slack_scale_; }
 
+  /// Is it entered at a time below this one? For an obstacle that the line meets.
+  friend Decision is_entered_before(const UnroundedObstacle& obstacle, double time);
   /// The order in which two that the line meets are entered.
   friend std::optional<std::strong_ordering> order_of_entry(const UnroundedObstacle& one,
                                                             const UnroundedObstacle& other);

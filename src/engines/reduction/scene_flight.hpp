@@ -50,8 +50,10 @@ inline Decision is_sooner(const OneFlight& one, const Other& other, const Vec& v
 template <class AtomFlight>
 [[gnu::noinline]] bool keep_limit(const AtomFlight& found, const Task& task, Flight& flight) {
   // No time is below zero, whatever it errs by.
-  const Decision sooner =
+  Decision sooner =
       task.max_time > 0 ? is_sooner(found, TimeLimit{task.max_time}, task.ray.v, flight.stage) : Decision::no;
+  if (sooner == Decision::doubtful)
+    if (const auto obstacle = found.unrounded(task)) sooner = is_entered_before(*obstacle, task.max_time);
   if (sooner == Decision::no) flight.outcome = Outcome::never;
   return sooner != Decision::doubtful;
 }
