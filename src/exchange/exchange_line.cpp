@@ -39,11 +39,11 @@ int read_index(json::Value value, const std::string& place) {
 }
 
 // Returns the number of coordinates.
-std::size_t read_cell(json::Value value, Cell& cell) {
-  if (value.type() != json::Type::array) throw InputError("cell: needs an array of integers");
+std::size_t read_cell(json::Value value, const std::string& place, Cell& cell) {
+  if (value.type() != json::Type::array) throw InputError(place + ": needs an array of integers");
   std::size_t count = 0;
   json::each_element(value, [&](json::Value element) {
-    Integer n = read_integer(element, "cell");
+    Integer n = read_integer(element, place.c_str());
     if (count < cell.size()) cell[count] = std::move(n);
     ++count;
   });
@@ -83,7 +83,7 @@ bool ObstacleRead::read(std::string_view key, json::Value value, const std::stri
     obstacle.atom = read_index(value, place + "atom");
     atom = true;
   } else if (key == "cell") {
-    components = read_cell(value, obstacle.cell);
+    components = read_cell(value, place + "cell", obstacle.cell);
     cell = true;
   } else {
     return false;

@@ -178,6 +178,23 @@ TEST_CASE("A limit at the very time of entry is later", "[engines][unrounded]") 
         CHECK(engine.fly(query, std::nextafter(exact, HUGE_VAL)).outcome == Outcome::hit);
         CHECK(engine.fly(query, std::nextafter(exact, 0)).outcome == Outcome::later);
       }
+  const Query inwards{{0.25, 0, 0}, {-1, 0, 0}, {}};  // on the surface: at once
+  for (const double limit : {5e-324, 1e-300, 1e-17, 1.0})
+    CHECK(Reduction(ball).fly(inwards, limit).outcome == Outcome::hit);
+}
+
+TEST_CASE("No time is below zero, not even by a rounding", "[engines][unrounded]") {
+  Scene upright = unit_scene(2, 1), turned = upright;
+  upright.lattices[0].atoms[0] = {{0, 0.5, 0}, 0, {Vec{-0.3125, -0.9375, 0}, Vec{0.3125, 0, 0}}};
+  turned.lattices[0].vectors = {Vec{0.6, 0.8, 0}, Vec{-0.8, 0.6, 0}};
+  turned.lattices[0].atoms[0] = {
+      {0.8798076923076923, -0.2692307692307692, 0}, 0, {Vec{0.3125, 0, 0}, Vec{0, 0.5625, 0}}};
+  for (const double speed : {1.0, 0x1p-1074}) {
+    const Flight flight = Reduction(upright).fly({{-0.3125, -2.4375, 0}, {0, speed, 0}, {}});
+    CHECK((flight.outcome == Outcome::hit && flight.time == 0 && !std::signbit(flight.time)));
+  }
+  const Query start{{1, 0.25, 0}, {0.29862431272128587, -0.7538574152266032, 0}, {}};
+  CHECK(Reduction(turned).fly(start).time >= 0);
 }
 
 TEST_CASE("A line between two lattice planes is told from one that meets their balls by a hair",

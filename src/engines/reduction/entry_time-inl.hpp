@@ -103,7 +103,10 @@ class CloseTime {
     else
       return n;
   }
-  LORENTZ_INLINE Number rare() const { return static_cast<const Self&>(*this).rare_time(); }
+  // At least +0, as every time is.
+  LORENTZ_INLINE Number rare() const {
+    return Max(static_cast<const Self&>(*this).rare_time(), all(0)) + all(0);
+  }
 
   LORENTZ_INLINE Number close_of_ball(Mask hit) const {
     const Number q = sqrt(entry_.slack);

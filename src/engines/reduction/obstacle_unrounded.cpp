@@ -154,8 +154,8 @@ Expansion UnroundedObstacle::gap() const {
 Decision is_entered_before(const UnroundedObstacle& obstacle, double time) {
   Expansion late = obstacle.along(), difference;
   late.add_product(dot(obstacle.v_, obstacle.v_), Expansion(time), -1);
-  const auto sign = sign_of(late);
-  if (sign && *sign < 0) return Decision::yes;
+  const auto sign = sign_of(late), outside = sign_of(obstacle.gap());
+  if ((sign && *sign < 0) || (outside && *outside == 0)) return Decision::yes;  // at once, if x is on it
   difference.add_product(late, late);
   difference.add_product(obstacle.slack(), Expansion(-1));
   const auto order = sign_of(difference);

@@ -29,7 +29,7 @@ class UnroundedObstacle {
   /// A slack in the units of the engine, by which it is this one's value.
   double slack_scale() const { return slack_scale_; }
 
-  /// Is it entered at a time below this one? For an obstacle that the line meets.
+  /// Is it entered at a time below this one, which is above 0? For an obstacle that the line meets ahead.
   friend Decision is_entered_before(const UnroundedObstacle& obstacle, double time);
   /// The order in which two that the line meets are entered.
   friend std::optional<std::strong_ordering> order_of_entry(const UnroundedObstacle& one,
