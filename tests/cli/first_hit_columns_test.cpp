@@ -237,15 +237,14 @@ TEST_CASE("Columns: bad rows are errors in their place, and said on stderr", "[c
                                 "d,0.5,0,1,0,,7,0,0,0\n"
                                 "e,0.5,0,1,0,0.25,,,,\n");
   for (const std::string engine : {"oracle", "batch", "certified-batch", "classical"}) {
-    const std::string at_limit = engine == "batch" ? "undecided" : "later";  // the limit is the time
     const Run run =
         folder.lorentz("first-hit --scene square --radius 0.25 --format csv -e " + engine + " " + csv);
     INFO(engine << run.err);
     CHECK(run.status == 2);
     CHECK(run.out ==
           "id,outcome,lattice,atom,cell1,cell2,time\n"
-          "a,hit,0,0,1,0,0.25\nb,error,,,,,\nc,error,,,,,\nd,error,,,,,\ne," +
-              at_limit + ",,,,,\n");
+          "a,hit,0,0,1,0,0.25\nb,error,,,,,\nc,error,,,,,\nd,error,,,,,\n"
+          "e,later,,,,,\n");  // the limit is the time
     CHECK(lines(run.err) == 3);
     CHECK(contains(run.err, "q.csv:3: v is zero"));
     CHECK(contains(run.err, "q.csv:4: column x2: \"zero\" is not a number"));
@@ -264,7 +263,7 @@ TEST_CASE("Columns: bad rows are errors in their place, and said on stderr", "[c
     CHECK(contains(npy.err, "q.npy: row 3: max_time"));
     const std::string data = npy_data(npy.out);
     for (const int row : {1, 2, 3}) CHECK(data.substr(35 * row, 3) == std::string("\5\xff\0", 3));
-    CHECK((data[0] == 0 && data[35 * 4] == (at_limit == "later" ? 3 : 4)));
+    CHECK((data[0] == 0 && data[35 * 4] == 3));
   }
   std::string many = "x1,x2,v1,v2\n";
   for (int i = 0; i < 25; ++i) many += "0,0,0,0\n";
