@@ -142,12 +142,12 @@ template <int D, bool kUnit, bool kBall>
 struct UnroundedLook {
   const Task& task;
   const AtomStart<D, kUnit, kBall>& start;
-  const Octant* octant;  ///< by which the search is turned; null: it is not
 
   [[gnu::noinline]] void at(const Wide (&N)[D], CloseLook<SplitProduct>& close) const {
     if (close.is_missed || (close.is_met && (close.is_behind || close.is_ahead))) return;
     Wide here[D];
-    octant ? octant->undo(N, here) : void(std::copy(N, N + D, here));
+    std::copy(N, N + D, here);
+    if constexpr (kUnit && kBall) Octant(D, task.ray.v).undo(N, here);  // the search is turned
     if (const auto obstacle = start.unrounded(task, here)) look_unrounded(*obstacle, close);
   }
 };

@@ -21,7 +21,7 @@ class Candidates3 {
 
   Found<3> found;
 
-  const UnroundedLook<3, kUnit, kBall>& unrounded;
+  const UnroundedLook<3, kUnit, kBall> unrounded;
   const Wide* from = nullptr;  ///< coefficients of the ball that is being left
   double s_limit = 0;          ///< balls that are entered after it may be ignored
 

@@ -77,9 +77,8 @@ class AtomFlight {
     const double s_limit = (max_time * to.direction.v2 + to.direction.s_rho) * (1 + kAmple);
     Offset<SplitProduct, D> turned;
     if constexpr (kTurned) to.octant.apply(start_.offset.d, turned.d), turned.error = start_.offset.error;
-    UnroundedLook<D, kUnit, kBall> unrounded{task, start_, nullptr};
-    if constexpr (kTurned) unrounded.octant = &to.octant;
-    Search search(*start_.lattice, to.direction, kTurned ? turned : start_.offset, unrounded);
+    Search search(*start_.lattice, to.direction, kTurned ? turned : start_.offset,
+                  UnroundedLook<D, kUnit, kBall>{task, start_});
     Wide leaving[D];
     if (task.ray.from && start_.find_from(task.ray.from, leaving)) {
       Wide there[D];

@@ -126,7 +126,7 @@ class Search2 : RowsOf2<Arch, SplitProduct, kUnit, kBall> {
     return this->start_of_level_row(n, true, m) && look_from(n, m);
   }
 
-  const UnroundedLook<2, kUnit, kBall>& unrounded_;
+  const UnroundedLook<2, kUnit, kBall> unrounded_;
   const Wide* from_ = nullptr;
   double s_limit_ = 0;
 };

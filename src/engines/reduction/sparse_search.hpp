@@ -208,7 +208,7 @@ class SparseSearch {
   const Vec v_;
   const double v2_;
   const Offset<SplitProduct, D>& offset_;
-  const UnroundedLook<D, false, kBall>& unrounded_;
+  const UnroundedLook<D, false, kBall> unrounded_;
   const Wide* from_ = nullptr;
   double seen_v_[D];
   Vector start_;

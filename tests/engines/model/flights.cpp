@@ -66,8 +66,7 @@ void fly(const double (&a)[5], const ObstacleId* from) {
     // Whether x lies in `from` makes no difference: what counts is the stage of the search.
     const Ray ray{query.x, query.v, from, query.v};
     const Task task{prepared, ray, query.x, HUGE_VAL, HUGE_VAL, Reduction::Time::close};
-    const UnroundedLook<2, true, true> unrounded{task, start, &to.octant};
-    Search2<SplitProduct, true, true> search(prepared.atoms[0], to.direction, turned, unrounded);
+    Search2<SplitProduct, true, true> search(prepared.atoms[0], to.direction, turned, {task, start});
     to.octant.apply(leaving, there);
     search.run(there, HUGE_VAL);
     stage = search.found.stage;
