@@ -192,10 +192,9 @@ TEST_CASE("A list with an empty item is bad usage, in every option that takes on
   for (const std::string arguments :
        {"flights --count 10 --radius 0.1,,0.2", "flights --count 10 --scene square,,cubic",
         "flights --count 10 --radius 0.1,", "lyapunov --collisions 10 --radius ,0.1", "bench --scene ,",
-        "bench --difficulty drawn,,grazing",
-        "fuzz -e reduction -t never,", "compare --count 5 -e reduction,,batch",
-        "golden check -e ,reduction ties", "scene draw square --window 0,0,1,",
-        "scene draw square --window 0,,1,1"}) {
+        "bench --difficulty drawn,,grazing", "fuzz -e reduction -t never,",
+        "compare --count 5 -e reduction,,batch", "golden check -e ,reduction ties",
+        "scene draw square --window 0,0,1,", "scene draw square --window 0,,1,1"}) {
     const Run run = folder.lorentz(arguments);
     INFO(arguments << '\n' << run.err);
     CHECK(run.status == 2);
