@@ -1,6 +1,7 @@
 // Statistics of trajectories: Lyapunov exponents, diffusion.
 #include "python/engine.hpp"
 #include "python/signals.hpp"
+#include "question/starts/free_starts.hpp"
 #include "statistics/chaos/diffusion.hpp"
 #include "statistics/chaos/lyapunov.hpp"
 
