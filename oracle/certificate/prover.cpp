@@ -53,25 +53,9 @@ std::array<ZVec<3>, 3> completed(const ZVec<3>& n) {
 
 // The inner product of the parts of two vectors across v, times v^2.
 template <std::size_t D>
-struct AcrossForm {
-  const ExactVelocity<D>& velocity;
-  Z operator()(const LatticePoint<D>& a, const LatticePoint<D>& b) const {
-    return velocity.v2 * dot(a.p, b.p) - dot(velocity.v, a.p) * dot(velocity.v, b.p);
-  }
-};
-
-// The same, plus the product of the parts along v, scaled so that the window is as long as it is wide.
-template <std::size_t D>
-struct WindowForm {
-  AcrossForm<D> across;
-  Z wide2, long2;  // squares for h and for s; long2 = 0: a window without an end
-
-  Z operator()(const LatticePoint<D>& a, const LatticePoint<D>& b) const {
-    if (long2 == 0) return across(a, b);
-    const ZVec<D>& v = across.velocity.v;
-    return long2 * across(a, b) + wide2 * (dot(v, a.p) * dot(v, b.p));
-  }
-};
+Z across(const ExactVelocity<D>& velocity, const LatticePoint<D>& a, const LatticePoint<D>& b) {
+  return velocity.v2 * dot(a.p, b.p) - dot(velocity.v, a.p) * dot(velocity.v, b.p);
+}
 
 // Makes the vectors `first` and `first` + 1 a short pair.
 template <std::size_t D, class Form>
@@ -152,11 +136,16 @@ class Writer {
   // has few rows.
   void add_one(const SeenAtom<D>& seen, const Z& low, const std::optional<Z>& high) {
     Basis<D> basis = seen.view.basis;
-    if (seen.view.rank == 2) {
-      const Z length = high ? Z(*high - low) : Z(0);
-      shorten_pair(basis, 0,
-                   WindowForm<D>{{seen.view.velocity}, 4 * seen.rho_above * seen.rho_above, length * length});
-    }
+    // The form of a window with an end is scaled so that the window is as long as it is wide.
+    const Z wide = 2 * seen.rho_above, length = high ? Z(*high - low) : Z(0);
+    const ExactVelocity<D>& velocity = seen.view.velocity;
+    const auto form = [&](const LatticePoint<D>& a, const LatticePoint<D>& b) {
+      const Z apart = across(velocity, a, b);
+      return length > 0
+                 ? Z(length * length * apart + wide * wide * dot(velocity.v, a.p) * dot(velocity.v, b.p))
+                 : apart;
+    };
+    if (seen.view.rank == 2) shorten_pair(basis, 0, form);
     add(seen, low, high, basis);
   }
 
@@ -169,7 +158,8 @@ class Writer {
     Basis<D> basis;
     for (std::size_t i = 0; i < view.rank; ++i)
       for (std::size_t k = 0; k < view.rank; ++k) basis[i].add_multiple(n[i][k], view.basis[k]);
-    if (view.rank == 3) shorten_pair(basis, 1, AcrossForm<D>{view.velocity});
+    if (view.rank == 3)
+      shorten_pair(basis, 1, [&](const auto& a, const auto& b) { return across(view.velocity, a, b); });
     for (std::size_t i = 1; i < view.rank; ++i) shorten_along(basis[0], view.velocity.v, basis[i]);
     certificate_.rows.push_back({seen.lattice, seen.atom, certificate_basis<D>(basis, view.rank)});
   }

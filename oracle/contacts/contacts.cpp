@@ -45,7 +45,7 @@ struct ExactLatticeBodies {
 // obstacles. So its copies (exact_problem.hpp) are in contact with no obstacle.
 template <std::size_t D>
 void reduce_and_complete(Basis<D>& basis, std::size_t rank, const Z& far) {
-  if (rank == D) return reduce(basis, EuclideanForm<D>{});
+  if (rank == D) return reduce(basis, euclidean_form);
   complete<D>(basis, rank);
   for (std::size_t i = rank; i < D; ++i) {
     const Z times = far / floor_sqrt(dot(basis[i].p, basis[i].p)) + 1;
@@ -109,21 +109,14 @@ class PairBudget {
   long steps_;
 };
 
-// a.Q b
-template <std::size_t D>
-struct QuadraticForm {
-  ZMatrix<D> q;
-  Z operator()(const LatticePoint<D>& a, const LatticePoint<D>& b) const { return dot(a.p, q * b.p); }
-};
-
 // A lattice with a quadratic form, and the search for its points near a given one.
 template <std::size_t D>
 class FormLattice {
  public:
-  FormLattice(Basis<D> basis, const ZMatrix<D>& q) : form_{q}, basis_(std::move(basis)) {
-    reduce(basis_, form_);
+  FormLattice(Basis<D> basis, const ZMatrix<D>& q) : q_(q), basis_(std::move(basis)) {
+    reduce(basis_, [this](const LatticePoint<D>& a, const LatticePoint<D>& b) { return form(a, b); });
     for (std::size_t i = 0; i < D; ++i)
-      for (std::size_t k = 0; k < D; ++k) gram_[i][k] = form_(basis_[i], basis_[k]);
+      for (std::size_t k = 0; k < D; ++k) gram_[i][k] = form(basis_[i], basis_[k]);
     minors_[0] = 1;
     for (std::size_t i = 0; i < D; ++i) minors_[i + 1] = bordered(i, gram_[i], gram_[i], gram_[i][i]);
   }
@@ -137,6 +130,9 @@ class FormLattice {
   }
 
  private:
+  // a.Q b
+  Z form(const LatticePoint<D>& a, const LatticePoint<D>& b) const { return dot(a.p, q_ * b.p); }
+
   // The inner product of the parts of u and v perpendicular to the first `level` basis vectors, times the
   // Gram determinant of these vectors. It is the determinant of their Gram matrix bordered by their products
   // with u and v, with u.v in the corner.
@@ -150,11 +146,11 @@ class FormLattice {
   template <class Visit>
   bool visit_level(std::size_t level, const LatticePoint<D>& point, const Z& bound, PairBudget& budget,
                    Visit& visit) const {
-    const Z length2 = form_(point, point);
+    const Z length2 = form(point, point);
     if (level == 0) return visit(point, length2);
     const std::size_t i = level - 1;
     ZVec<D> products;
-    for (std::size_t k = 0; k < level; ++k) products[k] = form_(basis_[k], point);
+    for (std::size_t k = 0; k < level; ++k) products[k] = form(basis_[k], point);
     // a k^2 + 2 h k + c <= bound * minor
     const Z& a = minors_[level];
     const Z h = bordered(i, gram_[i], products, products[i]);
@@ -171,7 +167,7 @@ class FormLattice {
     return false;
   }
 
-  QuadraticForm<D> form_;
+  ZMatrix<D> q_;
   Basis<D> basis_;
   std::array<ZVec<D>, D> gram_;
   std::array<Z, D + 1> minors_;  // Gram determinants of the first 0, 1, .. basis vectors

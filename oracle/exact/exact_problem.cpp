@@ -70,10 +70,10 @@ namespace {
 // A short basis of the first `rank` vectors, completed.
 template <std::size_t D>
 void shorten(Basis<D>& basis, std::size_t rank) {
-  if (rank == D) return reduce(basis, EuclideanForm<D>{});
+  if (rank == D) return reduce(basis, euclidean_form);
   if (rank == 2) {
     std::array<LatticePoint<D>, 2> pair{std::move(basis[0]), std::move(basis[1])};
-    reduce(pair, EuclideanForm<D>{});
+    reduce(pair, euclidean_form);
     basis[0] = std::move(pair[0]), basis[1] = std::move(pair[1]);
   }
   complete<D>(basis, rank);

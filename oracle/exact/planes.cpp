@@ -2,11 +2,6 @@
 
 namespace lorentz::oracle {
 
-PlaneForm PlaneSection::form() const {
-  const long scale = bit_length(z_high - z_low) - bit_length(half_width) - 1;
-  return {std::max(scale, 0L), std::max(-scale, 0L)};
-}
-
 Planes::Planes(const ExactVelocity<3>& velocity, const Z& rho2, const LatticePoint<3>& b1,
                const LatticePoint<3>& b2, const LatticePoint<3>& b3)
     : velocity(velocity), next(b3) {

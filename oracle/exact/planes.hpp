@@ -21,18 +21,12 @@ struct WindowVector {
 
 /// 4^j |h|^2 + s^2 = 4^j v^2 p.p - (4^j - 1) s^2: this form makes a stretch of about 2^(j+1) rho of the
 /// cylinder round.
-class WindowForm {
- public:
-  WindowForm(const ExactVelocity<3>& velocity, long j) : v2_(velocity.v2), bits_(2 * j) {}
-  Z operator()(const WindowVector& a, const WindowVector& b) const {
+inline auto window_form(const ExactVelocity<3>& velocity, long j) {
+  return [&v2 = velocity.v2, j](const WindowVector& a, const WindowVector& b) {
     const Z along = a.s * b.s;
-    return shifted_left(v2_ * dot(a.point.p, b.point.p) - along, bits_) + along;
-  }
-
- private:
-  const Z& v2_;
-  const long bits_;
-};
+    return Z(shifted_left(v2 * dot(a.point.p, b.point.p) - along, 2 * j) + along);
+  };
+}
 
 /// min and max of a and b.
 inline std::pair<Z, Z> ordered(const Z& a, const Z& b) {
@@ -63,14 +57,6 @@ struct PlanePoint {
   }
 };
 
-/// (2^across y)^2 + (2^along z)^2.
-struct PlaneForm {
-  long across = 0, along = 0;
-  Z operator()(const PlanePoint& a, const PlanePoint& b) const {
-    return shifted_left(a.y * b.y, 2 * across) + shifted_left(a.z * b.z, 2 * along);
-  }
-};
-
 /// The section of the cylinder |h| < rho by one plane, within a window of s.
 struct PlaneSection {
   bool empty = true;
@@ -79,7 +65,15 @@ struct PlaneSection {
   Z half_width;            ///< |y| v of its points is at most this
   Z z_low, z_high;         ///< bounds of their z
 
-  PlaneForm form() const;
+  /// (2^i y)^2 + (2^k z)^2, one of i and k 0: the form that makes the section about as wide as it is long.
+  auto form() const {
+    return [scale = bit_length(z_high - z_low) - bit_length(half_width) - 1](const PlanePoint& a,
+                                                                             const PlanePoint& b) {
+      const Z across = a.y * b.y, along = a.z * b.z;
+      return scale > 0 ? Z(shifted_left(across, 2 * scale) + along)
+                       : Z(across + shifted_left(along, -2 * scale));
+    };
+  }
 };
 
 /// The planes spanned by b1 and b2. N = b1 x b2 is normal to them, and e = v x N lies in them, across the

@@ -13,10 +13,7 @@
 namespace lorentz::oracle {
 
 /// a.b
-template <std::size_t D>
-struct EuclideanForm {
-  Z operator()(const LatticePoint<D>& a, const LatticePoint<D>& b) const { return dot(a.p, b.p); }
-};
+inline constexpr auto euclidean_form = [](const auto& a, const auto& b) { return dot(a.p, b.p); };
 
 /// Makes b1, b2 a shortest pair: |b1| <= |b2| and 2 |b1.b2| <= |b1|^2. Takes and updates their inner
 /// products.

@@ -12,16 +12,6 @@ namespace {
 constexpr long kFewRowsOfStretch = 24;
 constexpr long kManyRows = 1000;  // more than expected in a stretch that is no longer than it is wide
 
-// 4^across |h|^2 + 4^along s^2 in the plane.
-struct StripForm {
-  const ExactVelocity<2>& velocity;
-  long across, along;
-  Z operator()(const LatticePoint<2>& a, const LatticePoint<2>& b) const {
-    return shifted_left(cross(velocity.v, a.p) * cross(velocity.v, b.p), 2 * across) +
-           shifted_left(dot(velocity.v, a.p) * dot(velocity.v, b.p), 2 * along);
-  }
-};
-
 // The rows k2 of the window's rectangle, |h| <= reach and low <= s <= high. Let v' be v turned by a right
 // angle. Then v^2 w = s v + h v', so v^2 cross(b1, w) = h s_1 - s h_1 for every point w.
 Range rows_of_strip(const View<2>& view, const Z& reach, const Basis<2>& basis, const Z& low, const Z& high) {
@@ -79,7 +69,12 @@ Count count_rows(const View<3>& view, const Planes& planes, const Basis<3>& basi
 
 template <>
 Z Stretches<2>::shorten(Basis<2>& basis, const Z& low, const Z& high) const {
-  reduce(basis, StripForm{view_.velocity, bit_length(high - low), bit_length(2 * reach_)});
+  const ZVec<2>& v = view_.velocity.v;
+  const long across = bit_length(high - low), along = bit_length(2 * reach_);
+  reduce(basis, [&](const LatticePoint<2>& a, const LatticePoint<2>& b) {  // 4^across |h|^2 + 4^along s^2
+    return Z(shifted_left(cross(v, a.p) * cross(v, b.p), 2 * across) +
+             shifted_left(dot(v, a.p) * dot(v, b.p), 2 * along));
+  });
   return rows_of_strip(view_, reach_, basis, low, high).count();
 }
 
@@ -101,7 +96,7 @@ Z Stretches<3>::shorten(Basis<3>& basis, const Z& low, const Z& high) const {
   const long j = std::max(0L, bit_length(high - low) - bit_length(reach_) - 1);
   std::array<WindowVector, 3> vectors;
   for (int i = 0; i < 3; ++i) vectors[i] = {basis[i], dot(view_.velocity.v, basis[i].p)};
-  reduce(vectors, WindowForm(view_.velocity, j));
+  reduce(vectors, window_form(view_.velocity, j));
   for (int i = 0; i < 3; ++i) basis[i] = std::move(vectors[i].point);
   // If v is normal to the planes of b1 and b2, it is not normal to those of b1 and b3, so these can be used
   // instead.

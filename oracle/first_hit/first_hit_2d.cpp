@@ -14,11 +14,7 @@
 namespace lorentz::oracle {
 namespace {
 
-struct Steps {
-  FlightPoint u, w;
-};
-
-Steps choose_steps(const Search<2>& search) {
+std::pair<FlightPoint, FlightPoint> choose_steps(const Search<2>& search) {
   const Z width = 2 * search.rho;
   const auto resolved = [&](const Z& h) { return compare_sizes(h, width) <= 0; };
   FlightPoint w(search.velocity, search.view.basis[0]), u(search.velocity, search.view.basis[1]);

@@ -97,7 +97,7 @@ bool WindowBasis::shorten(long j) {
   for (std::size_t i = 0; i < 3; ++i) ordered[i] = std::move(vectors_[order_[i]]);
   vectors_ = std::move(ordered);
   order_ = {0, 1, 2};
-  reduce(vectors_, WindowForm(velocity_, j));
+  reduce(vectors_, window_form(velocity_, j));
   return true;
 }
 

@@ -1,6 +1,6 @@
 // A lattice basis that is short for a window of the flight, 3D. Private to oracle/.
 //
-// The form 4^j |h|^2 + s^2 (WindowForm) makes a window of about 2^(j+1) rho of the cylinder round. The basis
+// The form 4^j |h|^2 + s^2 (window_form) makes a window of about 2^(j+1) rho of the cylinder round. The basis
 // is reduced under this form, and from one window to the next only a few steps are needed. The steps are
 // found in binary64, from the rounded h and s of the vectors, but done on the integers. So whatever the
 // rounding, the result is a basis of the same lattice, and a worse basis costs time, never an obstacle.

@@ -69,7 +69,7 @@ ChannelScene<D>::ChannelScene(const Scene& scene, double unit_length) {
     ObstacleLattice<D>& exact = lattices.emplace_back();
     exact.given = lattice.vectors;
     Basis<D> basis = basis_of(lattice.vectors);
-    reduce(basis, EuclideanForm<D>{});
+    reduce(basis, euclidean_form);
     for (std::size_t i = 0; i < D; ++i) exact.vectors[i] = basis[i].p, exact.names[i] = basis[i].n;
     exact.set_cofactors();
     for (const auto& atom : lattice.atoms) exact.obstacles.push_back(obstacle_of<D>(atom));
@@ -109,14 +109,14 @@ std::size_t count_points(const Basis<D>& basis, const Z& bound2, std::size_t mos
 
 template <std::size_t D>
 std::size_t points_in_ball(Basis<D> basis, const Z& bound2, std::size_t most) {
-  reduce(basis, EuclideanForm<D>{});
+  reduce(basis, euclidean_form);
   return count_points<D>(basis, bound2, most);
 }
 
 template <std::size_t D>
 bool visit_primitive(Basis<D> basis, const Z& bound2, std::size_t most, const NormalVisitor<D>& visit,
                      const std::function<void(std::size_t, std::size_t)>& step_done) {
-  reduce(basis, EuclideanForm<D>{});
+  reduce(basis, euclidean_form);
   const std::size_t total = count_points<D>(basis, bound2, most);
   if (total > most) return false;
   std::size_t seen = 0;

@@ -22,16 +22,6 @@ struct Product {
   Z determinant() const { return minor_of(x[0], x[1], x[2], x[3]); }
 };
 
-struct LatticeForm {
-  ZVec<4> weights;
-
-  Z operator()(const Product& a, const Product& b) const {
-    Z sum = 0;
-    for (std::size_t i = 0; i < 4; ++i) sum += weights[i] * a.x[i] * b.x[i];
-    return sum;
-  }
-};
-
 // Normals of a lattice's rows, and bounds of the coefficients of those normals for which the largest obstacle
 // leaves a gap: 2 |A^T N| < volume.
 struct CommonRows {
@@ -41,7 +31,7 @@ struct CommonRows {
   explicit CommonRows(const ObstacleLattice<2>& lattice) {
     Basis<2> images = basis_of(lattice.cofactors);
     for (auto& image : images) image.p = lattice.obstacles.front().axes * image.p;
-    reduce(images, EuclideanForm<2>{});
+    reduce(images, euclidean_form);
     const Z twice_area = 2 * abs(cross(images[0].p, images[1].p)), volume2 = lattice.volume * lattice.volume;
     for (std::size_t i = 0; i < 2; ++i) {
       const Z other2 = dot(images[1 - i].p, images[1 - i].p);
@@ -99,13 +89,18 @@ std::optional<std::vector<ZVec<2>>> common_normals(const ObstacleLattice<2>& a, 
     largest = std::max(largest, most[i]);
   }
   // Weights that make the box nearly a cube, and the square of half its diagonal.
-  LatticeForm form;
+  ZVec<4> weights;
   Z bound2 = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const Z weight = ceil_div(16 * largest, most[i]);
-    form.weights[i] = weight * weight;
-    bound2 += form.weights[i] * most[i] * most[i];
+    weights[i] = weight * weight;
+    bound2 += weights[i] * most[i] * most[i];
   }
+  const auto form = [&](const Product& a, const Product& b) {
+    Z sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) sum += weights[i] * a.x[i] * b.x[i];
+    return sum;
+  };
   std::array<Product, 3> basis = solutions_of(c);
   reduce(basis, form);
   const auto& [u, v, w] = basis;

@@ -57,7 +57,7 @@ PlaneBasis plane_basis(const ObstacleLattice<3>& lattice, const ZVec<3>& k) {
     result.in_plane = {vector(k[1] / d, -k[0] / d, 0), vector(-s * k[2], -t * k[2], d)};
     result.out = vector(u * s, u * t, w);
   }
-  reduce(result.in_plane, EuclideanForm<3>{});
+  reduce(result.in_plane, euclidean_form);
   return result;
 }
 

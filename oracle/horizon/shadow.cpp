@@ -149,7 +149,7 @@ Shadow::Shadow(const ObstacleLattice<3>& lattice, const ZVec<3>& g, const ZVec<3
     : along(g),
       along2(dot(g, g)),
       basis{LatticePoint<3>{cross(e1, g), {}}, LatticePoint<3>{cross(e2, g), {}}} {
-  reduce(basis, EuclideanForm<3>{});
+  reduce(basis, euclidean_form);
   see(lattice, 1);
 }
 

@@ -35,7 +35,7 @@ std::vector<double> surfaces_of(const Scene& scene) {
   if (!is_crystal(scene)) {
     for_each_atom(scene, [&](const Atom& atom) { surfaces.push_back(surface_of(atom, scene.dimension)); });
   } else if (const auto shares = shares_of(scene)) {
-    for (const AtomShares::AtomShare& share : shares->atoms) surfaces.push_back(share.surface);
+    surfaces = shares->surfaces;
   }
   return surfaces;
 }

@@ -138,13 +138,14 @@ Scene scaled(Scene scene, int exponent) {
 std::optional<AtomShares> shares_of(const Scene& given) {
   if (!is_crystal(given)) return std::nullopt;
   const int exponent = size_exponent(given.lattices[0], given.dimension), d = given.dimension;
-  AtomShares shares{std::scalbn(1.0, exponent), {}};
+  AtomShares shares{std::scalbn(1.0, exponent), {}, {}};
   for (const Lattice& lattice : scaled(given, -exponent).lattices) {
     const double cell = cell_volume(lattice, d);
     for (const Atom& atom : lattice.atoms) {
       for (int i = 0; i < d; ++i)
         if (!std::isnormal(principal_semiaxes(atom, d)[i])) return std::nullopt;
-      shares.atoms.push_back({volume_of(atom, d) / cell, surface_of(atom, d) / cell});
+      shares.fractions.push_back(volume_of(atom, d) / cell);
+      shares.surfaces.push_back(surface_of(atom, d) / cell);
     }
   }
   return shares;
@@ -154,10 +155,8 @@ std::optional<Filling> filling_of(const Scene& scene) {
   const auto shares = shares_of(scene);
   if (!shares) return std::nullopt;
   Filling filling;
-  for (const AtomShares::AtomShare& share : shares->atoms) {
-    filling.fraction += share.fraction;
-    filling.surface += share.surface;
-  }
+  for (const double fraction : shares->fractions) filling.fraction += fraction;
+  for (const double surface : shares->surfaces) filling.surface += surface;
   filling.mean_free_path = (scene.dimension == 2 ? pi : 4) * (1 - filling.fraction) / filling.surface;
   filling.surface /= shares->unit;
   filling.mean_free_path *= shares->unit;

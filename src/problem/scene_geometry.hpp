@@ -29,11 +29,8 @@ double carlson_rd(double x, double y, double z);
 /// overlaps, and their surface per volume, times `unit`. `unit` is a power of two of about the size of the
 /// first lattice's cell.
 struct AtomShares {
-  struct AtomShare {
-    double fraction = 0, surface = 0;
-  };
   double unit = 1;
-  std::vector<AtomShare> atoms;
+  std::vector<double> fractions, surfaces;
 };
 
 /// Nothing if a lattice has fewer vectors than dimensions, or if an obstacle is so large, small or slender

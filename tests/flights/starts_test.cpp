@@ -363,8 +363,8 @@ TEST_CASE("Obstacles are chosen by their surface, and stand all over the box", "
     const Vec sides = d == 2 ? Vec{40, 25, 1} : Vec{10, 10, 10};
     const auto dual = dual_of(scene.lattices[0].vectors, d);
     const auto shares = shares_of(scene);
-    std::vector<double> expected, counts(2);
-    for (const auto& share : shares->atoms) expected.push_back(share.surface);
+    const std::vector<double> expected = shares->surfaces;
+    std::vector<double> counts(2);
     Histogram first(10), second(5);
     const Candidates starts(scene, Ensemble::surface, kSeed);
     Query query;

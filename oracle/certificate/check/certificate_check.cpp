@@ -49,9 +49,6 @@ TimeRange below_zero(const Z& a, const Z& b, const Z& c) {
   return {ceil_div(-b - root, a), floor_div(root - b, a)};
 }
 
-/// Thrown if a proof, right or not, takes more steps than are allowed.
-struct TooLong : Refuted {};
-
 /// The steps (docs/certificates.md) that are left for a certificate.
 class Budget {
  public:
@@ -61,7 +58,7 @@ class Budget {
   }
 
   void spend(const Z& steps) {
-    if (steps > left_) throw TooLong{{"takes more than " + std::to_string(most_) + " steps"}};
+    if (steps > left_) throw Refuted{"takes more than " + std::to_string(most_) + " steps", true};
     left_ -= steps.get_si();
   }
 
@@ -499,10 +496,8 @@ std::optional<std::string> CertificateCheck::refutation(const Query& query, cons
   if (const auto flaw = flaw_of(query, impl_->scene)) return "query: " + *flaw;
   try {
     impl_->check->check(query, answer, certificate);
-  } catch (const TooLong& refuted) {
-    if (too_long) *too_long = true;
-    return refuted.why;
   } catch (const Refuted& refuted) {
+    if (too_long) *too_long = refuted.too_long;
     return refuted.why;
   }
   return std::nullopt;

@@ -17,6 +17,7 @@ namespace lorentz::oracle::certificate {
 /// Thrown by every function that finds a fault in the proof; the callers put its place in front.
 struct Refuted {
   std::string why;
+  bool too_long = false;  ///< right or not: it takes more steps than are allowed
 };
 
 [[noreturn]] inline void refute(std::string why) {
