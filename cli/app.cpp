@@ -24,12 +24,8 @@ std::string versions() {
 
 // ---- The parser's tree, built from the tables
 
-// A number as typed. It is converted after all options are parsed.
-struct NumberGiven {
-  const Option& option;
-  std::optional<std::string> text = {};
-};
-using NumbersGiven = std::deque<NumberGiven>;  // a deque, because addresses must stay valid
+// Numbers as typed, converted after all options are parsed. A deque, because addresses must stay valid.
+using NumbersGiven = std::deque<std::pair<const Option&, std::optional<std::string>>>;
 
 CLI::Option* add_option(CLI::App& app, const Option& option, NumbersGiven& numbers) {
   return std::visit(
@@ -42,7 +38,7 @@ CLI::Option* add_option(CLI::App& app, const Option& option, NumbersGiven& numbe
         else if constexpr (std::is_pointer_v<decltype(target)>)
           return app.add_option(option.names, *target, option.help)->type_name(option.type);
         else
-          return app.add_option(option.names, numbers.emplace_back(NumberGiven{option}).text, option.help)
+          return app.add_option(option.names, numbers.emplace_back(option, std::nullopt).second, option.help)
               ->type_name(option.type)
               ->default_str(option.default_text());
       },
@@ -132,8 +128,8 @@ const Action& parse(CLI::App& app, const Command& program, const NumbersGiven& n
   }
   const Command& command = parsed(app, program);
   check_files(command);
-  for (const NumberGiven& number : numbers)
-    if (number.text) take_number(number.option, *number.text);
+  for (const auto& [option, text] : numbers)
+    if (text) take_number(option, *text);
   for (const Option& option : command.options)
     if (option.traits & kCommas) split_at_commas(option);
   return command.act;

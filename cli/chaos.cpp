@@ -15,32 +15,11 @@ namespace lorentz::cli {
 namespace {
 
 struct ChaosOptions : ScanOptions {
-  std::uint64_t jobs = 1;
-  std::optional<std::string> store;
-};
-
-struct LyapunovOptions : ChaosOptions {
-  std::uint64_t collisions = 1'000'000;
-  bool spectrum = false;
-};
-
-struct DiffusionOptions : ChaosOptions {
-  std::uint64_t count = 100'000;
+  std::uint64_t collisions = 1'000'000, count = 100'000;
   std::string from = "uniform";
   std::optional<double> time;
+  bool spectrum = false;
 };
-
-// The options that both commands have, and a command's own.
-std::vector<Option> chaos_rows(ChaosOptions& options, const std::string& rows_of_csv,
-                               const std::vector<Option>& own) {
-  return joined(joined(scan_rows(options, rows_of_csv),
-                       {
-                           {"--jobs", Whole{&options.jobs, 1, 1024}, "N", "threads; the result is the same"},
-                           {"--store", &options.store, "FILE",
-                            "keeps finished parts in FILE; the same command resumes there", kOutput},
-                       }),
-                own);
-}
 
 // Calls `run(work)` with threads, progress, Ctrl-C, and the store of this kind and plan, if requested.
 // Reports how long it took.
@@ -66,7 +45,7 @@ void with_work(const ChaosOptions& options, const std::string& kind, const runs:
         store.is_file() ? "the same command goes on" : "without --store nothing is kept to go on with");
 }
 
-std::optional<ScanFinding> found_at(const ScanPlace& place, const LyapunovOptions& options) {
+std::optional<ScanFinding> lyapunov_at(const ScanPlace& place, const ChaosOptions& options) {
   const chaos::LyapunovPlan plan{place.scene, options.seed, options.collisions, options.spectrum, place.name};
   const runs::Plan words{{"collisions", std::to_string(plan.collisions)},
                          {"spectrum", plan.whole_spectrum ? "whole" : "above zero"},
@@ -82,7 +61,7 @@ std::optional<ScanFinding> found_at(const ScanPlace& place, const LyapunovOption
   return ScanFinding{options.json ? found.json() : found.table(), found.csv(), found.is_whole};
 }
 
-std::optional<ScanFinding> found_at(const ScanPlace& place, const DiffusionOptions& options) {
+std::optional<ScanFinding> diffusion_at(const ScanPlace& place, const ChaosOptions& options) {
   const chaos::DiffusionPlan plan{place.scene,
                                   starts::ensemble_named(options.from, "--from"),
                                   options.seed,
@@ -105,8 +84,8 @@ std::optional<ScanFinding> found_at(const ScanPlace& place, const DiffusionOptio
   return ScanFinding{options.json ? found.json() : found.table(), found.csv(), found.is_whole};
 }
 
-template <class Options>
-int act(const Options& options) {
+int act(const ChaosOptions& options,
+        std::optional<ScanFinding> (*found_at)(const ScanPlace& place, const ChaosOptions& options)) {
   if (options.store && options.is_of_several())
     throw InputError("--store: parts are kept of one scene at one radius; run several one by one");
   return scan(options, "means of trajectories are taken",
@@ -116,37 +95,37 @@ int act(const Options& options) {
 }  // namespace
 
 Command lyapunov_command() {
-  auto options = std::make_shared<LyapunovOptions>();
+  auto options = std::make_shared<ChaosOptions>();
   return {"lyapunov", "Lyapunov exponents, with standard errors, and theory beside them.",
-          chaos_rows(*options, "the exponents, a row each",
-                     {
-                         {"--collisions", Whole{&options->collisions, 1, std::uint64_t{1} << 52}, "N",
-                          "how many are counted, about: of 4096 particles together, at least one each"},
-                         {"--spectrum", &options->spectrum, "", "the exponents below zero, too"},
-                     }),
+          scan_rows(*options, "the exponents, a row each", "finished parts",
+                    {
+                        {"--collisions", Whole{&options->collisions, 1, std::uint64_t{1} << 52}, "N",
+                         "how many are counted, about: of 4096 particles together, at least one each"},
+                        {"--spectrum", &options->spectrum, "", "the exponents below zero, too"},
+                    }),
 
           "docs/chaos.md: what is measured, how, and what theory knows.\n"
           "Examples:\n  lorentz lyapunov --scene square --radius 0.2 --collisions 1e7 --jobs 2\n"
           "  lorentz lyapunov --scene square,triangular --radius 0.1,0.2,0.3 --csv exponents.csv",
-          [options] { return act(*options); }};
+          [options] { return act(*options, lyapunov_at); }};
 }
 
 Command diffusion_command() {
-  auto options = std::make_shared<DiffusionOptions>();
-  return {"diffusion", "Mean squared displacements of many particles, and theory beside them.",
-          chaos_rows(
-              *options, "the displacements, a row each",
-              {
-                  {"--count", Whole{&options->count, 1, std::uint64_t{1} << 52}, "N", "how many particles"},
-                  {"--time,--max-time", Positive{&options->time}, "T",
-                   "until when they are followed, at speed 1 [100]"},
-                  {"--from,--start", &options->from, "uniform|surface",
-                   "uniform: anywhere outside the obstacles; surface: off an obstacle (cosine law)"},
-              }),
+  auto options = std::make_shared<ChaosOptions>();
+  return {
+      "diffusion", "Mean squared displacements of many particles, and theory beside them.",
+      scan_rows(*options, "the displacements, a row each", "finished parts",
+                {
+                    {"--count", Whole{&options->count, 1, std::uint64_t{1} << 52}, "N", "how many particles"},
+                    {"--time,--max-time", Positive{&options->time}, "T",
+                     "until when they are followed, at speed 1 [100]"},
+                    {"--from,--start", &options->from, "uniform|surface",
+                     "uniform: anywhere outside the obstacles; surface: off an obstacle (cosine law)"},
+                }),
 
-          "docs/chaos.md: what is measured, how, and what theory knows.\n"
-          "Example:\n  lorentz diffusion --scene triangular --radius 0.45 --count 1e5 --time 50 --jobs 2",
-          [options] { return act(*options); }};
+      "docs/chaos.md: what is measured, how, and what theory knows.\n"
+      "Example:\n  lorentz diffusion --scene triangular --radius 0.45 --count 1e5 --time 50 --jobs 2",
+      [options] { return act(*options, diffusion_at); }};
 }
 
 }  // namespace lorentz::cli

@@ -29,13 +29,12 @@ using flights::FlightsReport;
 constexpr std::chrono::seconds kBetweenStores{3};
 constexpr std::uint64_t kMostFlights = std::uint64_t{1} << 52;
 
-struct FlightsOptions {
+struct FlightsOptions : ScanOptions {
   std::string engine = "batch", from = "uniform", shard = "0/1";
-  std::uint64_t count = 1'000'000, seed = starts::kDefaultSeed, jobs = 1;
+  std::uint64_t count = 1'000'000;
   std::optional<double> seconds;
-  std::optional<std::string> store, csv, html;
-  bool json = false;
-  std::vector<std::string> scenes{"square"}, radii, parts;
+  std::optional<std::string> html;
+  std::vector<std::string> parts;
 };
 
 FlightsPlan plan_of(const FlightsOptions& options, const Scene& scene) {
@@ -186,40 +185,23 @@ int act(const FlightsOptions& options) {
 Command flights_command() {
   auto options = std::make_shared<FlightsOptions>();
   return {
-      "flights",
-      "Very many free flights from drawn starts: their statistics, and theory beside them.",
-      {
-          {"--scene", &options->scenes, "SCENE",
-           "a file, or a name of the catalogue; several, with commas between them, one after the other",
-           kCommas},
-          {"--radius", &options->radii, "R",
-           "radius of every ball; several, with commas between them, are flown from the same drawn numbers: "
-           "each gives what it gives alone",
-           kCommas},
-          {"--from,--start", &options->from, "uniform|surface",
-           "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle, as from one "
-           "collision to the next (cosine law)"},
-          {"-e,--engine", &options->engine, "ENGINE",
-           "one of " + fmt::format("{}", fmt::join(question::own_names(), ", "))},
-          {"--count", Whole{&options->count, 1, kMostFlights}, "N", "how many"},
-          {"--time", Positive{&options->seconds}, "SECONDS", "stop after SECONDS (each scene and radius)"},
-          {"--seed", Whole{&options->seed}, "N", "seed of the starts"},
-          {"--jobs", Whole{&options->jobs, 1, 1024}, "N", "threads; the result is the same"},
-          {"--store", &options->store, "FILE",
-           "keeps the counts in FILE every few seconds; the same command resumes there", kOutput},
-          {"--add", &options->parts, "FILE",
-           "stores of other shards of the same run, whose counts are added"},
-          {"--shard", &options->shard, "I/N",
-           "only the blocks of flights I modulo N, into --store; --add joins them"},
-          {"--csv", &options->csv, "FILE",
-           "the histograms, and theory, to a file; of several scenes or radii one table, with both in its "
-           "first columns",
-           kOutput},
-          {"--html", &options->html, "FILE",
-           "a page that opens offline: P(free path > t) and theory, with numbers on hover", kOutput},
-          {"--json", &options->json, "",
-           "one JSON object a line instead of a table, for each scene and radius"},
-      },
+      "flights", "Very many free flights from drawn starts: their statistics, and theory beside them.",
+      scan_rows(
+          *options, "the histograms, and theory", "the counts so far",
+          {{"--from,--start", &options->from, "uniform|surface",
+            "uniform: anywhere outside the obstacles, in any direction; surface: off an obstacle, as from "
+            "one "
+            "collision to the next (cosine law)"},
+           {"-e,--engine", &options->engine, "ENGINE",
+            "one of " + fmt::format("{}", fmt::join(question::own_names(), ", "))},
+           {"--count", Whole{&options->count, 1, kMostFlights}, "N", "how many"},
+           {"--time", Positive{&options->seconds}, "SECONDS", "stop after SECONDS (each scene and radius)"},
+           {"--add", &options->parts, "FILE",
+            "stores of other shards of the same run, whose counts are added"},
+           {"--shard", &options->shard, "I/N",
+            "only the blocks of flights I modulo N, into --store; --add joins them"},
+           {"--html", &options->html, "FILE",
+            "a page that opens offline: P(free path > t) and theory, with numbers on hover", kOutput}}),
 
       "docs/free_paths.md: the ensembles, the closed forms, what means and error bars mean.\n"
       "Examples:\n  lorentz flights --scene square --radius 0.2 --from surface\n"

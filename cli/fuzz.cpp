@@ -34,7 +34,6 @@ namespace {
 using fuzz::Kind;
 using fuzz::Store;
 
-constexpr double kDefaultSecondsALine = 60;
 constexpr double kShareOfStart = 0.5;  // the largest, of the time, for loading an engine
 
 int exit_status(const FuzzReport& report, bool times, bool answerer_failed) {
@@ -84,13 +83,13 @@ FuzzReport opened(Store& store, const fuzz::Plan& plan, const FuzzOptions& optio
 class JournalWithProgress final : public fuzz::Journal {
  public:
   JournalWithProgress(Store& store, std::int64_t campaign, const fuzz::Bounds& bounds, std::size_t targets,
-                      double seconds_a_line, std::function<void(double silent)> on_end)
+                      std::function<void(double silent)> on_end)
       : journal_(store, campaign),
         most_seconds_(bounds.seconds),
         by_time_(bounds.count > kMostCases),
         targets_(targets),
-        seconds_a_line_(seconds_a_line),
-        next_line_(isatty(STDERR_FILENO) != 1 ? seconds_a_line : std::numeric_limits<double>::infinity()),
+        seconds_a_line_(60 * std::chrono::duration<double>(Progress::patience()).count()),
+        next_line_(isatty(STDERR_FILENO) != 1 ? seconds_a_line_ : std::numeric_limits<double>::infinity()),
         on_end_(std::move(on_end)) {
     progress_.emplace(
         by_time_ ? "seconds" : "indices",
@@ -149,22 +148,17 @@ class JournalWithProgress final : public fuzz::Journal {
   Progress::Clock::time_point start_ = Progress::Clock::now();
 };
 
-// Ends the program if this object lives for more than a second: a thread may be at an exact answer of
+// Ends the program if this thread lives for more than a second: a thread may be at an exact answer of
 // thousands of bits, which is not waited for once the report is printed.
-class LastResort {
- public:
-  explicit LastResort(const std::function<void()>& end)
-      : clock_([end](const std::stop_token& in_time) {
-          std::mutex mutex;
-          std::condition_variable_any changed;
-          std::unique_lock lock(mutex);
-          changed.wait_for(lock, in_time, std::chrono::seconds(1), [] { return false; });
-          if (!in_time.stop_requested()) end();
-        }) {}
-
- private:
-  std::jthread clock_;
-};
+std::jthread last_resort_of(const std::function<void()>& end) {
+  return std::jthread([end](const std::stop_token& in_time) {
+    std::mutex mutex;
+    std::condition_variable_any changed;
+    std::unique_lock lock(mutex);
+    changed.wait_for(lock, in_time, std::chrono::seconds(1), [] { return false; });
+    if (!in_time.stop_requested()) end();
+  });
+}
 
 // What the end of a campaign left open.
 void say_how_it_ended(const FuzzOptions& options, double silent) {
@@ -185,7 +179,7 @@ std::optional<int> status_of_none(const FuzzReport& report, const fuzz::Plan& pl
     cases += tally.cases, is_complete &= tally.next >= bounds.count;
   if (cases > 0 || (is_complete && plan.scope.is_all())) return std::nullopt;
   if (is_complete) {
-    say("no case was asked: none of the first {} indices has a scene for --dimension and --scenes; take a "
+    say("no case was asked: none of the first {} indices has a scene for --domain and --scenes; take a "
         "larger --count",
         bounds.count);
     return kBadInput;
@@ -204,13 +198,13 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, fuzz::Bound
   FuzzReport report = opened(store, plan, options);
   std::vector<fuzz::Finding> known;
   for (const fuzz::Stored& one : report.findings) known.push_back(one.finding);
-  std::optional<LastResort> last_resort;
+  std::jthread last_resort;
   const auto on_end = [&](double silent) {
     report.findings = findings_of(store, report.campaign);
     print(options.json ? report.json() : report.text());
     say_how_it_ended(options, silent);
     const int status = exit_status(report, options.times, false);
-    last_resort.emplace([ranks, status] {
+    last_resort = last_resort_of([ranks, status] {
       std::fflush(nullptr);
       question::kill_programs();
       if (ranks) ranks->abort(status);
@@ -219,11 +213,10 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, fuzz::Bound
   };
   bool failed = false;
   {
-    JournalWithProgress journal(store, report.campaign, bounds, plan.targets.size(),
-                                options.progress.value_or(kDefaultSecondsALine), on_end);
+    JournalWithProgress journal(store, report.campaign, bounds, plan.targets.size(), on_end);
     failed = fuzz::run(plan, bounds, make_answerer, report.tallies, journal, ranks, known);
   }
-  last_resort.reset();
+  last_resort = {};
   if (const auto status = status_of_none(report, plan, bounds)) return *status;
   return exit_status(report, options.times, failed);
 }

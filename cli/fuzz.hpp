@@ -18,12 +18,11 @@ inline constexpr std::uint64_t kMostCases = 1'000'000'000'000;
 /// The options of a campaign besides those that it has in common with other examinations.
 struct FuzzOptions : ExaminationOptions {
   std::vector<std::string> targets;
-  std::optional<std::string> store;
-  std::optional<double> progress;
-  std::optional<std::uint64_t> cases, dimension;
+  std::optional<std::string> store, undecided;
+  std::optional<std::uint64_t> cases;
   std::uint64_t keep = 3, mutate = 32, reword = 1;
   std::string scope = "any";
-  bool to_first = false, undecided = false, no_undecided = false;
+  bool to_first = false;
 
   /// The name of the engine. Throws InputError if there are several.
   const std::string& engine() const;

@@ -17,10 +17,10 @@ using namespace question;
 
 namespace {
 
-fuzz::Scope scope_of(const FuzzOptions& options) {
+fuzz::Scope scope_of(const FuzzOptions& options, const Domain& domain) {
   using Scenes = fuzz::Scope::Scenes;
   fuzz::Scope scope;
-  if (options.dimension) scope.dimension = static_cast<int>(*options.dimension);
+  if (domain.dimension_2 != domain.dimension_3) scope.dimension = domain.dimension_2 ? 2 : 3;
   constexpr Scenes kScenes[] = {Scenes::unit, Scenes::lattice, Scenes::ball, Scenes::any};
   scope.scenes = kScenes[index_of_name(options.scope, {"unit", "lattice", "ball", "any"}, "--scenes")];
   return scope;
@@ -42,9 +42,9 @@ std::vector<const cases::Target*> within(const fuzz::Scope& scope, std::uint64_t
       kept.push_back(target);
     else if (are_named)
       throw InputError(
-          fmt::format("--target: {} has no such scenes as --scenes and --dimension ask for", target->name()));
+          fmt::format("--target: {} has no such scenes as --scenes and --domain ask for", target->name()));
   }
-  if (kept.empty()) throw InputError("no target has such scenes as --scenes and --dimension ask for");
+  if (kept.empty()) throw InputError("no target has such scenes as --scenes and --domain ask for");
   return kept;
 }
 
@@ -75,16 +75,18 @@ const std::string& FuzzOptions::engine() const {
 fuzz::Plan plan_of(FuzzOptions options, const question::EngineInfo& engine) {
   fuzz::Plan plan;
   plan.seed = options.seed;
-  plan.scope = scope_of(options);
+  options.claim.ask({engine});
+  plan.claim = options.claim.claim();
+  plan.scope = scope_of(options, plan.claim.domain);
   plan.targets = within(plan.scope, plan.seed, !options.targets.empty(), targets_of(options));
   plan.keep = options.keep;
   plan.mutate = options.mutate;
   plan.reword = options.reword;
-  options.claim.ask({engine});
-  plan.claim = options.claim.claim();
   plan.truth = truth_named(options.judge, {engine});
   plan.sought.times = options.times;
-  plan.sought.undecided = options.undecided || (!options.no_undecided && !engine.traits.leaves_undecided);
+  plan.sought.undecided = options.undecided
+                              ? index_of_name(*options.undecided, {"no", "yes"}, "--undecided") == 1
+                              : !engine.traits.leaves_undecided;
   plan.sought.ulps = options.tolerance();
   return plan;
 }
@@ -111,7 +113,6 @@ fuzz::CampaignManifest manifest_of(const fuzz::Plan& plan, const std::string& en
                   plan.mutate, plan.reword, plan.keep, plan.sought.times ? ", times" : "",
                   plan.sought.undecided ? "" : ", without undecided",
                   plan.truth == fuzz::Truth::certified ? ", judged by certified" : "");
-  if (plan.scope.dimension != 0) manifest.options += fmt::format(", {}D", plan.scope.dimension);
   if (plan.scope.scenes != fuzz::Scope::Scenes::any)
     manifest.options += ", scenes " + name_of_scenes(plan.scope.scenes);
   manifest.options += report::words_of(plan.claim);
@@ -124,8 +125,6 @@ std::vector<Option> rows_of(FuzzOptions& options) {
   return joined(
       {{"-t,--target", &options.targets, "TARGET",
         fmt::format("targets of the campaign (default: all): {}", fmt::join(names, ", ")), kCommas},
-       {"--dimension", Whole{&options.dimension, 2, 3}, "2|3",
-        "only scenes in the plane, or in space (default: both)"},
        {"--scenes", &options.scope, "unit|lattice|ball|any",
         "only scenes that the engine supports: unit (the square or cubic lattice with spacing 1 and one "
         "ball), lattice (one lattice with one ball), ball (a single one), any"},
@@ -142,11 +141,8 @@ std::vector<Option> rows_of(FuzzOptions& options) {
        {"--reword", Whole{&options.reword, 0, 1'000'000'000}, "N",
         "also asks one case in N, and its variants, in other words; 0: none"},
        {"--first", &options.to_first, "", "stops at the first finding"},
-       {"--undecided", &options.undecided, "",
-        "`undecided` is a finding (the default, but for reduction and batch)", kPlain, "--no-undecided"},
-       {"--no-undecided", &options.no_undecided, "", "`undecided` is not a finding", kPlain, "--undecided"},
-       {"--progress", Positive{&options.progress}, "SECONDS",
-        "if stderr is not a terminal: prints a line of progress every SECONDS (default: 60)"}},
+       {"--undecided", &options.undecided, "yes|no",
+        "whether `undecided` is a finding (default: yes, but for reduction and batch)"}},
       options.rows({"--engine", "--seed", "--jobs", "--judge", "--ulps", "--precision", "--time-tolerance",
                     "--domain", "--starts-inside", "--timeout", "--times", "--json"}));
 }

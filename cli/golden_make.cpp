@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct MakeOptions {
-  std::optional<std::string> set, folder, precision, name, queries, scene;
+  std::optional<std::string> set, folder, precision, queries, scene;
   std::optional<double> radius;
   std::vector<std::string> tags;
   std::optional<std::uint64_t> count;
@@ -75,10 +75,10 @@ std::vector<std::pair<std::string, std::string>> tags_in(const std::vector<std::
   return tags;
 }
 
-void check_set_name(const std::string& name) {
-  if (!is_set_name(name))
-    throw InputError("--name: " + json_quoted(name) +
-                     " is not a name of a set; expected small letters, digits and hyphens");
+// The name of a set of given queries: that of its file, if it can be one.
+std::string set_name_for(const std::string& output) {
+  const std::string stem = fs::path(output).stem().string();
+  return is_set_name(stem) ? stem : "queries";
 }
 
 // Says which set was made. `origin`: for example " (seed 5)".
@@ -217,7 +217,7 @@ golden::GivenQuestions given_questions(const MakeOptions& options, golden::Heade
 }
 
 int make_of_queries(golden::Order order, const MakeOptions& options) {
-  const golden::Header header{.name = options.name.value_or("queries"),
+  const golden::Header header{.name = set_name_for(options.output),
                               .description = "Given queries, answered exactly.",
                               .generator = "lorentz golden make --queries " + shell_quoted(*options.queries),
                               .version = LORENTZ_VERSION,
@@ -242,9 +242,8 @@ void check(const MakeOptions& options) {
   if (options.queries && options.count) throw InputError("--count: not with --queries, which are all taken");
   if (options.queries && options.seed != starts::kDefaultSeed)
     throw InputError("--seed: not with --queries, which are not drawn");
-  if (options.name) check_set_name(*options.name);
-  if (!options.queries && (options.scene || options.radius || !options.tags.empty() || options.name))
-    throw InputError("--scene, --radius, --name and --tag: need --queries");
+  if (!options.queries && (options.scene || options.radius || !options.tags.empty()))
+    throw InputError("--scene, --radius and --tag: need --queries");
 }
 
 int act(const MakeOptions& options) {
@@ -267,13 +266,12 @@ Command golden_make_command() {
       {
           {"--set", &options->set, "SET", "which set (lorentz golden list)"},
           {"--queries", &options->queries, "FILE",
-           "records of these queries: a stream (- is standard input), or columns (.npy, .csv); invalid "
-           "queries of a stream become records of errors"},
+           "records of these queries, a set named as --output: a stream (- is standard input), or columns "
+           "(.npy, .csv); invalid queries of a stream become records of errors"},
           {"--scene", &options->scene, "SCENE",
            "scene before the first scene line, and of columns: a file, or a name of the catalogue"},
           {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
           {"--tag", &options->tags, "TAG[=SENTENCE]", "tag of each record of --queries", kOneAtATime},
-          {"--name", &options->name, "NAME", "name of the set that --queries become (default: queries)"},
           {"--precision", &options->precision, "binary64|binary32",
            "format of the numbers of scenes and queries: cases are hard in its ulps, which margins and "
            "conditions count (default: binary64)"},

@@ -1,5 +1,6 @@
 // A progress bar on stderr if it is a terminal; else nothing. LORENTZ_PROGRESS_AFTER is the number of seconds
-// after which the bar appears, by default 1. With 0, even short work shows it.
+// after which the bar appears, by default 1. With 0, even short work shows it. Where a campaign writes lines
+// instead, they come 60 times as late.
 #pragma once
 
 #include <unistd.h>
@@ -58,12 +59,12 @@ class Progress {
     drawn_ = true;
   }
 
- private:
   static std::chrono::milliseconds patience() {
     const char* seconds = std::getenv("LORENTZ_PROGRESS_AFTER");
     return std::chrono::milliseconds(seconds ? std::lround(1e3 * std::atof(seconds)) : 1000);
   }
 
+ private:
   std::string what_;
   std::size_t total_, stride_;
   bool shown_, drawn_ = false;

@@ -38,16 +38,21 @@ std::vector<ScanPlace> scan_places(const std::vector<std::string>& scenes,
   return places;
 }
 
-std::vector<Option> scan_rows(ScanOptions& options, const std::string& rows_of_csv) {
-  return {
+std::vector<Option> scan_rows(ScanOptions& options, const std::string& csv, const std::string& kept,
+                              const std::vector<Option>& own) {
+  const std::vector<Option> shared{
       {"--scene", &options.scenes, "SCENE",
        "a file, or a name of the catalogue; several, with commas between them, one after the other", kCommas},
-      {"--radius", &options.radii, "R", "radius of every ball; several, with commas between them", kCommas},
+      {"--radius", &options.radii, "R",
+       "radius of every ball; several, with commas between them: each gives what it gives alone", kCommas},
       {"--seed", Whole{&options.seed}, "N", "seed of the starts"},
       {"--csv", &options.csv, "FILE",
-       rows_of_csv + ", to a file; of several scenes or radii one table, with both in its first columns",
-       kOutput},
-      {"--json", &options.json, "", "one JSON object a line instead of a table"}};
+       csv + ", to a file; of several scenes or radii one table, with both in its first columns", kOutput},
+      {"--json", &options.json, "", "one JSON object a line instead of a table, for each scene and radius"},
+      {"--jobs", Whole{&options.jobs, 1, 1024}, "N", "threads; the result is the same"},
+      {"--store", &options.store, "FILE", "keeps " + kept + " in FILE; the same command resumes there",
+       kOutput}};
+  return joined(shared, own);
 }
 
 int scan(const ScanOptions& options, const std::string& what,

@@ -16,15 +16,16 @@ namespace lorentz::cli {
 
 struct ScanOptions {
   std::vector<std::string> scenes{"square"}, radii;
-  std::uint64_t seed = starts::kDefaultSeed;
-  std::optional<std::string> csv;
+  std::uint64_t seed = starts::kDefaultSeed, jobs = 1;
+  std::optional<std::string> csv, store;
   bool json = false;
 
   bool is_of_several() const { return scenes.size() > 1 || radii.size() > 1; }
 };
 
-/// The options that they share. `rows_of_csv`: the meaning of a row of --csv.
-std::vector<Option> scan_rows(ScanOptions& options, const std::string& rows_of_csv);
+/// The options that they share, and a command's own. `csv`: what --csv is of; `kept`: what a store keeps.
+std::vector<Option> scan_rows(ScanOptions& options, const std::string& csv, const std::string& kept,
+                              const std::vector<Option>& own);
 
 /// One scene at one radius.
 struct ScanPlace {

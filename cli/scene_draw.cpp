@@ -24,7 +24,7 @@ using namespace pictures;
 namespace {
 
 struct SceneDrawOptions {
-  std::optional<std::string> scene, queries, window, title;
+  std::optional<std::string> scene, queries, window;
   std::optional<double> radius;
   std::optional<std::uint64_t> channels;
   std::string output = "-", size = "800";
@@ -123,8 +123,7 @@ std::vector<FreeWay> ways_of(const Scene& scene, std::size_t most) {
 }
 
 std::string title_of(const SceneDrawOptions& options) {
-  if (options.title) return *options.title;
-  std::string title = options.scene.value_or(options.queries.value_or(""));
+  std::string title = options.scene ? *options.scene : *options.queries == "-" ? "" : *options.queries;
   if (options.radius) title += fmt::format(" --radius {}", *options.radius);
   return title;
 }
@@ -180,7 +179,6 @@ Command scene_draw_command() {
            "draw the N widest corridors (2D), planar channels and cylinders (3D)"},
           {"--window", &options->window, "X0,Y0,X1,Y1", "2D: the part of the plane to show"},
           {"--size", &options->size, "W[xH]", "in pixels: the width, or what the picture is to fit into"},
-          {"--title", &options->title, "TEXT", "instead of the scene's name; \"\" for none"},
           {"-o,--output", &options->output, "FILE",
            "file to write, whole or not at all; a file that is not an SVG is left as it is; - is "
            "standard output",

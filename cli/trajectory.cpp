@@ -30,7 +30,7 @@ using oracle::kMostBits;
 using rival::Rival;
 
 struct TrajectoryOptions {
-  std::string starts = "-", precision = "binary64";
+  std::string starts = "-";
   std::optional<std::string> scene, radius, time, engine, csv, svg;
   std::optional<std::uint64_t> collisions, digits, most_bits;
   bool detail = false, strict = false, json = false;
@@ -55,11 +55,6 @@ Journey journey_of(const TrajectoryOptions& options) {
   journey.states = options.detail;
   journey.stop = &Interrupt::came();
   return journey;
-}
-
-Precision precision_of(const TrajectoryOptions& options) {
-  constexpr Precision kPrecisions[] = {Precision::binary64, Precision::double_double};
-  return kPrecisions[index_of_name(options.precision, {"binary64", "double-double"}, "--precision")];
 }
 
 std::optional<RationalScene> scene_of(const TrajectoryOptions& options) {
@@ -103,7 +98,6 @@ class TrajectoryRun {
   TrajectoryRun(Output& out, const TrajectoryOptions& options)
       : engine_(options.engine ? std::optional(question::engine_named(*options.engine)) : std::nullopt),
         journey_(journey_of(options)),
-        precision_(precision_of(options)),
         out_(out),
         options_(options) {
     if (options.csv) csv_.emplace(*options.csv);
@@ -165,7 +159,6 @@ class TrajectoryRun {
 
   const std::optional<question::EngineInfo> engine_;
   const Journey journey_;
-  const Precision precision_;
   Output& out_;
   const TrajectoryOptions& options_;
   std::optional<WholeFile> csv_;
@@ -193,7 +186,7 @@ void end_drawing(pictures::PathDrawing& drawing, const Arrival& arrival, Rival* 
 
 void TrajectoryRun::follow(const Id& id, const RationalScene& scene, const Start& start) {
   std::unique_ptr<Rival> rival;
-  if (engine_) rival = std::make_unique<Rival>(*engine_, precision_, scene, start, terminal());
+  if (engine_) rival = std::make_unique<Rival>(*engine_, scene, start, terminal());
   pictures::PathDrawing* picture = nullptr;
   if (options_.svg && !picture_) {
     if (scene.dimension != 2) throw InputError("--svg: draws paths in two dimensions");
@@ -283,8 +276,6 @@ Command trajectory_command() {
            "precision at which to give up, undecided (default: 262144, or as --digits needs)"},
           {"-e,--engine", &options->engine, "ENGINE",
            "compares the trajectory with that of this engine's flights; " + std::string(kEngineHelp)},
-          {"--precision", &options->precision, "binary64|double-double",
-           "arithmetic of the engine's trajectory"},
           {"--csv", &options->csv, "FILE", "collisions as a table, to a file", kOutput},
           {"--svg", &options->svg, "FILE", "a picture of the first start's path (2D)", kOutput},
           {"--json", &options->json, "", "lines of JSON, which is what there is without it, too"},

@@ -54,8 +54,8 @@ AskFirstHit asking(const question::EngineInfo& engine, const Scene& scene) {
   };
 }
 
-Rival::Rival(const question::EngineInfo& engine, Precision precision, const RationalScene& scene,
-             const Start& start, question::Listener listener)
+Rival::Rival(const question::EngineInfo& engine, const RationalScene& scene, const Start& start,
+             question::Listener listener)
     : scene_(oracle::nearest(scene)) {
   AskFirstHit ask;
   if (engine.runs_apart()) {
@@ -69,7 +69,7 @@ Rival::Rival(const question::EngineInfo& engine, Precision precision, const Rati
   }
   const Query query = oracle::nearest(start);
   try {
-    trajectory_ = std::make_unique<Trajectory>(std::move(ask), scene_, query, precision);
+    trajectory_ = std::make_unique<Trajectory>(std::move(ask), scene_, query);
   } catch (const UnsupportedError& error) {
     throw InputError(std::string("--engine: ") + error.what());
   }

@@ -22,8 +22,8 @@ class Rival {
  public:
   /// Throws InputError if the engine's trajectory does not support the start. `listener` gets the events of
   /// an external program.
-  Rival(const question::EngineInfo& engine, Precision precision, const RationalScene& scene,
-        const Start& start, question::Listener listener = {});
+  Rival(const question::EngineInfo& engine, const RationalScene& scene, const Start& start,
+        question::Listener listener = {});
 
   /// Takes the next certified collision, and compares it with the rival's own next collision. Does nothing
   /// once the rival has diverged.

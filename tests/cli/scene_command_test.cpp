@@ -317,13 +317,15 @@ TEST_CASE("horizon: the tail, or that there is none", "[cli][scene_command]") {
 
 TEST_CASE("scene draw: window, size, title, legend, channels", "[cli][scene_command]") {
   const Folder folder;
-  const Run run = folder.lorentz(
-      "scene draw square --radius 0.2 --window=-0.5,-0.5,2.5,2.5 --size 600x500 --title 'Three & three' "
-      "--channels 1");
+  const std::string scene = folder.write("three & three.toml",
+                                         "dimension = 2\nlattices = [{vectors = [[1, 0], [0, 1]], atoms = "
+                                         "[{position = [0, 0], radius = 0.3}]}]\n");
+  const Run run = folder.lorentz("scene draw '" + scene +
+                                 "' --radius 0.2 --window=-0.5,-0.5,2.5,2.5 --size 600x500 --channels 1");
   CHECK(run.status == 0);
   CHECK(is_well_formed(run.out));
   CHECK(contains(run.out, "viewBox=\"0 0 600 "));
-  CHECK(contains(run.out, "Three &amp; three"));
+  CHECK(contains(run.out, "three &amp; three.toml"));
   CHECK(contains(run.out, "corridor [1 0]: width 0.6"));
   CHECK_FALSE(contains(run.out, "corridor [0 1]"));
   CHECK(times(run.out, "<circle") == 9 + 1);

@@ -62,15 +62,6 @@ TEST_CASE("trajectory: an engine held against it", "[cli][trajectory]") {
       "id,collision,lattice,atom,cell1,cell2,time,bits,engine_bits\n7,1,0,0,3,2,3.0657078058760461,"));
   CHECK(lines(folder.read("table")) == 31);
   CHECK(contains(folder.read("picture"), "reduction: another obstacle at collision 8"));
-  // Twice the digits, twice the collisions, if the start's numbers are binary64.
-  const std::string dyadic = folder.write("dyadic", R"({"x":[0.5,0.1],"v":[0.75,0.6]})");
-  const std::string of_dyadic = "trajectory --scene square --radius 0x1.999999999999ap-4 --collisions 30 " +
-                                dyadic + " --engine reduction --precision ";
-  const auto diverged = [&](const std::string& precision) {
-    const std::string end = last_line(folder.lorentz(of_dyadic + precision).out);
-    return std::stoi(end.substr(end.find("\"diverged\":") + 11));
-  };
-  CHECK(diverged("double-double") >= 2 * diverged("binary64") - 3);
   // Another program is an engine, too; and the truth does not part from itself for a few collisions.
   const Run program = folder.lorentz(command + " --engine cmd:" LORENTZ_NAIVE_ENGINE);
   CHECK(contains(last_line(program.out), R"("diverged":8)"));
@@ -138,7 +129,6 @@ TEST_CASE("trajectory: invalid options, and files that cannot be written", "[cli
   CHECK(status("--time 0", "--time: \"0\" is not a rational number above zero") == 2);
   CHECK(status("--collisions 5 --radius -1/3", "--radius: \"-1/3\" is no") == 2);
   CHECK(status("--collisions 5 --engine reductoin", "did you mean") == 2);
-  CHECK(status("--collisions 5 --precision double", "is not one of binary64, double-double") == 2);
   CHECK(status("--collisions 5 --digits 0", "--digits") == 2);
   CHECK(status("--collisions 5 --csv /dev/full", "/dev/full") == 3);
   CHECK(status("--collisions 5 --svg /dev/full", "/dev/full") == 3);

@@ -76,7 +76,7 @@ TEST_CASE("Short campaigns of all targets find nothing in engines that claim to 
   const Folder folder;
   for (const char* engine :
        {"reduction --count 40", "batch --count 40", "certified --times --count 40",
-        "certified-batch --times --count 40", "walk --times --no-undecided --count 10"}) {
+        "certified-batch --times --count 40", "walk --times --undecided no --count 10"}) {
     const Run run = folder.lorentz(std::string("fuzz --ulps 0 --first --engine ") + engine);
     INFO(engine << "\n" << run.out << run.err);
     CHECK(run.status == 0);
@@ -89,7 +89,7 @@ TEST_CASE("A campaign on the published algorithm finds its faults, keeps them, s
   const Folder folder;
   const std::string store = " --store " + folder.file("store");
   const Run run =
-      folder.lorentz("fuzz -e published -t published-faults,leaving --count 32 --no-undecided" + store);
+      folder.lorentz("fuzz -e published -t published-faults,leaving --count 32 --undecided no" + store);
   CHECK(run.status == 1);
   CHECK(contains(run.out, "seed 20161115"));
   CHECK(contains(run.out, "wrong, an obstacle passed over, 2D, unit lattice"));
@@ -128,7 +128,7 @@ TEST_CASE("A campaign on the published algorithm finds its faults, keeps them, s
   CHECK(as_json.out.find("\"departs\":", shrunk) != std::string::npos);
   CHECK(contains(as_json.out, "\"shrinking\":\"done\""));
   const Run again =
-      folder.lorentz("fuzz -e published -t published-faults,leaving --count 32 --no-undecided" + store);
+      folder.lorentz("fuzz -e published -t published-faults,leaving --count 32 --undecided no" + store);
   CHECK(contains(again.err, "goes on with campaign 1"));
   CHECK(again.out == run.out);
 
@@ -147,7 +147,7 @@ TEST_CASE("What a campaign found is exported as a golden set, which check and ve
           "[fuzz][fuzz_command]") {
   const Folder folder;
   const std::string store = " --store " + folder.file("store");
-  folder.lorentz("fuzz -e published -t published-faults,leaving --count 32 --no-undecided" + store);
+  folder.lorentz("fuzz -e published -t published-faults,leaving --count 32 --undecided no" + store);
   const Run set = folder.lorentz("fuzz export" + store);
   CHECK(set.status == 0);
   CHECK(contains(set.out, "\"generator\":\"lorentz fuzz --engine published --seed 20161115"));
@@ -197,7 +197,7 @@ TEST_CASE("It says which layers decided, and who judged", "[fuzz][fuzz_command]"
 #ifdef LORENTZ_MPIRUN
 TEST_CASE("Two processes find what one finds, to the bit", "[fuzz][fuzz_command]") {
   const Folder folder;
-  const std::string what = " fuzz -e reduction -t leaving,grazing --count 800 --undecided --store ";
+  const std::string what = " fuzz -e reduction -t leaving,grazing --count 800 --undecided yes --store ";
   const Run one = folder.lorentz(what + folder.file("one"));
   const Run two =
       folder.run(std::string(LORENTZ_MPIRUN) + " --allow-run-as-root --oversubscribe --quiet -n 2 " +
@@ -219,7 +219,7 @@ TEST_CASE("Two processes find what one finds, to the bit", "[fuzz][fuzz_command]
 
 TEST_CASE("A campaign can end at its first finding", "[fuzz][fuzz_command]") {
   const Folder folder;
-  const std::string what = "fuzz -e published -t published-faults --no-undecided --json --count 3000 ";
+  const std::string what = "fuzz -e published -t published-faults --undecided no --json --count 3000 ";
   const Run run = folder.lorentz(what + "--first");
   CHECK(run.status == 1);
   CHECK(contains(run.out, "\"cases\":1,"));
@@ -232,7 +232,7 @@ TEST_CASE("A campaign can end at its first finding", "[fuzz][fuzz_command]") {
 
 TEST_CASE("With no ulp forgiven an answer is the exact one or wrong", "[fuzz][fuzz_command]") {
   const Folder folder;
-  const std::string what = "fuzz -e classical -t tie --count 64 --mutate 0 --no-undecided ";
+  const std::string what = "fuzz -e classical -t tie --count 64 --mutate 0 --undecided no ";
   const Run lenient = folder.lorentz(what + "--ulps 4"), strict = folder.lorentz(what + "--ulps 0");
   CHECK(lenient.status == 0);
   CHECK(strict.status == 1);
@@ -259,8 +259,8 @@ TEST_CASE("Where nothing is wrong it says what that means", "[fuzz][fuzz_command
 TEST_CASE("Killed at any moment and gone on with, a campaign is as if it had never been",
           "[fuzz][fuzz_command]") {
   const Folder folder;
-  const std::vector<std::string> arguments{"fuzz",        "-e",     "reduction", "-t", "leaving,grazing",
-                                           "--undecided", "--jobs", "2"};
+  const std::vector<std::string> arguments{"fuzz",        "-e",  "reduction", "-t", "leaving,grazing",
+                                           "--undecided", "yes", "--jobs",    "2"};
   auto without_end = arguments;
   without_end.insert(without_end.end(), {"--count", "1000000000", "--store", folder.file("killed")});
   std::uint64_t most = 0;
@@ -307,7 +307,7 @@ TEST_CASE("Interrupted, a campaign reports what it has, and says how to go on", 
   const std::string store = folder.file("a store");
   const Run run = signalled_after(folder, std::chrono::milliseconds(1500), SIGINT,
                                   {"fuzz", "-e", "published", "-t", "published-faults", "--ulps", "8",
-                                   "--no-undecided", "--time", "20", "--store", store});
+                                   "--undecided", "no", "--time", "20", "--store", store});
   INFO(run.out << run.err);
   CHECK(run.status == 1);
   CHECK(contains(run.out, "wrong, an obstacle passed over"));
@@ -316,7 +316,7 @@ TEST_CASE("Interrupted, a campaign reports what it has, and says how to go on", 
   std::string command = run.err.substr(run.err.find(before) + before.size());
   command.resize(command.find('\n') + 1);  // what was asked last may take the engine long, which a line says
   CHECK(command ==
-        "fuzz -e published -t published-faults --ulps 8 --no-undecided --time 20 --store '" + store + "'\n");
+        "fuzz -e published -t published-faults --ulps 8 --undecided no --time 20 --store '" + store + "'\n");
   command.replace(command.find("--time 20"), 9, "--time 0.1");
   const Run again = folder.lorentz(command.substr(0, command.size() - 1));
   CHECK(contains(again.err, "goes on with campaign 1"));
@@ -335,7 +335,9 @@ TEST_CASE("Where stderr is not a terminal, a line there says now and then how it
           "[fuzz][fuzz_command]") {
   const Folder folder;
   const std::string what = "fuzz -e certified -t grazing,tie --time 1";
-  const Run run = folder.lorentz(what + " --progress 0.3");
+  setenv("LORENTZ_PROGRESS_AFTER", "0.005", 1);  // and a line after 60 times as long
+  const Run run = folder.lorentz(what);
+  unsetenv("LORENTZ_PROGRESS_AFTER");
   INFO(run.err);
   CHECK(lines(run.err) >= 2);
   CHECK(lines(run.err) <= 3);
@@ -356,7 +358,7 @@ TEST_CASE("Options of fuzz before the name of its subcommand begin no campaign",
 
 TEST_CASE("Without a store the simplest of each cause is printed", "[fuzz][fuzz_command]") {
   const Folder folder;
-  const std::string what = "fuzz -e published -t published-faults --count 32 --no-undecided";
+  const std::string what = "fuzz -e published -t published-faults --count 32 --undecided no";
   const Run without = folder.lorentz(what);
   const Run with = folder.lorentz(what + " --store " + folder.file("store"));
   CHECK(without.out.find(with.out) == 0);
@@ -369,20 +371,20 @@ TEST_CASE("Without a store the simplest of each cause is printed", "[fuzz][fuzz_
 TEST_CASE("A campaign keeps to the scenes that it is for, and is another one for others",
           "[fuzz][fuzz_command]") {
   const Folder folder;
-  const std::string what = "fuzz -e published --count 64 --no-undecided --store " + folder.file("store");
-  const Run first = folder.lorentz(what + " -t leaving,generic --scenes unit --dimension 2 --json");
-  CHECK(contains(folder.lorentz(what + " -t leaving,generic --dimension 2 --scenes unit").err,
+  const std::string what = "fuzz -e published --count 64 --undecided no --store " + folder.file("store");
+  const Run first = folder.lorentz(what + " -t leaving,generic --scenes unit --domain dimension=2 --json");
+  CHECK(contains(folder.lorentz(what + " -t leaving,generic --domain dimension=2 --scenes unit").err,
                  "goes on with campaign 1"));
-  CHECK(contains(first.out, ", 2D, scenes unit"));
-  CHECK(folder.lorentz(what + " -t leaving,generic --scenes lattice").err.empty());
+  CHECK(contains(first.out, ", scenes unit"));
+  CHECK(folder.lorentz(what + " -t leaving,generic --domain dimension=2 --scenes lattice").err.empty());
   const Run list = folder.lorentz("fuzz show --json --store " + folder.file("store"));
-  CHECK(contains(list.out, ", 2D, scenes unit\""));
-  CHECK(contains(list.out, ", scenes lattice\""));
+  CHECK(contains(list.out, ", scenes unit"));
+  CHECK(contains(list.out, ", scenes lattice"));
   CHECK(contains(list.out, "\"campaign\":2,"));
-  const Run plane = folder.lorentz("fuzz -e certified --count 64 -t generic --dimension 2 --json");
+  const Run plane = folder.lorentz("fuzz -e certified --count 64 -t generic --domain dimension=2 --json");
   CHECK(contains(plane.out, R"("target":"generic","next":64,"cases":32,)"));  // the others are in space
   // Of all targets those that have such scenes.
-  const Run all = folder.lorentz("fuzz -e published --count 1 --scenes unit --no-undecided --json");
+  const Run all = folder.lorentz("fuzz -e published --count 1 --scenes unit --undecided no --json");
   CHECK(contains(all.out, "\"target\":\"leaving\""));
   CHECK_FALSE(contains(all.out, "\"target\":\"superpositions\""));
 }
@@ -402,7 +404,8 @@ TEST_CASE("A program that is wrong on purpose is found", "[fuzz][fuzz_command]")
 
 TEST_CASE("A campaign that asked nothing says so, and does not succeed", "[fuzz][fuzz_command]") {
   const Folder folder;
-  const std::string campaign = "fuzz -e reduction --dimension 3 -t generic --mutate 0 --reword 0 --count ";
+  const std::string campaign =
+      "fuzz -e reduction --domain dimension=3 -t generic --mutate 0 --reword 0 --count ";
   const Run nothing = folder.lorentz(campaign + "20");  // the first 32 indices are in the plane
   CHECK(nothing.status == 2);
   CHECK(contains(nothing.err, "no case was asked"));
@@ -494,12 +497,11 @@ TEST_CASE("Bad options are refused before any work, with what would do", "[fuzz]
   refused("--keep 0", "--keep: ");
   refused("--mutate -1", "--mutate: ");
   refused("--ulps 1e9", "--ulps: 1000000000 is above 1048576");
-  refused("--undecided --no-undecided", "excludes");
+  refused("--undecided perhaps", "--undecided: \"perhaps\" is not one of no, yes");
   refused("--judge nobody", "--judge: \"nobody\" is not one of oracle, certified");
   refused("--judge certified -e reduction",
           "certified rests on reduction, and cannot judge the engine reduction");
   refused("--timeout 0", "--timeout: must be above zero");
-  refused("--dimension 4", "--dimension: \"4\" is not a whole number from 2 to 3");
   refused("--scenes cubes", "--scenes: \"cubes\" is not one of unit, lattice, ball, any");
   refused("-t superpositions --scenes unit", "--target: superpositions has no such scenes as --scenes and");
   refused("nonsense", "no subcommand is called \"nonsense\"; there are show, export");
