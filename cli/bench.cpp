@@ -40,7 +40,7 @@ std::vector<report::Cell> groups_of(const ExaminationOptions& options) {
   return groups;
 }
 
-int act(ExaminationOptions options) {
+int run_bench(ExaminationOptions options) {
   if (options.count < kFewestQueries)
     throw InputError(
         fmt::format("--count: {} queries say nothing; give {} or more", options.count, kFewestQueries));
@@ -85,7 +85,7 @@ Command bench_command() {
       "drawn: uniform starts, isotropic directions. near-rational: directions a few ulps from small integers."
       "\ngrazing: the first ball is passed or met within r 2^-10 to r 2^-50 of its edge.\nExample:\n"
       "  lorentz bench --scene square --radius 0.1,1e-6 --engine published,reduction --csv speed.csv",
-      [options] { return act(*options); }};
+      [options] { return run_bench(*options); }};
 }
 
 }  // namespace lorentz::cli

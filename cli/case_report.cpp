@@ -52,7 +52,7 @@ std::string drawing_of(const CaseReport& report) {
                       : pictures::finding_drawing(report.scene, report.query, report.exact);
 }
 
-void add_finding(json::Members& object, const CaseReport& report) {
+void add_report(json::Members& object, const CaseReport& report) {
   const Components dimension(report.scene);
   const oracle::Margins margins(report.scene, report.claim.precision);
   const std::string drawing = drawing_of(report);
@@ -70,7 +70,7 @@ std::string page_json(const CaseReport& report) {
   return json::line_of([&](json::Members& page) {
     page.add("format", 1, "kind", "case", "title", report.title, "manifest",
              report::manifest_of(0, report.command), "findings",
-             json::objects(std::span(&report, 1), add_finding));
+             json::objects(std::span(&report, 1), add_report));
   });
 }
 

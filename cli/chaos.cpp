@@ -84,8 +84,8 @@ std::optional<ScanFinding> diffusion_at(const ScanPlace& place, const ChaosOptio
   return ScanFinding{options.json ? found.json() : found.table(), found.csv(), found.is_whole};
 }
 
-int act(const ChaosOptions& options,
-        std::optional<ScanFinding> (*found_at)(const ScanPlace& place, const ChaosOptions& options)) {
+int run_chaos(const ChaosOptions& options,
+              std::optional<ScanFinding> (*found_at)(const ScanPlace& place, const ChaosOptions& options)) {
   if (options.store && options.is_of_several())
     throw InputError("--store: parts are kept of one scene at one radius; run several one by one");
   return scan(options, "means of trajectories are taken",
@@ -107,7 +107,7 @@ Command lyapunov_command() {
           "docs/chaos.md: what is measured, how, and what theory knows.\n"
           "Examples:\n  lorentz lyapunov --scene square --radius 0.2 --collisions 1e7 --jobs 2\n"
           "  lorentz lyapunov --scene square,triangular --radius 0.1,0.2,0.3 --csv exponents.csv",
-          [options] { return act(*options, lyapunov_at); }};
+          [options] { return run_chaos(*options, lyapunov_at); }};
 }
 
 Command diffusion_command() {
@@ -125,7 +125,7 @@ Command diffusion_command() {
 
       "docs/chaos.md: what is measured, how, and what theory knows.\n"
       "Example:\n  lorentz diffusion --scene triangular --radius 0.45 --count 1e5 --time 50 --jobs 2",
-      [options] { return act(*options, diffusion_at); }};
+      [options] { return run_chaos(*options, diffusion_at); }};
 }
 
 }  // namespace lorentz::cli

@@ -124,7 +124,7 @@ std::vector<Question> all_to_time(ComparedQuestions& questions, Lineup& lineup) 
   return all;
 }
 
-int act(ExaminationOptions options) {
+int run_compare(ExaminationOptions options) {
   if (options.engines.empty() && options.answers.empty()) options.engines = {"classical", "published"};
   const std::vector<EngineInfo> engines = options.named_engines();
   if (truth_named(options.judge, engines) != Truth::oracle && options.no_oracle)
@@ -163,7 +163,7 @@ Command compare_command() {
       "of a lib: engine in its own calls.\nWithout --engine and --answers: classical and published. Exit "
       "status 1: an answer is wrong, an error or missing;\n3: a cmd: or lib: engine broke.\nExample:\n"
       "  lorentz compare --scene cubic --radius 0.2 --count 20000 --engine published,classical",
-      [options] { return act(*options); }};
+      [options] { return run_compare(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -14,7 +14,7 @@ struct ConvergentsOptions {
   bool json = false;
 };
 
-int act(const ConvergentsOptions& options) {
+int run_convergents(const ConvergentsOptions& options) {
   const double rise = parse_number(options.slope), run = parse_number(options.run);
   if (run == 0) throw InputError("the run is zero: the slope is infinite");
   constexpr std::size_t kAll = 10'000;  // a quotient of two binary64 has less than 3200 terms
@@ -54,7 +54,7 @@ Command convergents_command() {
       },
 
       "Examples:\n  lorentz convergents 0.01745240643728351 0.9998476951563913\n  lorentz convergents -0.618",
-      [options] { return act(*options); }};
+      [options] { return run_convergents(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -111,7 +111,7 @@ class DemoReport {
                         "undecided", "mean error", "worst", "us/query"}};
 };
 
-int act(const std::optional<std::string>& disagreements) {
+int run_demo(const std::optional<std::string>& disagreements) {
   print(fmt::format(
       "Which obstacle does the particle hit first? Two known algorithms against exact arithmetic (seed "
       "{}).\n\n",
@@ -141,7 +141,7 @@ Command demo_command() {
       "Exits with 0 when all was done: the wrong answers of the known algorithms are what it shows.\n"
       "Example:\n  lorentz demo --disagreements wrong.ndjson && lorentz compare --queries wrong.ndjson -e "
       "classical",
-      [options] { return act(options->disagreements); }};
+      [options] { return run_demo(options->disagreements); }};
 }
 
 }  // namespace lorentz::cli

@@ -71,7 +71,7 @@ std::string json_of(const report::Manifest& its, const std::vector<Symptom>& fin
   });
 }
 
-int act(bool as_json) {
+int run_doctor(bool as_json) {
   const std::vector<Symptom> findings = all_findings();
   std::fesetround(FE_TONEAREST);
   const std::vector<Use> unfit = fitness::unfit_uses(findings);
@@ -91,7 +91,7 @@ Command doctor_command() {
           "Exit status: 0 fit, 1 not fit for something that is named, 2 bad usage, 3 the work could not be "
           "done.\n"
           "Example:\n  lorentz doctor",
-          [json] { return act(*json); }};
+          [json] { return run_doctor(*json); }};
 }
 
 }  // namespace lorentz::cli

@@ -217,7 +217,7 @@ void check_one_query(const FirstHitOptions& options) {
                      std::string(options.records ? "--records" : "--format") + " out");
 }
 
-int act(const FirstHitOptions& options) {
+int run_first_hit(const FirstHitOptions& options) {
   check_proving(options);
   check_one_query(options);
   const std::size_t format = index_of_name(options.format, {"ndjson", "csv", "npy"}, "--format");
@@ -268,7 +268,7 @@ Command first_hit_command() {
       "answers.npy\n"
       "  lorentz sample --scene square --radius 0.1 --count 3 | lorentz first-hit --prove --records | "
       "lorentz golden verify -",
-      [options] { return act(*options); }};
+      [options] { return run_first_hit(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -160,7 +160,7 @@ int fly_all(std::vector<FlightsReport>&& tasks, const flights::FlightBounds& bou
   return kFailed;
 }
 
-int act(const FlightsOptions& options) {
+int run_flights(const FlightsOptions& options) {
   if (options.html && !report::has_page()) report::page("");  // throws with the reason
   std::vector<FlightsReport> tasks = tasks_of(options);
   flights::FlightBounds bounds = bounds_of(options);
@@ -208,7 +208,7 @@ Command flights_command() {
       "  lorentz flights --scene square,triangular --radius 0.1,0.01 --html lattices.html\n"
       "  lorentz flights --scene superposition-pi-5 --radius 1e-4 --count 1e8 --jobs 2 --store pi-5.flights "
       "--csv pi-5.csv",
-      [options] { return act(*options); }};
+      [options] { return run_flights(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -221,7 +221,7 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, fuzz::Bound
   return exit_status(report, options.times, failed);
 }
 
-int act(const FuzzOptions& options) {
+int run_fuzz(const FuzzOptions& options) {
   const auto begun = Progress::Clock::now();
   fuzz::Bounds bounds = bounds_of(options);
   const double timeout = options.longest_wait();
@@ -254,7 +254,7 @@ Command fuzz_command() {
           "docs/campaigns.md: targets, variants, what is a finding, how it is shrunk, the store. Without "
           "--engine: reduction.\nExample:\n  lorentz fuzz --engine published --time 60 --store "
           "published.campaign\n  lorentz fuzz show --store published.campaign",
-          [options] { return act(*options); },
+          [options] { return run_fuzz(*options); },
           {fuzz_show_command(), fuzz_export_command()}};
 }
 

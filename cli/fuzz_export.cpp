@@ -72,7 +72,7 @@ std::string golden_set_of(const Store& store) {
   return std::move(text);
 }
 
-int act(const std::string& path, const std::string& output) {
+int run_fuzz_export(const std::string& path, const std::string& output) {
   RequestedFile file(output == "-" ? std::nullopt : std::optional(output));
   const Store store(path, Store::Access::read);
   if (output == "-")
@@ -94,7 +94,7 @@ Command fuzz_export_command() {
 
       "Example:\n  lorentz fuzz export --store published.campaign -o mine.ndjson; "
       "lorentz golden check mine.ndjson --engine published",
-      [store, output] { return act(*store, *output); }};
+      [store, output] { return run_fuzz_export(*store, *output); }};
 }
 
 }  // namespace lorentz::cli

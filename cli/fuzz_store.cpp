@@ -140,7 +140,7 @@ int show(const Store& store, const ShowOptions& options) {
                                options.store, json_quoted(*options.id)));
 }
 
-int act(const ShowOptions& options) {
+int run_fuzz_store(const ShowOptions& options) {
   if (options.files.any() && !options.id) throw InputError("--html, --svg: are of one finding; name it");
   const Store store(options.store, Store::Access::read);
   return options.id ? show(store, options) : list(store, options);
@@ -160,7 +160,7 @@ Command fuzz_show_command() {
                  options->files.rows()),
           "Example:\n  lorentz fuzz show --store published.campaign\n"
           "  lorentz fuzz show 1/leaving/6 --store published.campaign",
-          [options] { return act(*options); }};
+          [options] { return run_fuzz_store(*options); }};
 }
 
 }  // namespace lorentz::cli

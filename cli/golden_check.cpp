@@ -143,7 +143,7 @@ std::string text_of(const LineupEntry& one, const Claim& claim, const std::vecto
   return text + verdict_of(total) + '\n';
 }
 
-int act(ExaminationOptions options) {
+int run_golden_check(ExaminationOptions options) {
   const std::vector<EngineInfo> engines = options.named_engines();
   options.claim.ask(engines);
   Lineup lineup(options, engines);
@@ -179,7 +179,7 @@ Command golden_check_command() {
       "Examples:\n  lorentz golden check --engine 'cmd:python3 docs/examples/naive_engine.py' --first 64 "
       "generic-3d\n  lorentz golden check -e published --baseline known.txt published-faults\n"
       "The first time this writes known.txt; from then on the same line fails only for what is new.",
-      [options] { return act(*options); }};
+      [options] { return run_golden_check(*options); }};
 }
 
 }  // namespace lorentz::cli

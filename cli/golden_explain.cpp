@@ -91,7 +91,7 @@ CaseReport case_report(const golden::Reader& reader, const golden::ReadRecord& r
   return report;
 }
 
-int act(const ExplainOptions& options) {
+int run_golden_explain(const ExplainOptions& options) {
   std::set<std::string> ids;
   std::string place;  // the set of the first match
   for (const std::string& path : golden::find_sets(options.sets)) {
@@ -133,7 +133,7 @@ Command golden_explain_command() {
               },
               options->files.rows()),
           "Example:\n  lorentz golden explain 9cbb135e --html record.html",
-          [options] { return act(*options); }};
+          [options] { return run_golden_explain(*options); }};
 }
 
 }  // namespace lorentz::cli

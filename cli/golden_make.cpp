@@ -246,7 +246,7 @@ void check(const MakeOptions& options) {
     throw InputError("--scene, --radius and --tag: need --queries");
 }
 
-int act(const MakeOptions& options) {
+int run_golden_make(const MakeOptions& options) {
   check(options);
   golden::Order order;
   order.seed = options.seed;
@@ -291,7 +291,7 @@ Command golden_make_command() {
       "  lorentz golden make --set grazing --precision binary32 -o grazing-binary32.ndjson\n"
       "  lorentz sample --scene square --kind grazing --count 100 | lorentz golden make --queries - "
       "--tag mine",
-      [options] { return act(*options); }};
+      [options] { return run_golden_make(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -53,7 +53,7 @@ std::size_t verify(const std::string& path, bool walk) {
   return flaws;
 }
 
-int act(const std::vector<std::string>& names, bool walk) {
+int run_golden_verify(const std::vector<std::string>& names, bool walk) {
   std::size_t flaws = 0;
   bool bad = false;
   for (const std::string& path : golden::find_sets(names)) {
@@ -84,7 +84,7 @@ Command golden_verify_command() {
       "data/check.py, which shares nothing with this program, does the same.\n"
       "Exit status 1: a record is refuted.\n"
       "Example:\n  lorentz golden verify ties grazing",
-      [names, walk] { return act(*names, *walk); }};
+      [names, walk] { return run_golden_verify(*names, *walk); }};
 }
 
 }  // namespace lorentz::cli

@@ -15,7 +15,7 @@ struct HorizonOptions {
   bool json = false;
 };
 
-int act(const HorizonOptions& options) {
+int run_horizon(const HorizonOptions& options) {
   const Scene scene = load_scene(options.scene, options.radius);
   try {
     const oracle::Horizon horizon =
@@ -45,7 +45,7 @@ Command horizon_command() {
           {"--json", &options->json, "", "one JSON object, with all channels (a table has 20 rows at most)"},
       },
       "Examples:\n  lorentz horizon square --radius 0.4",
-      [options] { return act(*options); }};
+      [options] { return run_horizon(*options); }};
 }
 
 }  // namespace lorentz::cli

@@ -109,7 +109,7 @@ std::string words_of_more(const ExaminationOptions& options) {
   return text + '\n';
 }
 
-int act(const ExaminationOptions& options) {
+int run_judge(const ExaminationOptions& options) {
   JudgeOrder order = order_of(options);
   if (const auto option = options.files.first_option(); option && !options.questions)
     throw InputError(*option + ": needs --questions, so that each run asks the same");
@@ -153,7 +153,7 @@ Command judge_command() {
       "--questions. Exit status 1: an answer is wrong or missing, or a valid question was called an error;\n"
       "3: a cmd: or lib: engine broke, or was given up or too slow in a scene.\n"
       "Example:\n  lorentz judge --quick --engine 'cmd:python3 docs/examples/naive_engine.py'",
-      [options] { return act(*options); }};
+      [options] { return run_judge(*options); }};
 }
 
 }  // namespace lorentz::cli

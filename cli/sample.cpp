@@ -16,7 +16,6 @@
 namespace lorentz::cli {
 
 using starts::FreeStarts;
-using starts::Kind;
 
 namespace {
 
@@ -41,9 +40,9 @@ void append_rows(std::string& out, const std::string& format, const QueryRows& r
     append_query_line(out, std::to_string(first + i), rows.query(i, scene.dimension), scene);
 }
 
-int act(const SampleOptions& options) {
+int run_sample(const SampleOptions& options) {
   constexpr std::uint64_t kRowsTogether = 1024;
-  const Kind kind = starts::kind_named(options.kind, "--kind");
+  const auto kind = starts::kind_named(options.kind, "--kind");
   index_of_name(options.format, {"ndjson", "csv", "npy"}, "--format");  // throws if it is none of them
   const NumberFormat precision = number_format_named(options.precision);
   const Scene scene = rounded_scene(load_scene(options.scene, options.radius), precision, options.scene);
@@ -51,13 +50,14 @@ int act(const SampleOptions& options) {
   const question::Listener listener = terminal();
   Output output;
   QueryRows rows;
-  append_front(output.buffer(), options, scene, kind == Kind::surface);
+  append_front(output.buffer(), options, scene, kind == starts::Kind::surface);
   for (std::uint64_t first = 0; first < options.count; first += rows.count) {
-    rows.resize(std::min(kRowsTogether, options.count - first), scene.dimension, kind == Kind::surface);
+    rows.resize(std::min(kRowsTogether, options.count - first), scene.dimension,
+                kind == starts::Kind::surface);
     for (std::size_t i = 0; i < rows.count; ++i) rows.set(i, starts[first + i], scene.dimension);
     append_rows(output.buffer(), options.format, rows, first, scene);
     output.flush_if_due();
-    report(listener, "drawing", first + rows.count, options.count);
+    question::report(listener, "drawing", first + rows.count, options.count);
   }
   output.flush();
   say("{}: {} {} starts (seed {})", options.scene, options.count, options.kind, options.seed);
@@ -91,7 +91,7 @@ Command sample_command() {
       "a seed are the same whatever --count.\n"
       "Examples:\n  lorentz sample --scene triangular --count 100 | lorentz first-hit --engine certified\n  "
       "lorentz sample --kind surface --radius 0.2 --format npy > starts.npy",
-      [options] { return act(*options); }};
+      [options] { return run_sample(*options); }};
 }
 
 }  // namespace lorentz::cli

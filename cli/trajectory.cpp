@@ -218,7 +218,7 @@ void TrajectoryRun::follow(const Id& id, const RationalScene& scene, const Start
         id, arrival.collisions + 1, arrival.bits);
 }
 
-int act(const TrajectoryOptions& options) {
+int run_trajectory(const TrajectoryOptions& options) {
   Output output;
   TrajectoryRun run(output, options);
   StartStream stream(options.starts, scene_of(options),
@@ -287,7 +287,7 @@ Command trajectory_command() {
       "Example, problem 2 of the SIAM 100-digit challenge to 100 digits:\n"
       R"(  echo '{"x":["1/2","1/10"],"v":[1,0]}' | lorentz trajectory --scene square --radius 1/3 )"
       "--time 10 --digits 100",
-      [options] { return act(*options); }};
+      [options] { return run_trajectory(*options); }};
 }
 
 }  // namespace lorentz::cli
