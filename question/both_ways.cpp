@@ -17,8 +17,11 @@ bool same_bits(const Flight& a, const Flight& b) {
 }
 
 Flight flight_in(const FlightColumns& columns, std::size_t i) {
-  Flight flight{columns.outcome[i], columns.stage[i], columns.time_is_rounded[i], columns.lattice[i],
-                columns.atom[i]};
+  Flight flight{.outcome = columns.outcome[i],
+                .stage = columns.stage[i],
+                .time_is_rounded = columns.time_is_rounded[i],
+                .lattice = columns.lattice[i],
+                .atom = columns.atom[i]};
   for (int k = 0; k < 3; ++k) flight.cell[k] = columns.cell[k][i];
   flight.time = columns.time[i];
   return flight;

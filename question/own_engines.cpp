@@ -128,8 +128,11 @@ SceneEngine staged_flights(const Scene& scene, const Traits& traits) {
   if (const auto why_not = Reduction::beyond(scene)) return SceneEngine::unsupported(scene, traits, *why_not);
   const auto engine = std::make_shared<const Reduction>(scene);
   return {scene, traits, [engine](const Query& query, const oracle::Request& request, Reply& reply) {
-            const Flight flight = engine->fly(query, limit_of(request));
-            reply.answer = answer_of(flight), reply.stage = flight.stage;
+            std::array<WideInteger, 3> cell{};
+            const Flight flight = engine->fly(query, limit_of(request), Reduction::Time::close, &cell);
+            reply.answer.clear();
+            set_answer(flight, cell, reply.answer);
+            reply.stage = flight.stage;
           }};
 }
 

@@ -24,6 +24,7 @@ struct Flight {
   Outcome outcome = Outcome::undecided;
   Stage stage = Stage::binary64;
   bool time_is_rounded = false;  ///< true if the time is known to be correctly rounded
+  bool is_far = false;           ///< true if 64 bits do not hold the cell, which `cell` then does not say
   int lattice = 0, atom = 0;
   std::array<std::int64_t, 3> cell{};  ///< set for `hit` and `inside`
   double time = 0;                     ///< set for `hit`, in units in which x + time v is the collision point

@@ -30,6 +30,11 @@ class Integer {
   }
   ~Integer() = default;
 
+  static Integer of(WideInteger value) {
+    const auto low = static_cast<std::int64_t>(value);
+    return low == value ? Integer(low) : of_wide(value);
+  }
+
   /// Reads an optional '-' and decimal digits; any other text yields nothing. Leading zeros are dropped.
   static std::optional<Integer> from_decimal(std::string_view text);
 
@@ -51,6 +56,7 @@ class Integer {
       digits_;  ///< canonical decimal form if 64 bits cannot hold it, else null
 
   std::optional<WideInteger> int128_of_digits() const;
+  static Integer of_wide(WideInteger value);
 };
 
 /// Coordinates n of a lattice cell. A 2D problem keeps the third at zero.

@@ -56,8 +56,8 @@ struct Task;  // internal: a query with its limit, in the engine's units
 ///  - queries with numbers so small that products of them underflow, and that the error bounds do not decide;
 ///  - queries that start more than 2^51 cells from the origin on a unit lattice (is_unit_scene), or more than
 ///    2^44 cells on another lattice;
-///  - queries for which the search needs integers beyond 2^53 (2^61 on unit lattices): very long flights in a
-///    direction near a rational one.
+///  - queries for which the search needs integers beyond 2^53 (2^76 among balls on the unit cubic lattice): very
+///    long flights in a direction near a rational one.
 /// `Certified` (certified.hpp) asks the oracle about undecided queries.
 ///
 /// Cost: about 85 ns per flight in 2D and 420 ns in 3D at r = 0.1, and about 13 ns (2D) or 115 ns (3D) more
@@ -99,22 +99,28 @@ class Reduction : public Engine {
   /// With a finite limit `max_time`, the outcome is `later` if nothing is entered before the limit, whether
   /// or not something is entered afterwards; `never` does not occur. The exact time of the hit is compared
   /// with the limit. (Rounding may move the reported time to the limit or beyond.)
+  ///
+  /// A hit in a cell that 64 bits do not hold is `undecided`; but if `cell` is not null, it is a hit with
+  /// Flight::is_far, and `cell` gets the cell.
   Flight fly(const Query& query, double max_time = std::numeric_limits<double>::infinity(),
-             Time time = Time::close) const;
+             Time time = Time::close, std::array<WideInteger, 3>* cell = nullptr) const;
 
   struct Model;
 
  private:
   void first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const override;
   bool decides_limit() const override { return true; }
-  void fly(const Ray& ray, double max_time, Time time, Flight& flight) const;
+  void fly(const Ray& ray, double max_time, Time time, Flight& flight,
+           std::array<WideInteger, 3>* cell) const;
   void fly_to_limit(Task task, Flight& flight) const;
   Pimpl<const Model> model_;
 };
 
 /// Turn a flight into an Answer, the form that all engines share. set_answer writes into the caller's Answer,
 /// which must be new or cleared. Answer::clear keeps the memory, so one Answer can serve many flights.
+/// `cell`: as `fly` has set it, for a flight that is_far.
 Answer answer_of(const Flight& flight);
 void set_answer(const Flight& flight, Answer& answer);
+void set_answer(const Flight& flight, const std::array<WideInteger, 3>& cell, Answer& answer);
 
 }  // namespace lorentz

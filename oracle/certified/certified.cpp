@@ -31,12 +31,13 @@ bool Certified::answer_fast(const Query& query, const Request& request, Answer& 
     answer = Answer::error(*flaw);
     return true;
   }
-  Flight flight = fast_->fly(query, max_time, Reduction::Time::rounded);
+  std::array<WideInteger, 3> cell{};
+  Flight flight = fast_->fly(query, max_time, Reduction::Time::rounded, &cell);
   if (flight.outcome == Outcome::undecided) return false;
   if (flight.outcome == Outcome::inside && request.start != StartInside::inside) return false;
   if (flight.outcome == Outcome::hit && !flight.time_is_rounded) return false;
   if (request.max_time && flight.outcome == Outcome::never) flight.outcome = Outcome::later;
-  set_answer(flight, answer);
+  set_answer(flight, cell, answer);
   if (tally) tally->count(flight.stage);
   return true;
 }

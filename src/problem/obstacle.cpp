@@ -29,6 +29,14 @@ std::optional<WideInteger> Integer::int128_of_digits() const {
   return negative ? -n : n;
 }
 
+Integer Integer::of_wide(WideInteger value) {
+  std::string digits;
+  for (WideInteger rest = value; rest != 0; rest /= 10)
+    digits.insert(digits.begin(),
+                  static_cast<char>('0' + static_cast<int>(rest < 0 ? -(rest % 10) : rest % 10)));
+  return *from_decimal(value < 0 ? '-' + digits : digits);
+}
+
 std::string Integer::decimal() const {
   return fits_int64() ? std::to_string(value_) : *digits_;
 }

@@ -26,7 +26,7 @@ class GreedyReduction {
     M todo = wanted, done = no_lane();
     double limit = kRunningCoefficient;
     M fresh = todo;
-    for (int round = 0; round < kMaxReductionRounds; ++round) {
+    for (int round = 0; round < kMaxRoundsInLanes; ++round) {
       const M good = pass(todo, fresh, limit);
       const M accurate = Or(fresh, largest_ * all(frame.inverse_r) < all(kGoodRunning));
       for (int i = 0; i < 3; ++i) frame.template recompute<LaneFma>(b_[i], length);
@@ -39,6 +39,9 @@ class GreedyReduction {
   }
 
  private:
+  // Drawn directions need no more; what single flights do for others, they do alone.
+  static constexpr int kMaxRoundsInLanes = 3;
+
   // Returns the lanes of `todo` that finish; the others need coordinates that are computed anew.
   HWY_INLINE M pass(M todo, M& fresh, double limit) {
     const V zero = none(), quotient = all(kRunningQuotient);

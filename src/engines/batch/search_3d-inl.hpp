@@ -228,7 +228,7 @@ class LaneSearch3 {
   // flight, the obstacles on the line repeat; such lanes are left over, because a single flight can tell.
   HWY_INLINE M ends(Lanes& lanes) const {
     const M at_end = And(window_.begin > s_limit_, lanes.active);
-    M beyond = Not(window_.begin < all(kFarthest));
+    M beyond = Not(window_.begin < all(kMaxCell));
     for (const Arm3& arm : window_.basis->b) beyond = Or(beyond, And(arm.p[0] == none(), arm.p[1] == none()));
     lanes.leave(AndNot(at_end, beyond));
     return at_end;

@@ -110,6 +110,19 @@ class AtomStart {
     return true;
   }
 
+  /// The same in 128 bits; false beyond what the search counts with.
+  [[gnu::noinline]] bool set_cell(const Wide (&N)[D], std::array<WideInteger, 3>& cell) const {
+    cell = {};
+    for (int i = 0; i < D; ++i) {
+      const std::int64_t stride = kUnit ? 1 : lattice->stride[i];
+      if (!(std::fabs(N[i].hi) * static_cast<double>(stride) < kMaxWideCell)) return false;
+      const WideInteger n =
+          (static_cast<WideInteger>(N[i].hi) + static_cast<WideInteger>(N[i].lo)) * stride + home(i);
+      for (int k = 0; k < D; ++k) cell[k] += n * (kUnit ? k == i : lattice->transform[i][k]);
+    }
+    return true;
+  }
+
   /// The obstacle of cell N, from which nothing is rounded; nothing where that is not known.
   [[gnu::noinline]] std::optional<UnroundedObstacle> unrounded(const Task& task, const Wide (&N)[D]) const {
     std::array<std::int64_t, 3> cell{};

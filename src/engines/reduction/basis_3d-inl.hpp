@@ -1,7 +1,7 @@
 // Short bases of a 3D lattice as seen along a line, and the parts of the dual basis that are needed to
 // enumerate its planes and lines.
 
-/// The integers of a search: numbers, which are exact below 2^53, or double-double, of which kMaxCell holds.
+/// The integers of a search: numbers, which are exact below 2^53, or double-double, of which kMaxWideCell holds.
 template <class Number>
 LORENTZ_INLINE Number high_of(const Number& n) {
   return n;
@@ -11,7 +11,10 @@ LORENTZ_INLINE typename Numbers::Number high_of(const DoubleDouble<Numbers>& n) 
   return n.hi;
 }
 template <class Integer>
-inline constexpr double kLargest = std::is_same_v<Integer, Wide> ? kMaxCell : kMaxCoefficient;
+inline constexpr double kLargest = std::is_same_v<Integer, Wide> ? kMaxWideCell : kMaxCoefficient;
+/// How far the windows go, in s: in its cells the search counts exactly.
+template <class Integer>
+inline constexpr double kFarthest = std::is_same_v<Integer, Wide> ? kMaxWideCell : kMaxCell;
 
 /// compensated_sum (formulas-inl.hpp) of coefficients in double-double.
 template <class Pair, int kTerms = 3, bool kLowParts = true, class Arch, class Form>

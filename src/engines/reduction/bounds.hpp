@@ -193,8 +193,8 @@ inline constexpr double kMaxGeneralStart = 0x1p44;
 /// from there it would be seen with a rounding.
 inline constexpr double kBelowHalf = 0x1.fffffffffffffp-2;
 
-/// Cells that the search names, from the home cell.
-inline constexpr double kMaxCell = 0x1p61;
+/// Cells that the search names, from the home cell; and those that it counts with where it leaves binary64.
+inline constexpr double kMaxCell = 0x1p61, kMaxWideCell = 0x1p76;
 
 /// `from` is not near x if its cell is beyond 2 to the first, or beyond 2 to the second from the home cell.
 inline constexpr int kFarthestCellBits = 84, kFarthestHereBits = 62;
@@ -219,9 +219,9 @@ inline constexpr double kMaxUnsure = 0.25;
 /// itself.
 inline constexpr double kRoughHeight = 0x1p-10;
 
-/// 3D: the expected number of obstacles in the first window; how far the windows go, in s (the cells there
-/// still fit 64 bits); the longest jump, in windows; where in a window its anchor is.
-inline constexpr double kWindowCells = 2, kFarthest = 0x1p61, kMaxJump = 0x1p70, kMiddle = 0.5;
+/// 3D: the expected number of obstacles in the first window; the longest jump, in windows; where in a window its
+/// anchor is.
+inline constexpr double kWindowCells = 2, kMaxJump = 0x1p70, kMiddle = 0.5;
 
 /// 3D: how many times longer later windows are, at least; or how many cells of the lattice of lines they pass.
 inline constexpr double kLonger = 4, kLinesInWindow = 0.125;
@@ -238,9 +238,10 @@ inline constexpr double kManyLines = 12, kPartCells = 2, kMaxLinesInPart = 64;
 inline constexpr double kShortStretch = 16, kMaxEntryError = 24;
 
 /// 3D, running coordinates of a reduction err by their coefficients times the first rounding: beyond these
-/// they are computed anew. kGoodRunning: coefficients times 1/r, for errors of 2^-12 in units of r.
+/// they are computed anew. kGoodRunning: coefficients times 1/r, for errors of 2^-12 in units of r, which is
+/// kGoodPlace.
 inline constexpr double kRunningCoefficient = 0x1p20, kRunningQuotient = 0x1p20, kNoLimit = 0x1p100,
-                        kGoodRunning = 0x1p40;
+                        kGoodRunning = 0x1p40, kGoodPlace = 0x1p-12;
 
 /// 3D: a basis is nearly orthogonal if all |b_i| |dual_i| are at most this; then |b_0| |b_1| |b_2| / volume
 /// is at most its square, on which kPlane relies. Both are at most sqrt(2) for reduced bases.

@@ -54,6 +54,13 @@ class AtomFlight {
   /// it.
   bool cell(std::array<std::int64_t, 3>& cell) const { return start_.set_cell(N_, cell); }
 
+  /// The same of a hit; where the task has a place for a larger cell, it is there.
+  bool set_cell_of_hit(const Task& task, Flight& flight) const {
+    if (start_.set_cell(N_, flight.cell)) return true;
+    flight.is_far = true;
+    return task.cell && start_.set_cell(N_, *task.cell);
+  }
+
   /// The obstacle found.
   std::optional<UnroundedObstacle> unrounded(const Task& task) const { return start_.unrounded(task, N_); }
   bool has_smaller_name(const AtomFlight& other) const {

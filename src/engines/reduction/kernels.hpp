@@ -19,6 +19,7 @@ struct Task {
   double max_time;
   double search_time;  ///< obstacles entered later need not be searched for; at least max_time
   Reduction::Time time;
+  std::array<WideInteger, 3>* cell = nullptr;  ///< where the cell of a flight is put that is_far
 
   bool is_limited() const { return max_time < std::numeric_limits<double>::infinity(); }
 

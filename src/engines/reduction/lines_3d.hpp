@@ -18,13 +18,17 @@ class Lines3 {
  public:
   Lines3(const Window& window, Candidates& candidates) : window_(window), candidates_(candidates) {}
 
-  /// Scans the line through q with steps `arm`. False: undecided.
-  bool scan(const Point& q, const Arm& arm, double z_first, double z_last) {
+  /// Scans the line through q with steps `arm`. False: undecided. `moves`: how often q may be moved along.
+  bool scan(const Point& q, const Arm& arm, double z_first, double z_last, int moves = kMaxEntryPasses) {
     LineOf3<SplitProduct, Integer> line;
     if (!line.set(q, arm, window_.line_error(q))) return true;
     line.set_ends();
     if (!(line.slack < kMaxUnsure)) return scan_closely(q, arm, z_first, z_last, line.first);
     line.cut(q, arm, z_first, z_last);
+    if constexpr (std::is_same_v<Integer, Wide>)
+      if (line.first <= line.last && moves > 0 && std::fabs(line.first) >= kMaxCoefficient)
+        return scan(window_.recomputed(q.step(std::nearbyint(line.first), arm)), arm, z_first, z_last,
+                    moves - 1);
     return scan_stretch(q, arm, std::ceil(line.first), line.last);
   }
 
@@ -40,7 +44,7 @@ class Lines3 {
     const double drift = (std::fabs(arm.p[0]) + std::fabs(arm.p[1])) * (k_last - k_first);
     const double distance = std::sqrt(first.p[0] * first.p[0] + first.p[1] * first.p[1]);
     const double unsure = kDiscriminant * window_.line_error(first);
-    if (distance - drift > 1 + unsure) return true;
+    if (distance - drift > 1 + unsure || has_passed(first, arm, k_last - k_first, distance)) return true;
     const bool is_near = distance < 1 - unsure, is_parallel = !is_near && window_.is_parallel(arm);
     if (is_parallel && candidates_.is_missed(first)) return true;  // and so is every ball of the line
     if (is_near || is_parallel || k_last - k_first < kShortStretch || !(estimate > k_first))
@@ -51,6 +55,14 @@ class Lines3 {
     k = std::max(k, std::ceil((z_first - entry.z) / arm.z - kSlop3d));
     return scan_stretch(window_.recomputed(entry.step(k, arm)), arm, 0,
                         (z_last - entry.z) / arm.z + kSlop3d - k);
+  }
+
+  // Is the point at this distance outside of the cylinder, and the line on its way out of it? Then none of its next
+  // balls is met.
+  bool has_passed(const Point& point, const Arm& arm, double steps, double distance) const {
+    const double x = point.p[0] * arm.p[0], y = point.p[1] * arm.p[1];
+    return x + y > kAmple * (std::fabs(x) + std::fabs(y)) &&
+           distance > 1 + kDiscriminant * window_.line_error(point.step(steps, arm));
   }
 
   // Moves a point of the line to near its entry into the cylinder, by steps in double-double, and sets k so

@@ -26,7 +26,10 @@ class GreedyReduction {
   double largest() const { return largest_of(largest_); }
 
   /// Are the coordinates those of the coefficients, or accurate enough?
-  bool is_accurate(double inverse_r) const { return fresh_ || largest() * inverse_r < kGoodRunning; }
+  bool is_accurate(double inverse_r) const {
+    if constexpr (std::is_same_v<Integer, Wide>) return fresh_ || error_ < kGoodPlace;
+    return fresh_ || largest() * inverse_r < kGoodRunning;
+  }
 
   /// To be called when the coordinates have been computed anew.
   void refresh() {
@@ -39,6 +42,7 @@ class GreedyReduction {
   bool run() {
     Vector a(basis_.b[0]), b(basis_.b[1]), c(basis_.b[2]);
     const bool done = reduce(a, b, c);
+    error_ = std::max({a.place[3], b.place[3], c.place[3]});
     for (int k = 0; k < 3; ++k)
       basis_.b[0].n[k] = a.n[k], basis_.b[1].n[k] = b.n[k], basis_.b[2].n[k] = c.n[k];
     return done;
@@ -47,10 +51,13 @@ class GreedyReduction {
  private:
   struct Vector {
     std::conditional_t<std::is_same_v<Integer, Wide>, std::array<Wide, 3>, FourNumbers> n;  ///< coefficients
-    FourNumbers place;                                                                      ///< across, along
+    FourNumbers place;  ///< across, along; beside integers in double-double their error
 
     explicit Vector(const ArmOf3<SplitProduct, Integer>& arm)
-        : n{arm.n[0], arm.n[1], arm.n[2]}, place{arm.p[0], arm.p[1], arm.z, 0} {}
+        : n{arm.n[0], arm.n[1], arm.n[2]}, place{arm.p[0], arm.p[1], arm.z, 0} {
+      if constexpr (std::is_same_v<Integer, Wide>) place[3] = kRoundoff * (arm.cancellation + reach());
+    }
+    double reach() const { return std::fabs(place[0]) + std::fabs(place[1]); }
   };
 
   // Shortens the two shorter vectors by Lagrange's step, then the longest by the nearest point of their
@@ -64,7 +71,7 @@ class GreedyReduction {
       double ab = product(a, b);
       const double k = std::nearbyint(ab / aa);
       if (k != 0) {
-        if (std::fabs(k) > kRunningQuotient && !fresh_) return false;
+        if (is_too_far(k, a)) return false;
         subtract(b, k, a);
         bb = product(b, b);
         if (bb < aa) {
@@ -78,7 +85,7 @@ class GreedyReduction {
       const double k0 = std::nearbyint((ac * bb - bc * ab) * inverse);
       const double k1 = std::nearbyint((bc * aa - ac * ab) * inverse);
       if (k0 == 0 && k1 == 0) return true;
-      if (std::max(std::fabs(k0), std::fabs(k1)) > kRunningQuotient && !fresh_) return false;
+      if (is_too_far(k0, a) || is_too_far(k1, b)) return false;
       subtract(c, k0, a);
       subtract(c, k1, b);
       const double before = cc;
@@ -89,6 +96,12 @@ class GreedyReduction {
       if (bb < aa) exchange(a, b, aa, bb);
     }
     return false;
+  }
+
+  // Would k times this vector err too much, because its running coordinates do?
+  bool is_too_far(double k, const Vector& b) const {
+    if constexpr (std::is_same_v<Integer, Wide>) return !fresh_ && std::fabs(k) * b.place[3] > kGoodPlace;
+    return !fresh_ && std::fabs(k) > kRunningQuotient;
   }
 
   static double product(const Vector& a, const Vector& b) {
@@ -102,9 +115,11 @@ class GreedyReduction {
   }
 
   void subtract(Vector& a, double k, const Vector& b) {
+    const double error = a.place[3];
     a.place -= k * b.place;
     fresh_ = false;
     if constexpr (std::is_same_v<Integer, Wide>) {
+      a.place[3] = error + std::fabs(k) * (b.place[3] + 2 * kRoundoff * b.reach());
       for (int i = 0; i < 3; ++i)
         a.n[i] = a.n[i] - k * b.n[i], largest_[i] = std::max(largest_[i], std::fabs(a.n[i].hi));
     } else {
@@ -118,7 +133,7 @@ class GreedyReduction {
 
   Basis& basis_;
   FourNumbers largest_{};  // of each of the three coefficients
-  double limit_ = kRunningCoefficient;
+  double limit_ = std::is_same_v<Integer, Wide> ? kNoLimit : kRunningCoefficient, error_ = 0;
   bool fresh_ = true;  // the coordinates are those of the coefficients, not sums of rounded ones
 };
 

@@ -78,15 +78,16 @@ inline void Reduction::fly_to_limit(Task task, Flight& flight) const {
   model_->fly(task, flight);
 }
 
-inline void Reduction::fly(const Ray& ray, double max_time, Time time, Flight& flight) const {
+inline void Reduction::fly(const Ray& ray, double max_time, Time time, Flight& flight,
+                           std::array<WideInteger, 3>* cell) const {
   const int exponent = model_->scene.exponent;
   if (exponent == 0) {
-    fly_to_limit({model_->scene, ray, ray.x, max_time, max_time, time}, flight);
+    fly_to_limit({model_->scene, ray, ray.x, max_time, max_time, time, cell}, flight);
   } else {
     const double limit = scaled_limit(max_time, -exponent);
     Vec x;
     for (int i = 0; i < 3; ++i) x[i] = scaled_time(ray.x[i], -exponent);
-    fly_to_limit({model_->scene, ray, x, limit, limit, time}, flight);
+    fly_to_limit({model_->scene, ray, x, limit, limit, time, cell}, flight);
     rescale(flight, exponent);
   }
   if (flight.outcome != Outcome::never) return;
@@ -94,12 +95,13 @@ inline void Reduction::fly(const Ray& ray, double max_time, Time time, Flight& f
   if (ray.has_tiny_component()) give_up(flight);
 }
 
-Flight Reduction::fly(const Query& query, double max_time, Time time) const {
+Flight Reduction::fly(const Query& query, double max_time, Time time,
+                      std::array<WideInteger, 3>* cell) const {
   assert(!flaw_of(query, scene(), max_time));
   Flight flight;
   const ScaledVelocity velocity(query.v);
   fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr, query.v},
-      scaled_limit(max_time, velocity.exponent), time, flight);
+      scaled_limit(max_time, velocity.exponent), time, flight, cell);
   rescale(flight, -velocity.exponent);
   return flight;
 }
@@ -113,6 +115,12 @@ void set_answer(const Flight& flight, Answer& answer) {
   if (flight.outcome == Outcome::hit) answer.time = flight.time;
 }
 
+void set_answer(const Flight& flight, const std::array<WideInteger, 3>& cell, Answer& answer) {
+  set_answer(flight, answer);
+  if (flight.outcome == Outcome::hit && flight.is_far)
+    for (int k = 0; k < 3; ++k) answer.obstacle.cell[k] = Integer::of(cell[k]);
+}
+
 Answer answer_of(const Flight& flight) {
   Answer answer;
   set_answer(flight, answer);
@@ -121,8 +129,9 @@ Answer answer_of(const Flight& flight) {
 
 void Reduction::first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const {
   Flight flight;
-  fly(ray, max_time, Time::close, flight);
-  set_answer(flight, answer);
+  std::array<WideInteger, 3> cell{};
+  fly(ray, max_time, Time::close, flight, &cell);
+  set_answer(flight, cell, answer);
 }
 
 }  // namespace lorentz

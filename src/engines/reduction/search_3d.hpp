@@ -52,6 +52,7 @@ class Search3 {
                                              candidates_.unrounded);
       wide.candidates_.from = candidates_.from, wide.candidates_.s_limit = s_limit;
       wide.window_.begin = window_.begin;
+      if (window_.begin > 0) wide.window_.lengthen(true);
       Outcome outcome = wide.search(s_limit);
       if (outcome == Outcome::undecided && wide.is_between_planes()) outcome = wide.never();
       found = wide.found;
@@ -69,7 +70,7 @@ class Search3 {
       if (found.any()) return Outcome::hit;
       window_.advance(none_met_, kappa_);
       if (window_.begin > s_limit || window_.begin > 2 * period()) return Outcome::never;
-      if (!(window_.begin < kFarthest)) return found.give_up();
+      if (!(window_.begin < kFarthest<Integer>)) return found.give_up();
       if (window >= 1) window_.lengthen(true);
     }
     return found.give_up();

@@ -11,12 +11,19 @@
 namespace lorentz {
 namespace {
 
-// a b - c d.
-Expansion difference(double a, const Expansion& b, double c, const Expansion& d) {
+// Sets a b - c d; false if it is not a binary64. (Nearly always the products differ by few of their bits.)
+bool set_difference(double a, double b, double c, double d, double& difference) {
+  const Wide p = Wide::product(a, b), q = Wide::product(c, d);
+  const Wide high = Wide::sum(p.hi, -q.hi), low = Wide::sum(p.lo, -q.lo), whole = Wide::sum(high.hi, low.hi);
+  const bool exact = std::fabs(p.hi) > 0x1p-960 && std::fabs(q.hi) > 0x1p-960;
+  difference = whole.hi;
+  if (exact && high.lo == 0 && low.lo == 0) return whole.lo == 0;
   Expansion sum;
-  sum.add_product(Expansion(a), b);
-  sum.add_product(Expansion(c), d, -1);
-  return sum;
+  sum.add_product(Expansion(a), Expansion(b));
+  sum.add_product(Expansion(c), Expansion(d), -1);
+  difference = sum.value();
+  sum.add(-difference);
+  return sum.is_exact() && sum.is_zero();
 }
 
 template <class B>
@@ -32,14 +39,29 @@ double lowest_bit(double a) {
   return bits << 12 == 0 ? std::fabs(a) : std::fabs(a - std::bit_cast<double>(bits & (bits - 1)));
 }
 
+double largest_of(double a, double b, double c) {
+  return std::max({std::fabs(a), std::fabs(b), std::fabs(c)});
+}
+
+// The exponent of a normal number.
+int exponent_of(double a) {
+  return static_cast<int>(std::bit_cast<std::uint64_t>(std::fabs(a)) >> 52) - 1023;
+}
+
+// The nearest integer to a number below 2^51.
+double nearest_integer(double a) {
+  constexpr double kMagic = 0x1.8p52;
+  return (a + kMagic) - kMagic;
+}
+
 // Sets a short integer vector that is nearly parallel to v.
 bool set_near_vector(const double (&v)[3], Vec& w) {
-  const double largest = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
+  const double largest = largest_of(v[0], v[1], v[2]);
   for (double size = 1; size <= kShortVector; ++size) {
     double off = 0;
     for (int k = 0; k < 3; ++k) {
       const double component = v[k] * (size / largest);
-      w[k] = std::nearbyint(component);
+      w[k] = nearest_integer(component);
       off = std::max(off, std::fabs(component - w[k]));
     }
     if (off < kNearlyParallel) return true;
@@ -54,10 +76,7 @@ bool set_normal(const Vec& a, const B& b, Vec& normal) {
   double bit = HUGE_VAL;
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
-    Expansion component = difference(a[i], Expansion(b[j]), a[j], Expansion(b[i]));
-    normal[k] = component.value();
-    component.add(-normal[k]);
-    if (!component.is_exact() || !component.is_zero()) return false;
+    if (!set_difference(a[i], b[j], a[j], b[i], normal[k])) return false;
     if (normal[k] != 0) bit = std::min(bit, lowest_bit(normal[k]));
   }
   std::int64_t divisor = 0;
@@ -84,39 +103,56 @@ bool is_beside(const Vec& normal, const Vec& home, double r) {
 
 }  // namespace
 
-// v = m bit + rest: the products of m with the cell are integers, and the others are small.
-bool set_cross(const double (&v)[3], const Wide (&N)[3], const Vec& home, Wide (&cross)[3], Wide& along) {
-  const double largest = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
-  const double bit = std::ldexp(1, std::ilogb(largest) - 60);
+// v = m bit + rest: the products of m with the cell are integers, and the others are small. Beyond 2^61 cells the
+// products of integers leave 128 bits, but their differences do not where d is nearly parallel to v.
+bool set_cross(const double (&v)[3], const Wide (&N)[3], const Vec& home, Wide (&cross)[3], Wide* along) {
+  const double farthest = largest_of(N[0].hi, N[1].hi, N[2].hi);
+  if (!(farthest < kMaxWideCell)) return false;
+  const int beyond = farthest < kMaxCell ? 0 : exponent_of(farthest) - 60;
+  const int last = exponent_of(largest_of(v[0], v[1], v[2])) - 60 - beyond;
+  const double bit = power_of_two(last), inverse = power_of_two(-last);
   const auto rounded = [&](WideInteger n) -> Wide {
     const auto high = static_cast<double>(n);
     return {high * bit, static_cast<double>(n - static_cast<WideInteger>(high)) * bit};
   };
-  WideInteger m[3], n[3];
+  const auto integer_of = [beyond](double a) {
+    return beyond == 0 ? WideInteger{static_cast<std::int64_t>(a)} : static_cast<WideInteger>(a);
+  };
+  __extension__ using Modular = unsigned __int128;
+  Modular m[3], n[3];
   double rest[3];
   for (int k = 0; k < 3; ++k) {
-    if (!(std::fabs(N[k].hi) < kMaxCell)) return false;
-    n[k] = static_cast<std::int64_t>(N[k].hi) + static_cast<std::int64_t>(N[k].lo);
-    m[k] = static_cast<std::int64_t>(v[k] / bit), rest[k] = v[k] - static_cast<double>(m[k]) * bit;
+    n[k] = static_cast<Modular>(integer_of(N[k].hi) + integer_of(N[k].lo));
+    const WideInteger whole = integer_of(v[k] * inverse);
+    m[k] = static_cast<Modular>(whole), rest[k] = v[k] - static_cast<double>(whole) * bit;
   }
   const auto small = [&](int i, int j) { return rest[i] * N[j] + Wide::product(v[i], home[j]); };
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
-    cross[k] = rounded(m[i] * n[j] - m[j] * n[i]) + (small(i, j) - small(j, i));
+    if (beyond > 0 && !(std::fabs(v[i] * N[j].hi - v[j] * N[i].hi) < 0x1p120 * bit)) return false;
+    cross[k] = rounded(static_cast<WideInteger>(m[i] * n[j] - m[j] * n[i])) + (small(i, j) - small(j, i));
   }
-  along = rounded(m[0] * n[0] + m[1] * n[1] + m[2] * n[2]) + (small(0, 0) + small(1, 1) + small(2, 2));
+  if (!along) return true;
+  if (beyond == 0) {
+    *along = rounded(static_cast<WideInteger>(m[0] * n[0] + m[1] * n[1] + m[2] * n[2])) +
+             (small(0, 0) + small(1, 1) + small(2, 2));
+  } else {
+    const Wide home_part =
+        (Wide::product(v[0], home[0]) + Wide::product(v[1], home[1])) + Wide::product(v[2], home[2]);
+    *along = (v[0] * N[0] + v[1] * N[1]) + (v[2] * N[2] + home_part);
+  }
   return true;
 }
 
 void unrounded_place(const double (&v)[3], const Wide (&N)[3], const Vec& home, double begin, Vec& place) {
   Wide cross[3], along;
-  if (!set_cross(v, N, home, cross, along)) return place.fill(std::nan(""));
+  if (!set_cross(v, N, home, cross, &along)) return place.fill(std::nan(""));
   place = {cross[2].hi, (v[1] * cross[0] - v[0] * cross[1]).hi, (along - begin).hi};
 }
 
 double close_slack(const double (&v)[3], const Wide (&N)[3], const Vec& home, double r, double& error) {
-  Wide cross[3], along, speed2 = 0, across2 = 0;
-  if (!set_cross(v, N, home, cross, along)) return error = HUGE_VAL;
+  Wide cross[3], speed2 = 0, across2 = 0;
+  if (!set_cross(v, N, home, cross, nullptr)) return error = HUGE_VAL;
   double from_origin = kFromOrigin;
   for (int k = 0; k < 3; ++k) {
     speed2 = speed2 + Wide::product(v[k], v[k]), across2 = across2 + cross[k] * cross[k];

@@ -108,7 +108,7 @@ class Window3 : public WindowOf3<Arch, SplitProduct, kUnit, kBall, Integer> {
               of_home * std::sqrt(to.v2);
     z_error = s_error / basis->length;
     z_first = -(2 * z_error + kWindowStart);
-    return std::ranges::all_of(anchor, [](const Wide& n) { return std::fabs(n.hi) < kMaxCell; }) &&
+    return std::ranges::all_of(anchor, [](const Wide& n) { return std::fabs(n.hi) < kMaxWideCell; }) &&
            p_error < kSlop3d / 2;
   }
 
