@@ -231,6 +231,8 @@ TEST_CASE("Places and v x d err by a few roundoffs, where large terms cancel", "
     const Vec w = near_rational(draw, 3);
     double v[3] = {std::fabs(w[0]), std::fabs(w[1]), std::fabs(w[2])};
     if (draw.one_in(4)) v[draw.below(3)] = draw.between(0x1p-60, 0x1p-50);  // 61 bits do not hold all three
+    const bool follows = draw.one_in(4);  // the cell is the nearest to a place on the line
+    if (follows) v[draw.below(3)] = draw.between(0x1p-20, 0x1p-10);
     std::sort(v, v + 3, std::greater<>());
     const Vec home = draw.vec(3, -0.5, 0.5);
     const double steps = std::nearbyint(std::exp2(draw.between(0, 72))), begin = draw.one_in(2) ? 0 : 0x1p40;
@@ -238,6 +240,8 @@ TEST_CASE("Places and v x d err by a few roundoffs, where large terms cancel", "
     Exact d[3], speed[3];
     for (int k = 0; k < 3; ++k) {
       N[k] = Wide::product(steps, std::nearbyint(v[k])) + Wide(static_cast<double>(draw.below(9)) - 4);
+      if (const Wide place = Wide::product(steps, v[k]); follows)
+        N[k] = Wide::sum(std::nearbyint(place.hi), std::nearbyint(place.lo));
       d[k] = Exact(N[k].hi) + Exact(N[k].lo) + Exact(home[k]), speed[k] = Exact(v[k]);
     }
     Wide cross[3], along;
@@ -266,6 +270,10 @@ TEST_CASE("Places and v x d err by a few roundoffs, where large terms cancel", "
     cancelled += std::fabs(place[0]) < 0x1p-20 * steps;
   }
   CHECK(cancelled > 5000);
+  Wide cross[3];
+  CHECK(set_cross({1, 1, 1}, {0x1p75, 0x1p75, 0x1p75}, {}, cross, nullptr));
+  CHECK_FALSE(set_cross({1, 1, 1}, {0x1p76, 0x1p76, 0x1p76}, {}, cross, nullptr));
+  CHECK_FALSE(set_cross({1, 1, 1}, {0x1p75, 0x1p75, 0}, {}, cross, nullptr));  // leaves 128 bits
 }
 
 TEST_CASE("Near-rational flights are decided, nearly all of them, and rightly", "[engines][unrounded]") {
