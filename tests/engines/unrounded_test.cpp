@@ -306,6 +306,10 @@ TEST_CASE("Hits in cells that 64 bits do not hold are named, and rightly", "[eng
     REQUIRE(answer.obstacle == right.obstacle);
     REQUIRE(same(certified.first_hit(query), right));
     REQUIRE(engine.fly(query).outcome == Outcome::undecided);
+    query.from = right.obstacle;  // is passed over, far as it is
+    const Answer next = engine.first_hit(query);
+    if (next.outcome != Outcome::undecided) REQUIRE(next.obstacle == exact.first_hit(query).obstacle);
+    REQUIRE(same(certified.first_hit(query), exact.first_hit(query)));
   }
   CHECK(far > 50);
   CHECK(undecided < 20);

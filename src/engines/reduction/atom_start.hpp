@@ -58,7 +58,7 @@ class AtomStart {
   }
 
   /// Finds the cell of `from`. False if `from` belongs to another atom, or is farther away than any obstacle
-  /// that the search names (kMaxCell, and kMaxCoefficient more). In a skewed cell a near obstacle may have
+  /// that the search names (kMaxWideCell, and kMaxCoefficient more). In a skewed cell a near obstacle may have
   /// coordinates of 84 bits: those of the search times a transform's 2^20, three of these. Such coordinates
   /// times an inverse's 2^41, three of these, are below 2^127.
   [[gnu::noinline]] bool find_from(const ObstacleId* from, Wide (&here)[D]) const {

@@ -197,7 +197,7 @@ inline constexpr double kBelowHalf = 0x1.fffffffffffffp-2;
 inline constexpr double kMaxCell = 0x1p61, kMaxWideCell = 0x1p76;
 
 /// `from` is not near x if its cell is beyond 2 to the first, or beyond 2 to the second from the home cell.
-inline constexpr int kFarthestCellBits = 84, kFarthestHereBits = 62;
+inline constexpr int kFarthestCellBits = 84, kFarthestHereBits = 77;
 
 /// 2D: positive heights below this vanish when they are multiplied by the inverse of an area.
 inline constexpr double kSmallestHeight = 0x1p-800;
