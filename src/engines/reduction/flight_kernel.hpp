@@ -54,11 +54,9 @@ class AtomFlight {
   /// it.
   bool cell(std::array<std::int64_t, 3>& cell) const { return start_.set_cell(N_, cell); }
 
-  /// The same of a hit; where the task has a place for a larger cell, it is there.
-  bool set_cell_of_hit(const Task& task, Flight& flight) const {
-    if (start_.set_cell(N_, flight.cell)) return true;
-    flight.is_far = true;
-    return task.cell && start_.set_cell(N_, *task.cell);
+  /// The same for a flight; where the task has a place for the larger cell of a hit, it is there.
+  bool set_cell(const Task& task, Flight& flight) const {
+    return cell(flight.cell) || set_far_cell(task, flight);
   }
 
   /// The obstacle found.
@@ -112,6 +110,12 @@ class AtomFlight {
       to.octant.undo(found.N, N_);
     else
       std::copy(found.N, found.N + D, N_);
+  }
+
+  [[gnu::noinline]] bool set_far_cell(const Task& task, Flight& flight) const {
+    if (flight.outcome != Outcome::hit) return false;
+    flight.is_far = true;
+    return task.cell && start_.set_cell(N_, *task.cell);
   }
 
   AtomStart<D, kUnit, kBall> start_;

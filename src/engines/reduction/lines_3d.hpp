@@ -19,20 +19,28 @@ class Lines3 {
   Lines3(const Window& window, Candidates& candidates) : window_(window), candidates_(candidates) {}
 
   /// Scans the line through q with steps `arm`. False: undecided. `moves`: how often q may be moved along.
-  bool scan(const Point& q, const Arm& arm, double z_first, double z_last, int moves = kMaxEntryPasses) {
+  bool scan(const Point& q, const Arm& arm, double z_first, double z_last) {
     LineOf3<SplitProduct, Integer> line;
     if (!line.set(q, arm, window_.line_error(q))) return true;
     line.set_ends();
     if (!(line.slack < kMaxUnsure)) return scan_closely(q, arm, z_first, z_last, line.first);
     line.cut(q, arm, z_first, z_last);
     if constexpr (std::is_same_v<Integer, Wide>)
-      if (line.first <= line.last && moves > 0 && std::fabs(line.first) >= kMaxCoefficient)
-        return scan(window_.recomputed(q.step(std::nearbyint(line.first), arm)), arm, z_first, z_last,
-                    moves - 1);
+      if (line.first <= line.last && moves_ > 0 && std::fabs(line.first) >= kMaxCoefficient)
+        return scan_from_there(q, arm, z_first, z_last, line.first);
     return scan_stretch(q, arm, std::ceil(line.first), line.last);
   }
 
  private:
+  // A stretch that begins beyond the integers of binary64 is seen from a point near it.
+  [[gnu::noinline]] bool scan_from_there(const Point& q, const Arm& arm, double z_first, double z_last,
+                                         double first) {
+    --moves_;
+    const bool done = scan(window_.recomputed(q.step(std::nearbyint(first), arm)), arm, z_first, z_last);
+    ++moves_;
+    return done;
+  }
+
   // Scans a line nearly parallel to the flight, for which binary64 cannot tell at which k it enters the
   // cylinder. `estimate` is near that k.
   [[gnu::noinline]] bool scan_closely(const Point& q, const Arm& arm, double z_first, double z_last,
@@ -107,6 +115,7 @@ class Lines3 {
 
   const Window& window_;
   Candidates& candidates_;
+  int moves_ = kMaxEntryPasses;  // along a line that are left
 };
 
 }  // namespace lorentz

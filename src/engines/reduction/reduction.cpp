@@ -117,7 +117,7 @@ void set_answer(const Flight& flight, Answer& answer) {
 
 void set_answer(const Flight& flight, const std::array<WideInteger, 3>& cell, Answer& answer) {
   set_answer(flight, answer);
-  if (flight.outcome == Outcome::hit && flight.is_far)
+  if (flight.is_far && flight.outcome == Outcome::hit) [[unlikely]]
     for (int k = 0; k < 3; ++k) answer.obstacle.cell[k] = Integer::of(cell[k]);
 }
 
@@ -129,7 +129,7 @@ Answer answer_of(const Flight& flight) {
 
 void Reduction::first_hit_scaled(const Ray& ray, double max_time, Answer& answer) const {
   Flight flight;
-  std::array<WideInteger, 3> cell{};
+  std::array<WideInteger, 3> cell;  // set only of a flight that is far
   fly(ray, max_time, Time::close, flight, &cell);
   set_answer(flight, cell, answer);
 }

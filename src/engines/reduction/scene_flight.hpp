@@ -85,8 +85,8 @@ inline void fly_one(const Task& task, Flight& flight) {
   flight.stage = atom.stage;
   if (flight.outcome == Outcome::hit && task.is_limited() && !keep_limit(atom, task, flight))
     return give_up(flight);
-  if (flight.outcome == Outcome::hit && !atom.set_cell_of_hit(task, flight)) return give_up(flight);
-  if (flight.outcome == Outcome::inside && !atom.cell(flight.cell)) return give_up(flight);
+  const bool is_named = flight.outcome == Outcome::hit || flight.outcome == Outcome::inside;
+  if (is_named && !atom.set_cell(task, flight)) return give_up(flight);
   if (flight.outcome == Outcome::hit) set_time(atom, task, flight);
 }
 
@@ -173,7 +173,7 @@ inline void fly_several(const Task& task, Flight& flight) {
   if (task.is_limited() && !keep_limit(best, task, flight)) return give_up(flight);
   if (flight.outcome == Outcome::never) return;
   flight.lattice = best_lattice->lattice, flight.atom = best_lattice->atom;
-  if (!best.set_cell_of_hit(task, flight)) return give_up(flight);
+  if (!best.set_cell(task, flight)) return give_up(flight);
   set_time(best, task, flight);
 }
 

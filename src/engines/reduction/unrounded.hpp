@@ -8,8 +8,8 @@
 namespace lorentz {
 
 /// v x d and v . d for d = N + home, where the large terms cancel before anything is rounded. They err by at
-/// most kCross u^2 of themselves and of |v| (|home| + kFromOrigin). False if N is beyond 2^76, or beyond 2^61 and not nearly
-/// parallel to v. `along` may be null.
+/// most kCross u^2 of themselves and of |v| (|home| + kFromOrigin). False if N is beyond 2^76, or beyond 2^61 and
+/// not nearly parallel to v. `along` may be null.
 bool set_cross(const double (&v)[3], const Wide (&N)[3], const Vec& home, Wide (&cross)[3], Wide* along);
 
 /// Across 0, across 1 and along (frame_3d-inl.hpp, before they are scaled) of d, the along less `begin`, from
