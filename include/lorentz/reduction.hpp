@@ -84,7 +84,7 @@ class Reduction : public Engine {
   static std::optional<std::string> beyond(const Scene& scene);
 
   /// The name of the model (docs/reduction.md) that the engine uses for the scene: "unit", "one atom",
-  /// "several atoms", "rows and layers" or "mixed". With ellipsoids the first two end with ", ellipsoid", the
+  /// "rows and layers" or "several atoms". With ellipsoids the first two end with ", ellipsoid", the
   /// others with ", ellipsoids".
   const char* model() const;
 

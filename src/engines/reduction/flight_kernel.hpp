@@ -45,7 +45,7 @@ class AtomFlight {
 
   /// Obstacles that are entered after max_time may be ignored.
   void find(const Direction& to, const Task& task, double max_time) {
-    if constexpr (kModel == SceneModel::sparse || kModel == SceneModel::mixed)
+    if constexpr (kModel == SceneModel::sparse || kModel == SceneModel::several)
       if (start_.lattice->rank < D) return search<SparseSearch<D, kBall>>(to, task, max_time);
     if constexpr (kModel != SceneModel::sparse) search<SearchInCrystal>(to, task, max_time);
   }

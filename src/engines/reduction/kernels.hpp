@@ -48,15 +48,13 @@ inline void give_up(Flight& flight) {
 enum class SceneModel {
   unit,      ///< one square or cubic lattice of spacing 1, an obstacle at the origin
   one_atom,  ///< one obstacle in any cell
-  several,   ///< several atoms, in one lattice or several
   sparse,    ///< lattices of fewer vectors than dimensions: single obstacles, rows, layers
-  mixed      ///< both crystals and such lattices
+  several    ///< several atoms, in one lattice or several; some may be rows and layers
 };
 
 inline SceneModel model_of(const PreparedScene& scene) {
   const int dimension = scene.atoms[0].dimension;
   if (scene.most_rank < dimension) return SceneModel::sparse;
-  if (scene.least_rank < dimension) return SceneModel::mixed;
   if (scene.atoms.size() > 1) return SceneModel::several;
   return scene.atoms[0].unit ? SceneModel::unit : SceneModel::one_atom;
 }
@@ -71,8 +69,6 @@ auto for_model(const PreparedScene& scene, const Make& make) {
       return make.template operator()<D, SceneModel::one_atom, kBall>();
     case SceneModel::sparse:
       return make.template operator()<D, SceneModel::sparse, kBall>();
-    case SceneModel::mixed:
-      return make.template operator()<D, SceneModel::mixed, kBall>();
     default:
       return make.template operator()<D, SceneModel::several, kBall>();
   }

@@ -61,10 +61,9 @@ std::optional<std::string> Reduction::beyond(const Scene& scene) {
 const char* Reduction::model() const {
   constexpr const char* kNames[][2] = {{"unit", "unit, ellipsoid"},  // in the order of SceneModel
                                        {"one atom", "one atom, ellipsoid"},
-                                       {"several atoms", "several atoms, ellipsoids"},
                                        {"rows and layers", "rows and layers, ellipsoids"},
-                                       {"mixed", "mixed, ellipsoids"}};
-  static_assert(std::size(kNames) == static_cast<std::size_t>(SceneModel::mixed) + 1);
+                                       {"several atoms", "several atoms, ellipsoids"}};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(SceneModel::several) + 1);
   return kNames[static_cast<int>(model_of(model_->scene))][model_->scene.ellipsoids];
 }
 
