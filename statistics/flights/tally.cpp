@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "statistics/flights/natural_log.hpp"
+
 namespace lorentz::flights {
 
 Bins::Bins(int exponent)
@@ -31,7 +33,7 @@ void FlightTally::count_hit(double t) {
   time.add(t);
   square.add(std::min(t * t, std::numeric_limits<double>::max()));
   if (t > 0) {
-    log.add(std::log(t));
+    log.add(natural_log(t));
     ++logarithms;
   }
   shortest = std::min(shortest, t);
