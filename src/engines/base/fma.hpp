@@ -37,7 +37,7 @@ struct OneNumber {
   using Number = double;
   using Mask = bool;
   using Apart = SplitProduct;  ///< the Arch of functions that are not inlined
-  static constexpr bool kOne = true;
+  static constexpr bool kOne = true, kInRegisters = false;
 };
 
 /// a * b = p + product_error(a, b, p) exactly, where p is the rounded product. Requires that nothing

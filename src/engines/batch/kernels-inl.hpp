@@ -28,6 +28,8 @@ namespace {
 
 #include "src/engines/batch/lanes-inl.hpp"
 
+#include "src/engines/batch/lane_numbers-inl.hpp"
+
 #include "src/engines/batch/start-inl.hpp"
 #include "src/engines/batch/time-inl.hpp"
 #include "src/engines/batch/turn-inl.hpp"
@@ -38,6 +40,8 @@ namespace {
 #include "src/engines/batch/search_2d-inl.hpp"
 #include "src/engines/batch/search_3d-inl.hpp"
 #include "src/engines/batch/single_ball-inl.hpp"
+
+#include "src/engines/batch/flight-inl.hpp"
 
 #include "src/engines/batch/block-inl.hpp"
 

@@ -33,14 +33,14 @@ class LateTimes {
     Lanes lanes(first_lanes(length));
     const Velocity<D> scaled(v, lanes);
     Start<D, kUnit, kBall> start;
-    start.set(scene, scene.atoms[0], x, lanes);
+    start.set(scene.inverse_unit, scene.atoms[0], x, lanes);
     LaneEntry<D, kBall> entry;
     for (int k = 0; k < D; ++k) entry.n[k] = load(n_[k] + at);
     entry.s = load(s_ + at), entry.slack = load(slack_ + at), entry.slack_error = load(slack_error_ + at);
     const Times<D, kUnit, kBall> times(start, entry, scaled.scaled);
     M is_rounded = no_lane();
     const V found = stretch.rounded ? times.rounded(is_rounded) : times.rare_time();
-    store(scaled.template time_of<kUnit>(found, scene), time);
+    store(scaled.template time_of<kUnit>(found, scene.unit), time);
     const unsigned rounded = bits_of(is_rounded);
     for (std::size_t lane = 0; lane < length; ++lane) {
       stretch.time[index_[at + lane]] = time[lane];

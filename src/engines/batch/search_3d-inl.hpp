@@ -17,7 +17,7 @@ class LaneWindow3 : public WindowOf3<LaneFma, LaneFma, kUnit, kBall> {
   using Base::start_;
 
  public:
-  using Base::anchor_point, Base::basis, Base::begin, Base::lengthen;
+  using Base::anchor_point, Base::basis, Base::begin, Base::lengthen, Base::shorten;
 
   V anchor[3];
 
@@ -99,6 +99,11 @@ class LaneSearch3 {
       for (int k = 0; k < 3; ++k) found.along[k] = to_.along[k];
     M done = no_lane();  // with a hit, or at the end
     for (int window = 0; any(lanes.active); ++window) {
+      if constexpr (LaneFma::kInRegisters)
+        if (window != 1) {
+          window_.shorten(lanes.active);
+          lanes.leave_unless(window_.basis->usable);
+        }
       window_.set_anchor(window == 0, lanes);
       scan_window(lanes);
       const M met = And(found.s < infinite(), lanes.active);

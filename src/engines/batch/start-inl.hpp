@@ -16,10 +16,10 @@ struct Start : Offset<LaneFma, D> {
   const Bravais* lattice;
 
   /// Sets it for starts x in the scene's own lengths.
-  HWY_INLINE void set(const PreparedScene& scene, const Bravais& of_lattice, const V (&x)[D], Lanes& lanes) {
+  HWY_INLINE void set(double inverse_unit, const Bravais& of_lattice, const V (&x)[D], Lanes& lanes) {
     lattice = &of_lattice;
     V scaled[D];
-    for (int k = 0; k < D; ++k) scaled[k] = kUnit ? x[k] : x[k] * all(scene.inverse_unit);
+    for (int k = 0; k < D; ++k) scaled[k] = kUnit ? x[k] : x[k] * all(inverse_unit);
     lanes.active = set_offset<LaneFma, kUnit>(of_lattice, scaled, lanes.active, offset());
   }
 
@@ -53,31 +53,41 @@ struct Start : Offset<LaneFma, D> {
   HWY_INLINE Offset<LaneFma, D>& offset() { return *this; }
   HWY_INLINE const Offset<LaneFma, D>& offset() const { return *this; }
 
+  struct Near {
+    M m[D];
+    V other[D];
+  };
+
   // Returns the lanes in which, as far as binary64 knows, an obstacle of another cell may contain x: up to
   // one step along each basis vector. If any lane leaves an obstacle, returns all lanes that are near one of
   // another cell, because such starts are rare.
   HWY_INLINE M may_be_in_others(const Leaving<D>* leaving, M asked) const {
-    M near[D], any_near = no_lane(), inside = no_lane();
-    V other[D];
+    M any_near = no_lane();
+    Near near;
     for (int i = 0; i < D; ++i) {
       const V coordinate = coordinate_from_home(*lattice, offset(), i);
-      near[i] = AndNot(Abs(coordinate) + all(lattice->reach[i]) < all(1 - kMaxHomeError), asked);
-      other[i] = CopySign(all(1), coordinate);
-      any_near = Or(any_near, near[i]);
+      near.m[i] = AndNot(Abs(coordinate) + all(lattice->reach[i]) < all(1 - kMaxHomeError), asked);
+      near.other[i] = CopySign(all(1), coordinate);
+      any_near = Or(any_near, near.m[i]);
     }
     if (leaving != nullptr) return any_near;
-    if (nowhere(any_near)) return inside;
+    return nowhere(any_near) ? any_near : in_others(*this, near, asked);
+  }
+
+  // Is x in an obstacle of a neighbouring cell? Rare, so it gets copies.
+  static HWY_NOINLINE M in_others(Start start, Near near, M asked) {
+    M inside = no_lane();
     for (int which = 1; which < 1 << D; ++which) {
       M here = asked;
       V n[D], gap, spread;
       for (int i = 0; i < D; ++i) {
-        n[i] = which >> i & 1 ? other[i] : none();
-        if (which >> i & 1) here = And(here, near[i]);
+        n[i] = which >> i & 1 ? near.other[i] : none();
+        if (which >> i & 1) here = And(here, near.m[i]);
       }
       if (nowhere(here)) continue;
       Pair there[D];
-      const V its_error = place(n, there);
-      set_gap<kUnit, kBall>(*lattice, there, its_error, gap, spread);
+      const V its_error = start.place(n, there);
+      set_gap<kUnit, kBall>(*start.lattice, there, its_error, gap, spread);
       inside = Or(inside, AndNot(gap < Neg(spread), here));
     }
     return inside;

@@ -22,15 +22,15 @@ struct Velocity {
   /// or between 2^-100 and 2^63 (lanes tell a start from its obstacle's surface to 2^-52 of a radius of 2^-40
   /// or more), exponents are at most 400, and the factor is between 2^-490 and 2^490.
   template <bool kUnit>
-  HWY_INLINE V time_of(V time, const PreparedScene& scene) const {
-    if constexpr (!kUnit) time = time * all(scene.unit);
+  HWY_INLINE V time_of(V time, double unit) const {
+    if constexpr (!kUnit) time = time * all(unit);
     return time * factor;
   }
 
   /// Converts a limit of the query to the scaled units.
   template <bool kUnit>
-  HWY_INLINE V limit_of(V limit, const PreparedScene& scene) const {
+  HWY_INLINE V limit_of(V limit, double inverse_unit) const {
     limit = limit * inverse_power_of(factor);
-    return kUnit ? limit : limit * all(scene.inverse_unit);
+    return kUnit ? limit : limit * all(inverse_unit);
   }
 };

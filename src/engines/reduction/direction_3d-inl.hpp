@@ -28,7 +28,8 @@ struct DirectionOf3 : FrameOf3<Numbers, kUnit, kBall> {
       arm.z = along * form[2][i].hi;
       arm.cancellation = all(0);
     }
-    shorten<Arch>(basis, wanted);
+    basis.usable = wanted;
+    if constexpr (!Numbers::kInRegisters) shorten<Arch>(basis, wanted);
   }
 
   /// For another atom of the same lattice, with balls of another radius. Only the scales differ, and the
@@ -42,7 +43,7 @@ struct DirectionOf3 : FrameOf3<Numbers, kUnit, kBall> {
     const Number wider = all(this->inverse_r / before), longer = length_before / basis.length;
     for (typename Basis::Arm& arm : basis.b)
       arm.p[0] = arm.p[0] * wider, arm.p[1] = arm.p[1] * wider, arm.z = arm.z * longer;
-    shorten<Arch>(basis, wanted);
+    if constexpr (!Numbers::kInRegisters) shorten<Arch>(basis, wanted);
   }
 
   /// For a longer window. The basis is reduced further from its present state.
@@ -50,20 +51,21 @@ struct DirectionOf3 : FrameOf3<Numbers, kUnit, kBall> {
   LORENTZ_INLINE void lengthen(Basis& longer, Number factor, Mask wanted) const {
     longer.length = longer.length * factor;
     for (typename Basis::Arm& arm : longer.b) arm.z = arm.z / factor;
-    shorten<Arch>(longer, wanted);
+    if constexpr (!Numbers::kInRegisters) shorten<Arch>(longer, wanted);
+  }
+
+  /// Reduces to a basis that is short in the window's metric. In registers the search does so, in one place, because
+  /// a graphics card has little room for code.
+  template <class Arch>
+  LORENTZ_INLINE void shorten(Basis& to, Mask wanted) const {
+    const Mask is_short = reduce_basis<Arch>(static_cast<const Frame&>(*this), to, wanted);
+    to.set_dual();
+    to.usable = And(to.usable, is_short);
   }
 
  private:
   // The length of a window in which two balls are expected.
   LORENTZ_INLINE Number first_length(const Bravais& lattice) const {
     return all(kWindowCells * lattice.volume / (3.14 * lattice.radius * lattice.radius)) * sqrt(this->v2);
-  }
-
-  // Reduces to a basis that is short in the window's metric.
-  template <class Arch>
-  LORENTZ_INLINE void shorten(Basis& to, Mask wanted) const {
-    const Mask is_short = reduce_basis<Arch>(static_cast<const Frame&>(*this), to, wanted);
-    to.set_dual();
-    to.usable = And(to.usable, is_short);
   }
 };

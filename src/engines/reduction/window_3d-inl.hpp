@@ -58,6 +58,15 @@ struct LineOf3 {
   }
 };
 
+/// A value that is named like one that is pointed to.
+template <class T>
+struct Held {
+  T value;
+
+  LORENTZ_INLINE explicit Held(const T* given) : value(*given) {}
+  LORENTZ_INLINE const T* operator->() const { return &value; }
+};
+
 /// Arch computes products and sums of double-double; Numbers holds the results in between.
 template <class Arch, class Numbers, bool kUnit, bool kBall, class Integer = typename Numbers::Number>
 class WindowOf3 {
@@ -75,7 +84,7 @@ class WindowOf3 {
 
   const Bravais& lattice;
   const Direction& to;
-  const Basis* basis;
+  std::conditional_t<Numbers::kInRegisters, Held<Basis>, const Basis*> basis;
   Number begin;  ///< in units of s
   Point anchor_point;
   Number p_error, s_error, z_error;  ///< of the anchor
@@ -237,10 +246,16 @@ class WindowOf3 {
   // Makes the window longer from here on, with a basis that suits its length.
   LORENTZ_INLINE void lengthen(Mask wanted) {
     const Number factor = select(wanted, growth(), all(1));
-    if (basis != &longer_) longer_ = *basis;
-    to.template lengthen<Arch>(longer_, factor, wanted);
-    basis = &longer_;
+    if constexpr (Numbers::kInRegisters) {
+      to.template lengthen<Arch>(basis.value, factor, wanted);
+    } else {
+      if (basis != &longer_) longer_ = *basis;
+      to.template lengthen<Arch>(longer_, factor, wanted);
+      basis = &longer_;
+    }
   }
+
+  LORENTZ_INLINE void shorten(Mask wanted) { to.template shorten<Arch>(basis.value, wanted); }
 
   Pair start_[3];
 
