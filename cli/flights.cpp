@@ -37,14 +37,19 @@ struct FlightsOptions : ScanOptions {
   std::vector<std::string> parts;
 };
 
+// The results of a graphics card are those of certified-batch, so they can be added up.
+bool is_on_card(const FlightsOptions& options) {
+  return options.engine == "gpu" || options.engine == "certified-gpu";
+}
+
 FlightsPlan plan_of(const FlightsOptions& options, const Scene& scene) {
   FlightsPlan plan;
   plan.scene = scene;
-  if (!question::engine_named(options.engine).is_own())
+  plan.engine = is_on_card(options) ? "certified-batch" : options.engine;
+  if (!question::engine_named(plan.engine).is_own())
     throw InputError(
         "--engine: flights are flown by engines of this program; `lorentz sample` writes the same "
         "starts for others");
-  plan.engine = options.engine;
   plan.from = starts::ensemble_named(options.from, "--from");
   plan.seed = options.seed;
   plan.count = options.count;
@@ -71,6 +76,7 @@ flights::FlightBounds bounds_of(const FlightsOptions& options) {
   bounds.jobs = static_cast<unsigned>(options.jobs);
   bounds.seconds = options.seconds.value_or(0);
   std::tie(bounds.shard, bounds.shards) = shard_in(options.shard);
+  if (is_on_card(options)) bounds.card = 0;
   return bounds;
 }
 
@@ -171,6 +177,7 @@ int run_flights(const FlightsOptions& options) {
   try {
     bounds.shard += bounds.shards * static_cast<std::uint64_t>(ranks->rank());
     bounds.shards *= static_cast<std::uint64_t>(ranks->size());
+    if (bounds.card) bounds.card = static_cast<unsigned>(ranks->rank());
     if (ranks->rank() == 0) return fly_all(std::move(tasks), bounds, options, ranks.get());
     for (const FlightsReport& task : tasks) fly_share(task.plan, bounds, *ranks);
     return kDone;
@@ -193,7 +200,8 @@ Command flights_command() {
             "one "
             "collision to the next (cosine law)"},
            {"-e,--engine", &options->engine, "ENGINE",
-            "one of " + fmt::format("{}", fmt::join(question::own_names(), ", "))},
+            fmt::format("one of {}; or gpu, which flies on a graphics card what certified-batch does here",
+                        fmt::join(question::own_names(), ", "))},
            {"--count", Whole{&options->count, 1, kMostFlights}, "N", "how many"},
            {"--time", Positive{&options->seconds}, "SECONDS", "stop after SECONDS (each scene and radius)"},
            {"--add", &options->parts, "FILE",

@@ -35,7 +35,8 @@ using flights::Ensemble;
 /// does not allocate unless a vector grows, and may be called by any number of threads.
 class Candidates {
  public:
-  static constexpr std::uint64_t kMostAttempts = 100'000;  ///< the most attempts worth making
+  static constexpr std::uint64_t kMostAttempts = 100'000;     ///< the most attempts worth making
+  static constexpr cases::Series kUniform{"uniform starts"};  ///< the random numbers of uniform starts
 
   /// For a scene without flaws (flaw_of) and with independent vectors (oracle::dependence_in). `cells`: the
   /// approximate number of cells of the first lattice in the box of a superposition, 1 to 2^40. Throws
@@ -76,7 +77,7 @@ class Candidates {
   void choose_by_surface(const Scene& scene);
   void count_cells(const Lattice& lattice);
 
-  static constexpr cases::Series kUniform{"uniform starts"}, kSurface{"surface starts"};
+  static constexpr cases::Series kSurface{"surface starts"};
 
   Ensemble ensemble_;
   std::uint64_t seed_;

@@ -31,8 +31,8 @@ template <class Random>
 template <class Random>
 [[gnu::always_inline]] inline auto on_sphere(Random& random) {
   const auto height = 2.0 * random.uniform() - 1.0, width = sqrt((1.0 - height) * (1.0 + height));
-  const auto a = on_circle(random);
-  return std::array{width * a[0], width * a[1], height};
+  auto a = on_circle(random);
+  return decltype(a){width * a[0], width * a[1], height};
 }
 
 /// Isotropic, of unit length up to rounding.

@@ -32,8 +32,12 @@ void ExactSum::add(double x) {
 }
 
 void ExactSum::add(const ExactSum& other) {
-  carry();  // now digits are below 2^32, and the other's below 2^62
-  for (std::size_t i = 0; i < kDigits; ++i) digits_[i] += other.digits_[i];
+  add(other.digits_);  // they are below 2^62
+}
+
+void ExactSum::add(const Digits& digits) {
+  carry();  // now its own are below 2^32
+  for (std::size_t i = 0; i < kDigits; ++i) digits_[i] += digits[i];
   carry();
 }
 

@@ -16,6 +16,10 @@ class ExactSum {
   void add(double x);
   void add(const ExactSum& other);
 
+  /// Digits of 32 bits in units of 2^-1074, lowest first, below 2^62 each and of either sign.
+  using Digits = std::array<std::int64_t, 68>;
+  void add(const Digits& digits);
+
   /// The nearest binary64 number; an infinity if the sum is out of range.
   double value() const;
 
@@ -27,14 +31,14 @@ class ExactSum {
 
  private:
   // 2098 bits for one number, and 62 for the number of summands.
-  static constexpr int kDigits = 68, kDigitBits = 32, kLowest = -1074;
+  static constexpr int kDigits = std::tuple_size_v<Digits>, kDigitBits = 32, kLowest = -1074;
   // The number of summands before a digit can overflow; each summand adds less than 2^32 to a digit.
   static constexpr std::uint32_t kMostPending = 1u << 30;
 
   void carry();
   ExactSum size(bool& negative) const;
 
-  std::array<std::int64_t, kDigits> digits_{};
+  Digits digits_{};
   std::uint32_t pending_ = 0;
 };
 

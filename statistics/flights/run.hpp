@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 
 #include "statistics/flights/account.hpp"
 
@@ -12,6 +13,7 @@ struct FlightBounds {
   unsigned jobs = 1;
   double seconds = 0;                       ///< stop after this time; 0: when all is flown
   std::uint64_t shard = 0, shards = 1;      ///< only the blocks `shard` modulo `shards`
+  std::optional<unsigned> card = {};        ///< fly on this graphics card, modulo how many there are
   Blocks done = {};                         ///< blocks to skip, besides those of the account
   const std::atomic<bool>* stop = nullptr;  ///< stop when this becomes true
 };
@@ -21,7 +23,8 @@ using OnProgress = std::function<void(const Account&)>;
 
 /// Adds the missing blocks of this shard to the account, until all are done or the bounds are reached. The
 /// account contains a block as a whole or not at all, so that at every call of `on_progress` the run can be
-/// resumed from the account. Throws InputError if the plan cannot be flown.
+/// resumed from the account. Throws InputError if the plan cannot be flown; InputError without a graphics card, and
+/// std::runtime_error if some flights on it are not those of the processor.
 void run(const FlightsPlan& plan, const FlightBounds& bounds, Account& account,
          const OnProgress& on_progress = {});
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "statistics/flights/natural_log.hpp"
+#include "statistics/gpu/natural_log.hpp"
 
 namespace lorentz::flights {
 
@@ -33,7 +33,7 @@ void FlightTally::count_hit(double t) {
   time.add(t);
   square.add(std::min(t * t, std::numeric_limits<double>::max()));
   if (t > 0) {
-    log.add(natural_log(t));
+    log.add(gpu::natural_log(t));
     ++logarithms;
   }
   shortest = std::min(shortest, t);

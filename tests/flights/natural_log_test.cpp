@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "question/cases/random.hpp"
-#include "statistics/flights/natural_log.hpp"
+#include "statistics/gpu/natural_log.hpp"
 
 using lorentz::cases::Random;
-using lorentz::flights::natural_log;
+using lorentz::gpu::natural_log;
 
 TEST_CASE("Logarithms err by less than 2e-16 (1 + |ln x|), from the smallest number to the largest",
           "[flights]") {

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace lorentz::flights {
+namespace lorentz::gpu {
 
 /// ln x for x > 0, with an error below 2 10^-16 (1 + |ln x|).
 ///
@@ -35,4 +35,4 @@ inline double natural_log(double x) {
   return k * kLn2High + (2 * s + (2 * rest + k * kLn2Low));
 }
 
-}  // namespace lorentz::flights
+}  // namespace lorentz::gpu

@@ -1,0 +1,111 @@
+// A libcuda.so.1 without a card: the functions of the driver's interface that the program calls, and the kernels compiled
+// for the processor. What comes before and after a kernel is tested with it, and the kernels' sources are.
+// FAKE_CARD: "none" has no card; "wrong" one whose results have a bit that is another.
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <string>
+
+#define LORENTZ_EMULATED_DEVICE
+#include "statistics/gpu/kernels.cpp"
+
+namespace {
+
+using Kernel = void (*)(const lorentz::gpu::DrawnFlights*, lorentz::gpu::DrawnTally*);
+
+const std::map<std::string, Kernel>& kernels() {
+  static const std::map<std::string, Kernel> all{
+#undef LORENTZ_KIND
+#define LORENTZ_KIND(name, ...) {#name, name},
+#include "statistics/gpu/kinds.inc"
+  };
+  return all;
+}
+
+bool is(const char* what) {
+  const char* const how = std::getenv("FAKE_CARD");
+  return how && std::strcmp(how, what) == 0;
+}
+
+template <class T>
+T* at(std::uint64_t address) {
+  return reinterpret_cast<T*>(address);
+}
+
+constexpr int kGood = 0, kBad = 1;
+
+}  // namespace
+
+extern "C" {
+
+int cuInit(unsigned) {
+  return kGood;
+}
+int cuDeviceGetCount(int* count) {
+  return *count = is("none") ? 0 : 2, kGood;
+}
+int cuDeviceGet(int* device, int number) {
+  return *device = number, kGood;
+}
+int cuDeviceGetName(char* name, int size, int) {
+  return std::strncpy(name, "a fake card", static_cast<std::size_t>(size)), kGood;
+}
+int cuDeviceGetAttribute(int* value, int, int) {
+  return *value = 3, kGood;
+}
+int cuDevicePrimaryCtxRetain(void** context, int) {
+  return *context = nullptr, kGood;
+}
+int cuCtxSetCurrent(void*) {
+  return kGood;
+}
+int cuCtxSynchronize() {
+  return kGood;
+}
+int cuModuleLoadData(void** module, const void* text) {
+  *module = nullptr;
+  return std::strstr(static_cast<const char*>(text), ".target sm_70") ? kGood : kBad;
+}
+int cuModuleUnload(void*) {
+  return kGood;
+}
+int cuModuleGetFunction(void** function, void*, const char* name) {
+  const auto found = kernels().find(name);
+  if (found == kernels().end()) return kBad;
+  return *function = reinterpret_cast<void*>(found->second), kGood;
+}
+int cuOccupancyMaxActiveBlocksPerMultiprocessor(int* blocks, void*, int, std::size_t) {
+  return *blocks = 2, kGood;
+}
+int cuMemAlloc_v2(std::uint64_t* address, std::size_t size) {
+  return *address = reinterpret_cast<std::uint64_t>(std::malloc(size)), kGood;
+}
+int cuMemFree_v2(std::uint64_t address) {
+  return std::free(at<void>(address)), kGood;
+}
+int cuMemcpyHtoD_v2(std::uint64_t to, const void* from, std::size_t size) {
+  return std::memcpy(at<void>(to), from, size), kGood;
+}
+int cuMemcpyDtoH_v2(void* to, std::uint64_t from, std::size_t size) {
+  return std::memcpy(to, at<void>(from), size), kGood;
+}
+int cuMemsetD8_v2(std::uint64_t address, unsigned char value, std::size_t size) {
+  return std::memset(at<void>(address), value, size), kGood;
+}
+int cuLaunchKernel(void* function, unsigned blocks, unsigned, unsigned, unsigned threads, unsigned, unsigned,
+                   unsigned, void*, void** arguments, void**) {
+  auto* const tally = at<lorentz::gpu::DrawnTally>(*static_cast<std::uint64_t*>(arguments[1]));
+  lorentz::device::place.threads = std::uint64_t{blocks} * threads;
+  for (lorentz::device::place.thread = 0; lorentz::device::place.thread < lorentz::device::place.threads;
+       ++lorentz::device::place.thread)
+    reinterpret_cast<Kernel>(function)(
+        at<lorentz::gpu::DrawnFlights>(*static_cast<std::uint64_t*>(arguments[0])), tally);
+  if (is("wrong")) tally->time.digits[33] ^= 1;
+  return kGood;
+}
+int cuGetErrorName(int, const char** name) {
+  return *name = "FAKE_ERROR", kGood;
+}
+
+}  // extern "C"
