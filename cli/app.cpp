@@ -195,7 +195,7 @@ Command program() {
       {},
       {first_hit_command(), compare_command(), judge_command(), convergents_command(), horizon_command(),
        sample_command(), demo_command(), bench_command(), scene_command(), golden_command(), fuzz_command(),
-       flights_command(), trajectory_command(), lyapunov_command(), diffusion_command(), doctor_command()}};
+       flights_command(), trajectory_command(), lyapunov_command(), diffusion_command()}};
   add_help(program);
   program.options.push_back({"--version", {}, "", "Display program version information and exit"});
   return program;

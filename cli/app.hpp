@@ -24,7 +24,6 @@ Command diffusion_command();
 Command fuzz_command();
 Command judge_command();
 Command golden_command();
-Command doctor_command();
 
 // lorentz scene draw.
 Command scene_draw_command();

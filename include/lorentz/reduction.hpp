@@ -31,7 +31,7 @@ struct Task;  // internal: a query with its limit, in the engine's units
 ///     or without. This requires that the compiler does not fuse a product and a sum by itself, and does not
 ///     use fast-math. This project's build files see to both.
 ///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
-///             "lorentz doctor finds this machine fit, and says what it looked at"
+///             "The digests of seeded flights are the known ones"
 ///  4. `fly` allocates nothing, throws nothing and ends: every loop has a bound.
 ///     held by "A flight allocates nothing, in any model"
 ///  5. Any number of threads may use one engine.

@@ -60,7 +60,6 @@ EDGES = {
     "horizon": Edge("square", missing="/no/such/file"),
     "sample": Edge("--count 5", "--count 1e9", missing="--scene /no/such/file"),
     "demo": Edge("", "--disagreements OUT", slow=True),
-    "doctor": Edge("", slow=True),
     "bench": Edge("--scene square --radius 0.3 -e reduction --count 100 --difficulty drawn", "--count 1e6 --csv OUT",
                   ["--csv", "--html"], "--scene /no/such/file", report=True),
     "scene list": Edge(),

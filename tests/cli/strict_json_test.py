@@ -41,7 +41,6 @@ COMMANDS = {
     "trajectory": (["starts.ndjson", "--collisions", "5", "--scene", SCENE, "--detail", "-e", "reduction"], []),
     "lyapunov": (["--scene", SCENE, "--collisions", "20000", "--store", "lyapunov"], []),
     "diffusion": (["--scene", SCENE, "--count", "1000", "--time", "5", "--store", "diffusion"], []),
-    "doctor": ([], []),
 }
 MANY_LINES = {"trajectory", "flights"}
 

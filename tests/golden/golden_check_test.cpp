@@ -74,6 +74,17 @@ TEST_CASE("golden check: exact engines agree, the published one does not", "[gol
   CHECK(contains(once.out, "\"records\":1,\"agree\":0,"));
 }
 
+TEST_CASE("golden check: a machine that rounds otherwise gives wrong answers", "[golden][golden_check]") {
+  const Folder folder;
+  const std::string check = "golden check --engine reduction axis-and-diagonal";
+  CHECK(folder.lorentz(check).status == 0);
+  const std::string preload = "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" LORENTZ_TOWARD_ZERO " ";
+  const Run run = folder.run(preload + LORENTZ_PROGRAM " " + check);
+  INFO(run.out << run.err);
+  CHECK(run.status == 1);
+  CHECK(contains(run.out, "reduction: wrong in "));
+}
+
 TEST_CASE("golden check: tables of numbers as JSON", "[golden][golden_check]") {
   const Folder folder;
   beginning_of_set(folder, "published-faults", 60);

@@ -85,6 +85,19 @@ TEST_CASE("golden make: the committed sets are what it makes", "[golden][golden_
   CHECK(contains(folder.lorentz("golden make --set bad-queries --count 1000").err, "there are 115 records"));
 }
 
+TEST_CASE("golden make: proofs of long flights need no large stack", "[golden][golden_command]") {
+#ifdef __SANITIZE_ADDRESS__
+  const std::string kilobytes = "1024";  // its frames are wide
+#else
+  const std::string kilobytes = "128";
+#endif
+  const std::string make = LORENTZ_PROGRAM " golden make --set long-flight --count 10";
+  const Run run = Folder().run("ulimit -s " + kilobytes + "; " + make);
+  INFO(run.err);
+  CHECK(run.status == 0);
+  CHECK(contains(run.err, "all 10 answers agreed by their checked certificates"));
+}
+
 TEST_CASE("golden make: all sets, and their sums", "[golden][golden_command][long]") {
   const Folder folder;
   CHECK(folder.lorentz("golden make --all " + folder.file("new/all") + " --jobs 2").status == 0);

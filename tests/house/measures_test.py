@@ -16,7 +16,7 @@ NO_PRODUCTION = ("tests", "docs", "oracle/proof", "build", "fuzz/planted")
 TYPE = re.compile(r"^ *(?:template <.*> *)?(?:struct|class|enum(?: class)?) +\w+(?: final)?(?: *:[^;{]*)? *\{", re.MULTILINE)
 
 LIMITS = {"lines of production C++": 68_500, "type definitions": 830, "names of types in two files": 20, "libraries": 38,
-          "subcommands": 26, "options": 212}
+          "subcommands": 25, "options": 212}
 
 
 NAMED = re.compile(r"^ *(?:template <.*> *)?(?:struct|class|enum(?: class)?) +(\w+)(?: final)?(?: *:(?!:)[^;{]*)? *\{", re.MULTILINE)
