@@ -15,12 +15,12 @@ struct BlockRange {
   std::uint64_t first, count, every;
 };
 
-/// Used by the thread that made it. What is counted is what FlightTally counts of the answers of `certified-batch`, to the
-/// bit, but for the starts that are left, which the caller has to fly.
+/// Used by the thread that made it. What is counted is what FlightTally counts of the answers of
+/// `certified-batch`, to the bit, but for the starts that are left, which the caller has to fly.
 class CardFlights {
  public:
-  /// On card `number`, modulo how many there are. Throws InputError if there is none, or the build has no kernels,
-  /// or none for the plan. `hard`: directions are made hard (drawn.hpp).
+  /// On card `number`, modulo how many there are. Throws InputError if there is none, or the build has no
+  /// kernels, or none for the plan. `hard`: directions are made hard (drawn.hpp).
   CardFlights(const FlightsPlan& plan, unsigned number, bool hard = false);
 
   const std::string& card_name() const { return card_.name(); }

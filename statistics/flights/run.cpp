@@ -182,8 +182,8 @@ void fly_left(const FlightsPlan& plan, const question::SceneEngine& engine, unsi
   for (std::future<FlightTally>& other : others) tally.add(other.get());
 }
 
-// Flies drawn and hard flights on the card and on the processor: what the driver makes of a kernel was in no test. Throws
-// std::runtime_error if a bit of what is counted differs.
+// Flies drawn and hard flights on the card and on the processor: what the driver makes of a kernel was in no
+// test. Throws std::runtime_error if a bit of what is counted differs.
 void compare_with_processor(const FlightsPlan& plan, const question::SceneEngine& engine, unsigned number) {
   for (const bool hard : {false, true}) {
     FlightsPlan some = plan;

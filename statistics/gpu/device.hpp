@@ -1,6 +1,7 @@
 // What kernels need of CUDA, without a vendor's headers: compiled by clang for a graphics card (-x cuda
-// --cuda-device-only -nocudainc -nocudalib), and by any compiler for the processor, where a kernel is a function and
-// its threads are turns of a loop (LORENTZ_EMULATED_DEVICE). Private to the engine on graphics cards.
+// --cuda-device-only -nocudainc -nocudalib), and by any compiler for the processor, where a kernel is a
+// function and its threads are turns of a loop (LORENTZ_EMULATED_DEVICE). Private to the engine on graphics
+// cards.
 #pragma once
 
 #include <cstdint>
@@ -55,7 +56,8 @@ class Counts {
 
 #elif defined(__CUDA__)
 
-// Names that clang's own wrappers of <algorithm> and <new> expect, and headers that they would take from a vendor's.
+// Names that clang's own wrappers of <algorithm> and <new> expect, and headers that they would take from a
+// vendor's.
 #define __host__ __attribute__((host))
 #define __device__ __attribute__((device))
 #include <stdlib.h>

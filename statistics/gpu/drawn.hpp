@@ -12,8 +12,8 @@ namespace lorentz::gpu {
 /// The sizes of flights::Bins.
 inline constexpr unsigned kLogarithmic = 802, kLinear = 257;
 
-/// A sum of flights::ExactSum in parts: integers in units of 2^(32 i - 1074), added up modulo 2^64. Their sum is that of
-/// signed integers, because a launch has fewer than 2^31 summands.
+/// A sum of flights::ExactSum in parts: integers in units of 2^(32 i - 1074), added up modulo 2^64. Their sum
+/// is that of signed integers, because a launch has fewer than 2^28 summands, of less than 2^34 a digit.
 struct DigitSums {
   static constexpr int kDigits = 68, kLowest = -1074;
   std::uint64_t digits[kDigits];
@@ -21,7 +21,8 @@ struct DigitSums {
 
 inline constexpr std::uint64_t kPiece = 1 << 16;  ///< flights::kBlock
 
-/// Flights from drawn starts, in a scene on the card: as starts::Candidates draws uniform ones, and FlightTally counts.
+/// Flights from drawn starts, in a scene on the card: as starts::Candidates draws uniform ones, and
+/// FlightTally counts.
 struct DrawnFlights {
   const Bravais* atoms;
   std::uint64_t atom_count;
@@ -34,8 +35,8 @@ struct DrawnFlights {
   bool hard;          ///< directions are moved next to rational ones
 };
 
-/// A direction of eighths, or a few units in the last place beside it, as bits of the start say. (A component that is not
-/// 0 is at least 1/8 then.)
+/// A direction of eighths, or a few units in the last place beside it, as bits of the start say. (A component
+/// that is not 0 is at least 1/8 then.)
 inline void make_hard(const double* x, double* v, int dimension) {
   double largest = 0;
   for (int k = 0; k < dimension; ++k) {
@@ -47,8 +48,8 @@ inline void make_hard(const double* x, double* v, int dimension) {
   for (int k = 0; k < dimension; ++k) v[k] *= 1 + static_cast<double>(bits >> (8 + 3 * k) & 7) * 0x1p-52;
 }
 
-/// A start that the card does not decide: whose flight lanes leave to a single one, or whose time is not known to be
-/// correctly rounded. Its candidates before this attempt lay in obstacles, and have been counted.
+/// A start that the card does not decide: whose flight lanes leave to a single one, or whose time is not
+/// known to be correctly rounded. Its candidates before this attempt lay in obstacles, and have been counted.
 struct LeftStart {
   std::uint64_t index, attempt;
 };

@@ -1,4 +1,5 @@
-// A graphics card by way of its driver, which is found at run time: libcuda.so.1. Nothing of it is needed to build.
+// A graphics card by way of its driver, which is found at run time: libcuda.so.1. Nothing of it is needed to
+// build.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +15,8 @@ struct Functions;  // of the driver
 /// One card. Used by the thread that made it.
 class Card {
  public:
-  /// Card `number`, modulo how many there are. Throws InputError, with a sentence, if there is no driver, or no
-  /// card.
+  /// Card `number`, modulo how many there are. Throws InputError, with a sentence, if there is no driver, or
+  /// no card.
   explicit Card(unsigned number);
 
   const std::string& name() const { return name_; }
@@ -30,7 +31,8 @@ class Card {
   unsigned multiprocessors_ = 0;
 };
 
-/// Bytes in a card's memory. All functions here and below throw std::runtime_error if the driver reports an error.
+/// Bytes in a card's memory. All functions here and below throw std::runtime_error if the driver reports an
+/// error.
 class Memory {
  public:
   Memory(const Card& card, std::size_t size);

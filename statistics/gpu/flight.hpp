@@ -1,5 +1,5 @@
-// One flight in each thread: the code of src/engines/batch with lanes of one number. Private to the engine on graphics
-// cards, whose kernels include it, and everything that it includes.
+// One flight in each thread: the code of src/engines/batch with lanes of one number. Private to the engine on
+// graphics cards, whose kernels include it, and everything that it includes.
 #pragma once
 
 #include <bit>

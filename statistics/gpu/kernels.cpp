@@ -1,5 +1,5 @@
-// Kernels that draw starts, fly them and count, each thread one flight after the other. Compiled by clang for graphics
-// cards, each kind of scene (LORENTZ_KIND) by itself, and for the processor, where tests run them.
+// Kernels that draw starts, fly them and count, each thread one flight after the other. Compiled by clang for
+// graphics cards, each kind of scene (LORENTZ_KIND) by itself, and for the processor, where tests run them.
 #include "statistics/gpu/device.hpp"
 
 // The standard's functions that are not constexpr come before everything is for host and card.
@@ -39,8 +39,8 @@ LORENTZ_EACH std::array<double, 2> quarter_turn(std::uint64_t bits) {
 
 #include "question/starts/direction-inl.hpp"
 
-// The words of one start, as cases::Random has them: Philox4x64-10, two blocks. No word is indexed at run time, so that
-// all stay in registers.
+// The words of one start, as cases::Random has them: Philox4x64-10, two blocks. No word is indexed at run
+// time, so that all stay in registers.
 class Words {
  public:
   LORENTZ_EACH Words(const DrawnFlights& flights, std::uint64_t index, std::uint64_t attempt, bool two) {
@@ -90,8 +90,8 @@ LORENTZ_EACH void draw(const DrawnFlights& flights, std::uint64_t index, std::ui
   for (int k = 0; k < D; ++k) v[k] = drawn[k];
 }
 
-// A sum like flights::ExactSum. Each thread adds to 128 bits of its own around 2^middle; what does not fit is added to
-// the digits of all.
+// A sum like flights::ExactSum. Each thread adds to 128 bits of its own around 2^middle; what does not fit is
+// added to the digits of all.
 class Sum {
   __extension__ using Bits = unsigned __int128;
   static constexpr int kRoom = 40;  // 53 bits shifted by up to 40, and 2^31 of them
@@ -118,7 +118,8 @@ class Sum {
   }
 
  private:
-  // Adds a signed integer in units of 2^exponent, a normal number's: 32 bits to each digit, the sign to the last.
+  // Adds a signed integer in units of 2^exponent, a normal number's: 32 bits to each digit, the sign to the
+  // last.
   template <class Add>
   LORENTZ_EACH void add_digits(Bits n, int exponent, const Add& add) {
     const int place = exponent - DigitSums::kLowest, digit = place / 32;
@@ -192,7 +193,8 @@ LORENTZ_EACH void fly_drawn(const DrawnFlights& flights, DrawnTally& tally, Left
   const device::Plain<D, kUnit, kBall> asked;
   HitCounts hits(tally, flights.bins_exponent);
   std::uint64_t never = 0, inside = 0, attempt = 0;
-  // A start in an obstacle is drawn again in the next turn, so that the other threads of the warp need not wait.
+  // A start in an obstacle is drawn again in the next turn, so that the other threads of the warp need not
+  // wait.
   for (std::uint64_t i = device::thread(); i < flights.count;) {
     const std::uint64_t index = flights.first + i / kPiece * flights.every * kPiece + i % kPiece;
     double x[D], v[D];
@@ -224,8 +226,8 @@ LORENTZ_EACH void fly_drawn(const DrawnFlights& flights, DrawnTally& tally, Left
 #pragma clang force_cuda_host_device end
 #endif
 
-// Kernels, by name: the dimension, and the scenes. `flights` and `tally` are in the card's memory; behind the tally is
-// the list of starts that are left.
+// Kernels, by name: the dimension, and the scenes. `flights` and `tally` are in the card's memory; behind the
+// tally is the list of starts that are left.
 #define LORENTZ_KIND(name, ...)                                                                      \
   LORENTZ_KERNEL(name)(const lorentz::gpu::DrawnFlights* flights, lorentz::gpu::DrawnTally* tally) { \
     lorentz::gpu::fly_drawn<__VA_ARGS__>(*flights, *tally,                                           \

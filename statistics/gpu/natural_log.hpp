@@ -1,5 +1,5 @@
-// The natural logarithm in plain operations of binary64: the same bits on every machine, and on a graphics card. The
-// last bits of library functions differ.
+// The natural logarithm in plain operations of binary64: the same bits on every machine, and on a graphics
+// card. The last bits of library functions differ.
 #pragma once
 
 #include <bit>
@@ -9,9 +9,9 @@ namespace lorentz::gpu {
 
 /// ln x for x > 0, with an error below 2 10^-16 (1 + |ln x|).
 ///
-/// x = 2^k m with m between 1/sqrt(2) and sqrt(2), and ln m = 2 (s + s^3/3 + s^5/5 + ..) where s = (m - 1)/(m + 1), so
-/// |s| < 0.172. The terms that are left out begin with 2 s^23/23 < 3 10^-19. k times the first part of ln 2, which has
-/// 33 bits, is exact.
+/// x = 2^k m with m between 1/sqrt(2) and sqrt(2), and ln m = 2 (s + s^3/3 + s^5/5 + ..) where
+/// s = (m - 1)/(m + 1), so that |s| < 0.172. The terms that are left out begin with 2 s^23/23 < 3 10^-19. k
+/// times the first part of ln 2, which has 33 bits, is exact.
 inline double natural_log(double x) {
   constexpr double kLn2High = 0x1.62e42fefp-1, kLn2Low = 0x1.473de6af278edp-34;
   int k = -1023;

@@ -1,5 +1,6 @@
-// Vectors of one number, for the code of src/engines/batch, in place of native-inl.hpp, twin-inl.hpp and lanes-inl.hpp
-// there. Needs the operations of src/engines/base/numbers.hpp. Private to the engine on graphics cards.
+// Vectors of one number, for the code of src/engines/batch, in place of native-inl.hpp, twin-inl.hpp and
+// lanes-inl.hpp there. Needs the operations of src/engines/base/numbers.hpp. Private to the engine on
+// graphics cards.
 
 using V = double;
 using M = bool;

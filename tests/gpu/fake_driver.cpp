@@ -1,6 +1,6 @@
-// A libcuda.so.1 without a card: the functions of the driver's interface that the program calls, and the kernels compiled
-// for the processor. What comes before and after a kernel is tested with it, and the kernels' sources are.
-// FAKE_CARD: "none" has no card; "wrong" one whose results have a bit that is another.
+// A libcuda.so.1 without a card: the functions of the driver's interface that the program calls, and the
+// kernels compiled for the processor. What comes before and after a kernel is tested with it, and the
+// kernels' sources are. FAKE_CARD: "none" has no card; "wrong" one whose results have a bit that is another.
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>

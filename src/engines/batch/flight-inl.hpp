@@ -1,8 +1,9 @@
 // One vector of flights from start to end, in lanes, as in src/engines/reduction/scene_flight.hpp and
 // flight_kernel.hpp. Private to the batch engine and the one on graphics cards.
 
-/// kSingle: the scene's obstacles are single balls. Atoms: the atoms of the scene. Asked: which times are wanted, and
-/// each lane's limit and the obstacle that it leaves, if there are any; and whether a time may be put off.
+/// kSingle: the scene's obstacles are single balls. Atoms: the atoms of the scene. Asked: which times are
+/// wanted, and each lane's limit and the obstacle that it leaves, if there are any; and whether a time may be
+/// put off.
 template <int D, bool kUnit, bool kBall, bool kSingle, class Atoms, class Asked>
 class LaneFlight {
   using SearchInCrystal = std::conditional_t<D == 2, LaneSearch2<kUnit, kBall>, LaneSearch3<kUnit, kBall>>;

@@ -1,5 +1,5 @@
-// How lanes compute: exact products, pairs of twice the precision, and what lanes share with single flights. Needs
-// vectors V and masks M. Private to the batch engine, and the one on graphics cards.
+// How lanes compute: exact products, pairs of twice the precision, and what lanes share with single flights.
+// Needs vectors V and masks M. Private to the batch engine, and the one on graphics cards.
 //
 // Code that rarely runs is a function of its own (HWY_NOINLINE) and gets copies of its arguments, because the
 // compiler keeps in registers only objects whose address no function has.

@@ -1,5 +1,5 @@
-// Vectors with a number in each lane (V), and masks with yes or no in each lane (M). Included once for each set of
-// instructions (Google Highway's foreach_target). Private to the batch engine.
+// Vectors with a number in each lane (V), and masks with yes or no in each lane (M). Included once for each
+// set of instructions (Google Highway's foreach_target). Private to the batch engine.
 
 HWY_INLINE V none() {
   return all(0);
