@@ -71,11 +71,9 @@ Scene with_cells(Scene scene);
 /// The size of a cell of the first lattice: the d-th root of its volume.
 double cell_size(const Scene& scene);
 
-/// The lower corner of the first lattice's cell that holds the point. In directions in which the lattice does
-/// not repeat, the cell has the first obstacle in its middle.
-Vec cell_at(const Scene& scene, const Vec& point);
-/// The lower corner of a block of `cells` cells in each direction, with these vectors.
-Vec cell_at(const Scene& scene, const std::array<Vec, 3>& vectors, const Vec& point, double cells);
+/// The lower corner of the first lattice's cell with these vectors that holds the point. In directions in which
+/// the lattice does not repeat, a block of `cells` cells has the first obstacle in its middle.
+Vec cell_at(const Scene& scene, const std::array<Vec, 3>& vectors, const Vec& point, double cells = 1);
 
 /// A short basis of the lattice.
 std::array<Vec, 3> short_vectors(const Lattice& lattice, int dimension);
@@ -101,9 +99,6 @@ struct Legend {
   std::vector<std::size_t> ways;                                      ///< by number
   std::vector<std::string> notes;
 };
-
-/// The legend from `top` downwards; returns its lower end.
-double add_legend(Svg& svg, const Scene& scene, const DrawOptions& options, const Legend& legend, double top);
 
 /// The space on the paper for the picture itself.
 struct Page {
@@ -152,8 +147,8 @@ struct ShownCell {
   int primitive_cells = 1;  ///< contained in it: 1, or in a cube 2 (bcc) or 4 (fcc)
 };
 
-/// The cube of a body-centred or face-centred cubic lattice (3D; rounded vectors are recognised), or the
-/// primitive cell.
+/// The cube of a body-centred or face-centred cubic lattice (rounded vectors are recognised), or the primitive
+/// cell.
 ShownCell shown_cell(const Lattice& lattice, const std::array<Vec, 3>& short_vectors);
 
 /// A parallelepiped.
@@ -161,7 +156,7 @@ struct DrawnBlock {
   Vec corner{};
   std::array<Vec, 3> edges{};
 
-  Vec centre() const;
+  Vec centre() const { return sum(corner, scaled(sum(sum(edges[0], edges[1]), edges[2]), 0.5)); }
   Vec vertex(int number) const {  ///< 0 to 7
     Vec p = corner;
     for (int i = 0; i < 3; ++i)
@@ -182,9 +177,6 @@ struct Facet {
 /// the block.
 std::vector<Facet> faces_of(const Scene& scene, const FreeWay& layer, std::size_t number,
                             const DrawnBlock& block);
-
-/// The part of the facet where sign * (normal.x - level) >= 0.
-Facet part_beside(const Facet& facet, const Vec& normal, double level, int sign);
 
 /// The ends of a cylinder's middle line in the block, for the translate of which the longest part is there.
 std::optional<std::array<Vec, 2>> axis_of(const Scene& scene, const FreeWay& cylinder,

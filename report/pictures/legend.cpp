@@ -83,12 +83,7 @@ std::size_t longest_label(const Scene& scene, const DrawOptions& options, const 
 
 constexpr double kLegendGap = 14, kBottomMargin = 6;
 
-double title_height(const DrawOptions& options) {
-  return options.title.empty() ? kMargin / 2 : 40;
-}
-
-}  // namespace
-
+// The legend from `top` downwards; returns its lower end.
 double add_legend(Svg& svg, const Scene& scene, const DrawOptions& options, const Legend& legend,
                   double top) {
   constexpr std::size_t kMostEntries = 12;
@@ -120,8 +115,12 @@ double add_legend(Svg& svg, const Scene& scene, const DrawOptions& options, cons
   return bottom;
 }
 
+}  // namespace
+
 Page::Page(const Scene& scene, const DrawOptions& options, const Legend& legend, double tallest)
-    : top(title_height(options)), width(options.width - 2 * kMargin), height(tallest * options.width / 800) {
+    : top(options.title.empty() ? kMargin / 2 : 40),
+      width(options.width - 2 * kMargin),
+      height(tallest * options.width / 800) {
   if (options.height <= 0) return;
   Svg scratch;
   constexpr double kOneNote = 18, kLeast = 40;

@@ -125,10 +125,6 @@ double cell_size(const Scene& scene) {
   return std::pow(cell_volume(whole.lattices[0], whole.dimension), 1.0 / whole.dimension);
 }
 
-Vec cell_at(const Scene& scene, const Vec& point) {
-  return cell_at(scene, scene.lattices[0].vectors, point, 1);
-}
-
 Vec cell_at(const Scene& scene, const std::array<Vec, 3>& u, const Vec& point, double cells) {
   const Lattice& lattice = scene.lattices[0];
   const auto rows = dual_of(u, scene.dimension);

@@ -168,9 +168,9 @@ class Picture2D {
     if (options.window) {
       const auto [x0, y0, x1, y1] = *options.window;
       window_.box = {{x0, y0, 0}, {x1, y1, 0}};
-      corner_ = cell_at(scene, window_.box.centre());
+      corner_ = cell_at(scene, scene.lattices[0].vectors, window_.box.centre());
     } else {
-      corner_ = cell_at(scene, lines_.empty() ? Vec{} : lines_[0].from);
+      corner_ = cell_at(scene, scene.lattices[0].vectors, lines_.empty() ? Vec{} : lines_[0].from);
       window_.box = box_for(scene, corner_, lines_);
     }
     choose_obstacles();

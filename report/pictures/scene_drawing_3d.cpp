@@ -11,6 +11,150 @@ namespace {
 
 constexpr double kTallest3D = 900;
 
+// ---- The cube that shows the structure of a centred cubic lattice, which its primitive cell does not
+
+constexpr double kRounding = 1e-9;
+
+// Lattice vectors of the wanted length, one of each pair +-u, from short combinations of a short basis.
+std::vector<Vec> vectors_of_length(const std::array<Vec, 3>& u, double wanted) {
+  std::vector<Vec> found;
+  for (int i = -2; i <= 2; ++i)
+    for (int k = -2; k <= 2; ++k)
+      for (int m = -2; m <= 2; ++m) {
+        if (i < 0 || (i == 0 && (k < 0 || (k == 0 && m <= 0)))) continue;
+        const Vec v = sum(sum(scaled(u[0], i), scaled(u[1], k)), scaled(u[2], m));
+        if (std::fabs(length(v) - wanted) < kRounding * wanted) found.push_back(v);
+      }
+  return found;
+}
+
+bool are_square(const Vec& a, const Vec& b) {
+  return std::fabs(dot(a, b)) < kRounding * dot(a, a);
+}
+
+// Sorts the vectors by their nearest axes, all pointing in the positive direction: the usual way to draw a
+// cube.
+std::array<Vec, 3> upright(std::array<Vec, 3> cube) {
+  for (int i = 0; i < 3; ++i) {
+    for (int k = i + 1; k < 3; ++k)
+      if (std::fabs(cube[k][i]) > std::fabs(cube[i][i])) std::swap(cube[i], cube[k]);
+    if (cube[i][i] < 0) cube[i] = scaled(cube[i], -1);
+  }
+  return cube;
+}
+
+}  // namespace
+
+ShownCell shown_cell(const Lattice& lattice, const std::array<Vec, 3>& short_vectors) {
+  const double volume = cell_volume(lattice, 3);
+  for (const int cells : {2, 4}) {
+    const std::vector<Vec> edges = vectors_of_length(short_vectors, std::cbrt(cells * volume));
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      for (std::size_t k = i + 1; k < edges.size(); ++k)
+        for (std::size_t m = k + 1; m < edges.size(); ++m)
+          if (are_square(edges[i], edges[k]) && are_square(edges[k], edges[m]) &&
+              are_square(edges[m], edges[i]))
+            return {upright({edges[i], edges[k], edges[m]}), cells};
+  }
+  return {lattice.vectors, 1};
+}
+
+// ---- Layers and cylinders that are free forever, cut to a block of cells
+
+namespace {
+
+// A square in the plane, large enough to contain the whole block.
+Facet square_on(const Vec& normal, double level, const DrawnBlock& block) {
+  const Vec unit = scaled(normal, 1 / length(normal));
+  const Vec side = std::fabs(unit[0]) < 0.7 ? Vec{1, 0, 0} : Vec{0, 1, 0};
+  Vec a = cross(unit, side);
+  a = scaled(a, 1 / length(a));
+  const Vec b = cross(unit, a), middle = block.centre();
+  const Vec foot = sum(middle, scaled(unit, (level - dot(normal, middle)) / length(normal)));
+  double reach = 0;
+  for (const Vec& edge : block.edges) reach += length(edge);
+  Facet facet{{}, normal, level, 0};
+  for (const auto& [p, q] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}})
+    facet.corners.push_back(sum(foot, sum(scaled(a, p * reach), scaled(b, q * reach))));
+  return facet;
+}
+
+// The range of t for which the line p + t v is in the block.
+bool part_in_block(const DrawnBlock& block, const Vec& p, const Vec& v, double& first, double& last) {
+  first = -1e300, last = 1e300;
+  for (const Vec& row : dual_of(block.edges, 3)) {
+    const double at = dot(row, plus(p, -1, block.corner)), step = dot(row, v);
+    if (std::fabs(step) * length(block.edges[0]) < 1e-12 * length(v)) {
+      if (at < 0 || at > 1) return false;
+      continue;
+    }
+    first = std::max(first, std::min(-at / step, (1 - at) / step));
+    last = std::min(last, std::max(-at / step, (1 - at) / step));
+  }
+  return first < last;
+}
+
+// The part of the facet where sign * (normal.x - level) >= 0, by Sutherland and Hodgman's algorithm.
+Facet part_beside(const Facet& facet, const Vec& normal, double level, int sign) {
+  Facet part{{}, facet.normal, facet.level, facet.way};
+  const std::size_t count = facet.corners.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec &a = facet.corners[i], &b = facet.corners[(i + 1) % count];
+    const double at_a = sign * (dot(normal, a) - level), at_b = sign * (dot(normal, b) - level);
+    if (at_a >= 0) part.corners.push_back(a);
+    if ((at_a >= 0) != (at_b >= 0))
+      part.corners.push_back(sum(a, scaled(plus(b, -1, a), at_a / (at_a - at_b))));
+  }
+  return part;
+}
+
+}  // namespace
+
+std::vector<Facet> faces_of(const Scene& scene, const FreeWay& layer, std::size_t number,
+                            const DrawnBlock& block) {
+  // The planes of a single lattice are 1 apart in normal.x.
+  double middle = dot(layer.vector, layer.point);
+  if (scene.lattices.size() == 1) middle += std::round(dot(layer.vector, block.centre()) - middle);
+  std::vector<Facet> faces;
+  for (const int side : {-1, 1}) {
+    Facet face = square_on(layer.vector, middle + side * layer.width / 2 * length(layer.vector), block);
+    face.way = number;
+    for (const Vec& row : dual_of(block.edges, 3)) {
+      const double base = dot(row, block.corner);
+      face = part_beside(part_beside(face, row, base, 1), row, base + 1, -1);
+    }
+    if (face.corners.size() > 2) faces.push_back(face);
+  }
+  return faces;
+}
+
+std::optional<std::array<Vec, 2>> axis_of(const Scene& scene, const FreeWay& cylinder,
+                                          const DrawnBlock& block) {
+  const auto& u = scene.lattices[0].vectors;
+  const auto rows = dual_of(u, 3);
+  Vec near = cylinder.point;
+  for (int i = 0; i < 3; ++i)
+    near = sum(near, scaled(u[i], std::round(dot(rows[i], plus(block.centre(), -1, cylinder.point)))));
+  std::optional<std::array<Vec, 2>> longest;
+  double most = 0;
+  for (int n = 0; n < 27; ++n) {
+    const Vec p =
+        sum(near, sum(scaled(u[0], n % 3 - 1), sum(scaled(u[1], n / 3 % 3 - 1), scaled(u[2], n / 9 - 1))));
+    double first = 0, last = 0;
+    if (!part_in_block(block, p, cylinder.vector, first, last)) continue;
+    const Vec from = sum(p, scaled(cylinder.vector, first)), to = sum(p, scaled(cylinder.vector, last));
+    const double reach = length(plus(to, -1, from));
+    if (longest && !(reach > 1.001 * most)) continue;
+    longest = {from, to};
+    most = reach;
+  }
+  return longest;
+}
+
+// ---- The picture
+
+namespace {
+
 // Directions to the right, upwards and towards the eye. The eye is a little to the right of the y axis, and
 // above.
 struct Eye {
@@ -75,9 +219,7 @@ class Picture3D {
   };
   void add_line(const Vec& from, const Vec& to, const Pen& pen);
   bool is_hidden(const Vec& point) const;
-  Point at(const Vec& view) const {
-    return {kMargin + scale_ * (view[0] - box_.low[0]), top_ + scale_ * (box_.high[1] - view[1])};
-  }
+  Point at(const Vec& place) const { return window_(eye_(place)); }
 
   const Scene& scene_;
   const DrawOptions& options_;
@@ -90,8 +232,7 @@ class Picture3D {
   std::vector<DrawnLine> lines_;
   Vec corner_{};
   std::vector<SeenObstacle> seen_;
-  Extent box_;  // of the picture, seen from the eye
-  double scale_ = 1, top_ = 0;
+  PaperWindow window_;  // on the picture, seen from the eye
 };
 
 // Chooses the obstacles with centres in, or on the boundary of, a block of 2 x 2 x 2 primitive cells or a
@@ -171,38 +312,37 @@ std::array<Vec, 2> longer(const std::array<Vec, 2>& axis) {
 
 void Picture3D::fit() {
   const bool has_cell = scene_.lattices[0].missing == 0;
-  box_.low = box_.high = has_cell || seen_.empty() ? eye_(corner_) : seen_[0].view;
+  Extent& box = window_.box;
+  box.low = box.high = has_cell || seen_.empty() ? eye_(corner_) : seen_[0].view;
   for (const SeenObstacle& seen : seen_) {
     const auto [rx, ry, angle] = seen.shape;
-    const double half[] = {std::hypot(rx * std::cos(angle), ry * std::sin(angle)),
-                           std::hypot(rx * std::sin(angle), ry * std::cos(angle))};
-    for (int k = 0; k < 2; ++k) {
-      box_.low[k] = std::min(box_.low[k], seen.view[k] - half[k]);
-      box_.high[k] = std::max(box_.high[k], seen.view[k] + half[k]);
-    }
+    const Vec half{std::hypot(rx * std::cos(angle), ry * std::sin(angle)),
+                   std::hypot(rx * std::sin(angle), ry * std::cos(angle)), 0};
+    box.include(sum(seen.view, half));
+    box.include(plus(seen.view, -1, half));
   }
   for (const DrawnLine& line : lines_) {
-    box_.include(eye_(line.from));
-    box_.include(eye_(line.to));
+    box.include(eye_(line.from));
+    box.include(eye_(line.to));
   }
   const double reach = options_.ways.empty() ? 1 : cells_;
-  for (int n = 0; n < (has_cell ? 8 : 0); ++n) box_.include(eye_(block(reach).vertex(n)));
+  for (int n = 0; n < (has_cell ? 8 : 0); ++n) box.include(eye_(block(reach).vertex(n)));
   for (const std::size_t number : legend_.ways)
     if (options_.ways[number].kind == FreeWay::Kind::cylinder) {
       for (const Vec& end : longer(*axis_of(scene_, options_.ways[number], block())))
-        box_.include(eye_(end), options_.ways[number].width / 2);
+        box.include(eye_(end), options_.ways[number].width / 2);
     }
-  const double margin = 0.02 * box_.width();
+  const double margin = 0.02 * box.width();
   for (int k = 0; k < 2; ++k) {
-    box_.low[k] -= margin;
-    box_.high[k] += margin;
+    box.low[k] -= margin;
+    box.high[k] += margin;
   }
   const Page page(scene_, options_, legend_, kTallest3D);
-  top_ = page.top;
-  scale_ = std::min(page.width / box_.width(), page.height / box_.height());
-  const double spare = page.width / scale_ - box_.width();  // a tall picture is centred
-  box_.low[0] -= spare / 2;
-  box_.high[0] += spare / 2;
+  window_.top = page.top;
+  window_.scale = std::min(page.width / box.width(), page.height / box.height());
+  const double spare = page.width / window_.scale - box.width();  // a tall picture is centred
+  box.low[0] -= spare / 2;
+  box.high[0] += spare / 2;
 }
 
 // True if an obstacle lies between the point and the eye, or contains the point.
@@ -222,7 +362,7 @@ bool Picture3D::is_hidden(const Vec& point) const {
 // Adds a line in pieces: full where it is visible, faint where it is hidden.
 void Picture3D::add_line(const Vec& from, const Vec& to, const Pen& pen) {
   const Vec way = plus(to, -1, from);
-  const double length = scale_ * std::hypot(dot(way, eye_.right), dot(way, eye_.up));
+  const double length = window_.scale * std::hypot(dot(way, eye_.right), dot(way, eye_.up));
   const int pieces = std::clamp(static_cast<int>(length / 3), 8, lines_.size() > 50 ? 100 : 600);
   const auto point = [&](int i) { return plus(from, static_cast<double>(i) / pieces, way); };
   for (int i = 0; i < pieces;) {
@@ -230,18 +370,18 @@ void Picture3D::add_line(const Vec& from, const Vec& to, const Pen& pen) {
     const bool hidden = hidden_in(i);
     int end = i + 1;
     while (end < pieces && hidden_in(end) == hidden) ++end;
-    svg_.polyline({at(eye_(point(i))), at(eye_(point(end)))},
+    svg_.polyline({at(point(i)), at(point(end))},
                   fmt::format("stroke=\"{}\" stroke-width=\"{:.4g}\"{}", pen.colour, pen.width,
                               hidden ? pen.hidden : pen.seen));
     i = end;
   }
-  if (pen.arrow) svg_.arrow(at(eye_(point(pieces - 1))), at(eye_(to)), 11, pen.colour, pen.width);
+  if (pen.arrow) svg_.arrow(at(point(pieces - 1)), at(to), 11, pen.colour, pen.width);
 }
 
 void Picture3D::add_obstacle(const SeenObstacle& seen) {
   constexpr double kSmallest = 1.4;
   const std::size_t index = colour_index(scene_, seen.placed);
-  svg_.ellipse(at(seen.view), to_scale(seen.shape, scale_, kSmallest),
+  svg_.ellipse(window_(seen.view), to_scale(seen.shape, window_.scale, kSmallest),
                fmt::format("fill=\"url(#shade{})\" stroke=\"{}\" stroke-width=\"{}\"", index % 10,
                            seen.hit ? kFlightColour : colour(index).dark, seen.hit ? 2.2 : 0.7));
 }
@@ -280,7 +420,7 @@ void Picture3D::add_contents(const std::vector<SeenObstacle>& obstacles, std::ve
     add_contents(some, std::move(parts));
     if (side == nearer) break;
     std::vector<Point> outline;
-    for (const Vec& corner : face.corners) outline.push_back(at(eye_(corner)));
+    for (const Vec& corner : face.corners) outline.push_back(at(corner));
     svg_.polygon(outline,
                  fmt::format("fill=\"{0}\" fill-opacity=\"0.28\" stroke=\"{0}\" stroke-width=\"0.8\"",
                              way_colour(face.way)));
@@ -293,7 +433,7 @@ void Picture3D::add_cylinders() {
     if (way.kind != FreeWay::Kind::cylinder) continue;
     const auto [from, to] = longer(*axis_of(scene_, way, block()));
     add_line(from, to,
-             {way_colour(number), std::max(1.5, scale_ * way.width), false, " stroke-opacity=\"0.6\"",
+             {way_colour(number), std::max(1.5, window_.scale * way.width), false, " stroke-opacity=\"0.6\"",
               " stroke-opacity=\"0.15\""});
   }
 }
@@ -312,11 +452,11 @@ void Picture3D::add_cell() {
 
 void Picture3D::add_flight(const DrawnLine& line) {
   add_line(line.from, line.to, {kFlightColour, 2, !line.ends});
-  svg_.ellipse(at(eye_(line.from)), {3.2, 3.2, 0},
+  svg_.ellipse(at(line.from), {3.2, 3.2, 0},
                fmt::format("fill=\"white\" stroke=\"{}\" stroke-width=\"1.4\"", kFlightColour));
   if (line.ends)
     svg_.ellipse(
-        at(eye_(line.to)), {2.8, 2.8, 0},
+        at(line.to), {2.8, 2.8, 0},
         fmt::format("fill=\"{}\" fill-opacity=\"{}\"", kFlightColour, is_hidden(line.to) ? 0.3 : 1.0));
 }
 
@@ -331,7 +471,7 @@ Drawing Picture3D::draw() {
   add_cylinders();
   add_cell();
   for (const DrawnLine& line : lines_) add_flight(line);
-  drawing_.svg = finished(svg_, scene_, options_, legend_, top_ + scale_ * box_.height());
+  drawing_.svg = finished(svg_, scene_, options_, legend_, window_.top + window_.height());
   return std::move(drawing_);
 }
 
