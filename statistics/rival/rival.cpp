@@ -34,14 +34,10 @@ bool is_same(const ObstacleId& obstacle, const Particle& particle, int dimension
   return true;
 }
 
-double length(const Vec& a) {
-  return std::hypot(a[0], a[1], a[2]);
-}
-
 double bits_in_common(const Vec& a, const Vec& b) {
-  const double off = length({a[0] - b[0], a[1] - b[1], a[2] - b[2]});
+  const double off = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   constexpr double kMost = std::numeric_limits<double>::digits;
-  return off == 0 ? kMost : std::clamp(std::log2(length(b) / off), 0.0, kMost);
+  return off == 0 ? kMost : std::clamp(std::log2(std::hypot(b[0], b[1], b[2]) / off), 0.0, kMost);
 }
 
 }  // namespace

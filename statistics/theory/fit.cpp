@@ -11,12 +11,37 @@
 #include <stdexcept>
 #include <vector>
 
-#include "statistics/theory/merged_bins.hpp"
-
 namespace lorentz::flights {
 namespace {
 
+// Throws std::invalid_argument for bad bins.
+void check_bins(std::span<const double> edges, std::span<const std::uint64_t> counts) {
+  if (edges.empty() || counts.size() != edges.size() + 1)
+    throw std::invalid_argument("bins: one count more than edges is wanted");
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (!(edges[i] > (i ? edges[i - 1] : 0)) || !std::isfinite(edges[i]))
+      throw std::invalid_argument("bins: the edges have to be above 0, finite, and ascend");
+}
+
+// Merges neighbouring bins, from the left, until each is_full, and the rest with the last that is.
+template <class Bin, class IsFull>
+std::vector<Bin> merged_bins(const std::vector<Bin>& bins, const IsFull& is_full) {
+  std::vector<Bin> all;
+  for (const Bin& bin : bins)
+    if (all.empty() || is_full(all.back()))
+      all.push_back(bin);
+    else
+      all.back() += bin;
+  if (all.size() > 1 && !is_full(all.back())) {
+    const Bin rest = all.back();
+    all.pop_back();
+    all.back() += rest;
+  }
+  return all;
+}
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLeastCount = 25;  // of paths in a bin
 
 struct Bin {
   double expected;
@@ -25,30 +50,19 @@ struct Bin {
   void operator+=(const Bin& other) { expected += other.expected, count += other.count; }
 };
 
-// Neighbouring bins are merged until 25 paths are expected in each.
+// Neighbouring bins are merged until 25 paths are expected in each. `is_law`: whether the survival falls from 1 to
+// 0, up to rounding. If not, some bin has a negative probability, which merging may hide.
 std::vector<Bin> bins_of(std::span<const double> edges, std::span<const std::uint64_t> counts, double total,
-                         const std::function<double(double)>& survival) {
-  constexpr double kLeastExpected = 25;
+                         const std::function<double(double)>& survival, bool& is_law) {
   std::vector<Bin> bins;
   double longer = 1;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const double still_longer = i == edges.size() ? 0 : survival(edges[i]);
+    is_law &= still_longer >= 0 && still_longer <= longer * (1 + 1e-12);
     bins.push_back({total * (longer - still_longer), counts[i]});
     longer = still_longer;
   }
-  return merged(bins, [](const Bin& bin) { return bin.expected >= kLeastExpected; });
-}
-
-// Whether the survival falls from 1 to 0, up to rounding. If not, some bin has a negative probability, which
-// merging may hide.
-bool is_law(std::span<const double> edges, const std::function<double(double)>& survival) {
-  double before = 1;
-  for (const double edge : edges) {
-    const double now = survival(edge);
-    if (!(now >= 0 && now <= before * (1 + 1e-12))) return false;
-    before = now;
-  }
-  return true;
+  return merged_bins(bins, [](const Bin& bin) { return bin.expected >= kLeastCount; });
 }
 
 double statistic_of(const Bin& bin) {
@@ -64,11 +78,12 @@ ChiSquared chi_squared(std::span<const double> edges, std::span<const std::uint6
   check_bins(edges, counts);
   if (std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}) != total)
     throw std::invalid_argument("bins: the counts have to add up to the total");
-  const std::vector<Bin> bins = bins_of(edges, counts, static_cast<double>(total), survival);
+  bool is_law = true;
+  const std::vector<Bin> bins = bins_of(edges, counts, static_cast<double>(total), survival, is_law);
   ChiSquared result;
   for (const Bin& bin : bins) result.statistic += statistic_of(bin);
   result.degrees = static_cast<int>(bins.size()) - 1;
-  if (!is_law(edges, survival)) result.statistic = kInfinity;
+  if (!is_law) result.statistic = kInfinity;
   if (!(result.statistic < kInfinity))
     result.p_value = 0;
   else if (result.degrees > 0)
@@ -215,6 +230,82 @@ std::optional<double> local_exponent(std::span<const double> edges, double from,
   }
   const std::optional<double> a = best_power(tail);
   return a ? std::optional(1 + *a) : std::nullopt;
+}
+
+// ---- The constant of a tail that is approached slowly
+
+namespace {
+
+constexpr std::size_t kLeastBinsOfTail = 4;
+
+// The contribution of either term between the ends of a bin, for a coefficient of 1, and the count.
+struct TailBin {
+  double leading, next, count;
+
+  void operator+=(const TailBin& other) {
+    leading += other.leading, next += other.next, count += other.count;
+  }
+};
+
+// The bin from `from` to `to`, or without end.
+TailBin bin_of(double power, double approach, double total, double from, std::optional<double> to,
+               double count) {
+  const auto term = [&](double its) {
+    return total * (std::pow(from, -its) - (to ? std::pow(*to, -its) : 0));
+  };
+  return {term(power), term(power + approach), count};
+}
+
+struct TailFit {
+  double leading = 0, next = 0, variance = 0;  // variance: of `leading`
+};
+
+// One step. The variance of a count is the expectation of the previous fit.
+TailFit weighted_fit(const std::vector<TailBin>& rows, const std::optional<TailFit>& before) {
+  double aa = 0, ab = 0, bb = 0, ac = 0, bc = 0;
+  for (const TailBin& row : rows) {
+    const double expected =
+        before ? before->leading * row.leading + before->next * row.next : std::max(row.count, 1.0);
+    const double weight = 1 / std::max(expected, 1.0);
+    aa += weight * row.leading * row.leading, ab += weight * row.leading * row.next;
+    bb += weight * row.next * row.next;
+    ac += weight * row.leading * row.count, bc += weight * row.next * row.count;
+  }
+  const double determinant = aa * bb - ab * ab;
+  return {(bb * ac - ab * bc) / determinant, (aa * bc - ab * ac) / determinant, bb / determinant};
+}
+
+}  // namespace
+
+std::optional<TailConstant> tail_constant(std::span<const double> edges,
+                                          std::span<const std::uint64_t> counts, std::uint64_t total,
+                                          double power, double approach, double from) {
+  check_bins(edges, counts);
+  std::size_t first = 0;
+  while (first < edges.size() && edges[first] < from) ++first;
+  std::vector<TailBin> bins;
+  TailConstant result;
+  for (std::size_t i = first; i < edges.size(); ++i) {
+    const auto to = i + 1 < edges.size() ? std::optional(edges[i + 1]) : std::nullopt;
+    bins.push_back(bin_of(power, approach, static_cast<double>(total), edges[i], to,
+                          static_cast<double>(counts[i + 1])));
+    result.count += counts[i + 1];
+  }
+  const auto all = merged_bins(bins, [](const TailBin& bin) { return bin.count >= kLeastCount; });
+  if (all.size() < kLeastBinsOfTail) return std::nullopt;
+  constexpr int kSteps = 5;
+  std::optional<TailFit> fit;
+  for (int step = 0; step < kSteps; ++step) fit = weighted_fit(all, fit);
+  result.value = fit->leading;
+  result.error = std::sqrt(fit->variance);
+  result.from = edges[first];
+  if (!std::isfinite(result.value) || !std::isfinite(result.error)) return std::nullopt;
+  return result;
+}
+
+double tail_begins(double power, std::uint64_t total) {
+  // For 2 10^7 flights in eight 3D scenes, the statistical error is then above the bias (docs/free_paths.md).
+  return 16 / power * std::pow(static_cast<double>(total) / 1e6, 1 / (2 + power));
 }
 
 }  // namespace lorentz::flights

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 #include <lorentz/geometry.hpp>
 #include "src/problem/scene_geometry.hpp"
@@ -62,6 +64,53 @@ std::optional<SmallObstacles> small_obstacles_of(const Scene& scene, std::string
     small.directions.push_back(rates);
   }
   return small;
+}
+
+namespace {
+
+// The most lattice points to examine; more take longer than a second. With this many points, the sum is as
+// good as an integral if the points lie in many rows.
+constexpr double kMostPoints = 1e7, kManyRows = 1000;
+
+// Reduces a and b, so that |a| <= |b| and b is the shortest of b + n a.
+void reduce(Vec& a, Vec& b) {
+  for (int step = 0; step < 1000; ++step) {
+    if (dot(b, b) < dot(a, a)) std::swap(a, b);
+    const double share = std::round(dot(a, b) / dot(a, a));
+    if (share == 0) return;
+    b = sum(b, scaled(a, -share));
+  }
+}
+
+}  // namespace
+
+// A corridor along the primitive vector g has the width area / |g| - 2 r. C = sum of |g| width^2 / (pi free
+// area), where g and -g count once.
+std::optional<double> corridor_tail_constant(const Lattice& lattice, bool* of_limit) {
+  const double area = cell_volume(lattice, 2), r = lattice.atoms[0].radius, longest = area / (2 * r),
+               free = area - volume_of(lattice.atoms[0], 2);
+  Vec a = lattice.vectors[0], b = lattice.vectors[1];
+  reduce(a, b);
+  const double a2 = dot(a, a), along = dot(a, b) / a2, row = area / std::sqrt(a2);
+  if (std::numbers::pi / 2 * longest / (2 * r) > kMostPoints) {
+    if (longest < kManyRows * row) return std::nullopt;
+    if (of_limit) *of_limit = true;
+    return area / (std::numbers::pi * std::numbers::pi * r);
+  }
+  double total = 0;
+  for (std::int64_t n = 0; static_cast<double>(n) * row < longest; ++n) {
+    const double height = static_cast<double>(n) * row, middle = -along * static_cast<double>(n),
+                 half = std::sqrt((longest * longest - height * height) / a2);
+    auto m = static_cast<std::int64_t>(std::ceil(middle - half));
+    if (n == 0) m = 1;  // a and -a count once
+    for (; static_cast<double>(m) <= middle + half; ++m) {
+      if (std::gcd(m, n) != 1) continue;
+      const double length = std::hypot(height, (static_cast<double>(m) - middle) * std::sqrt(a2)),
+                   width = area / length - 2 * r;
+      if (width > 0) total += length * width * width;
+    }
+  }
+  return total / (std::numbers::pi * free);
 }
 
 }  // namespace lorentz::flights
