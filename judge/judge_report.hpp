@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "judge/examination.hpp"
 #include "judge/free_paths.hpp"
-#include "judge/order.hpp"
-#include "judge/results.hpp"
 
 namespace lorentz::judge {
 
