@@ -29,8 +29,8 @@ std::vector<std::string> commands_of(const CaseReport& report) {
 std::vector<std::string> reason_lines(const CaseReport& report, const oracle::Margins& margins) {
   std::vector<std::string> lines;
   if (report.given) {
-    lines = report::lines_of(report::reason_of(margins, report.scene, report.query, report.exact,
-                                               *report.given, report.decisive, ""));
+    lines =
+        report::reason_of(margins, report.scene, report.query, report.exact, *report.given, report.decisive);
   } else if (const auto decision = margins.hardest_decision(report.query, report.exact)) {
     lines.push_back(report::decision_text(*decision, report.scene));
   }
@@ -47,9 +47,7 @@ std::optional<double> radii_of(const CaseReport& report, const oracle::Margins& 
 
 // The drawing, or an empty text if there is nothing to draw.
 std::string drawing_of(const CaseReport& report) {
-  return report.given ? pictures::finding_drawing(report.scene, report.query, *report.given, report.exact,
-                                                  report.decisive)
-                      : pictures::finding_drawing(report.scene, report.query, report.exact);
+  return pictures::finding_drawing(report.scene, report.query, report.given, report.exact, report.decisive);
 }
 
 void add_report(json::Members& object, const CaseReport& report) {

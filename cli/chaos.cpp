@@ -6,8 +6,8 @@
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
 #include "cli/scan.hpp"
-#include "report/query_text.hpp"
 #include "report/runs/piece_store.hpp"
+#include "src/exchange/exchange_write.hpp"
 #include "statistics/chaos/diffusion.hpp"
 #include "statistics/chaos/lyapunov.hpp"
 
@@ -50,7 +50,7 @@ std::optional<ScanFinding> lyapunov_at(const ScanPlace& place, const ChaosOption
   const runs::Plan words{{"collisions", std::to_string(plan.collisions)},
                          {"spectrum", plan.whole_spectrum ? "whole" : "above zero"},
                          {"seed", std::to_string(plan.seed)},
-                         {"scene", report::scene_line(plan.scene)}};
+                         {"scene", scene_line(plan.scene)}};
   chaos::Lyapunov found;
   with_work(options, "lyapunov", words,
             [&](const chaos::Work& work) { found = chaos::lyapunov_of(plan, work); });
@@ -72,7 +72,7 @@ std::optional<ScanFinding> diffusion_at(const ScanPlace& place, const ChaosOptio
                          {"time", fmt::format("{}", plan.time)},
                          {"starts", options.from},
                          {"seed", std::to_string(plan.seed)},
-                         {"scene", report::scene_line(plan.scene)}};
+                         {"scene", scene_line(plan.scene)}};
   chaos::Diffusion found;
   with_work(options, "diffusion", words,
             [&](const chaos::Work& work) { found = chaos::diffusion_of(plan, work); });

@@ -1,5 +1,5 @@
 #include "cli/file_options.hpp"
-#include "judge/golden/find_sets.hpp"
+#include "judge/golden/sets.hpp"
 
 #include <algorithm>
 #include <cctype>

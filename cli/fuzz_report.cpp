@@ -11,6 +11,7 @@
 #include "report/reason.hpp"
 #include "report/share.hpp"
 #include "report/table.hpp"
+#include "src/problem/same_answer.hpp"
 
 namespace lorentz::cli {
 namespace {
@@ -65,12 +66,15 @@ void add_target(json::Members& object, const std::string& name, const TargetTall
 std::string reason_in(const fuzz::CaseText& text, NumberFormat precision) {
   const fuzz::ReadCase one = fuzz::case_in(text);
   const auto says_what = [](const Answer& answer) {
-    return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside ||
-           answer.outcome == Outcome::never;
+    return names_obstacle(answer) || answer.outcome == Outcome::never;
   };
   if (!says_what(one.given) || !says_what(one.exact)) return "";
-  return report::reason_of(oracle::Margins(one.scene, precision), one.scene, one.query, one.exact, one.given,
-                           report::decisive_of(one.scene, one.query, one.exact, one.given), "");
+  std::string reason;
+  for (const std::string& line :
+       report::reason_of(oracle::Margins(one.scene, precision), one.scene, one.query, one.exact, one.given,
+                         report::decisive_of(one.scene, one.query, one.exact, one.given)))
+    reason += line + '\n';
+  return reason;
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <lorentz/exchange.hpp>
 #include "cli/output.hpp"
-#include "judge/golden/find_sets.hpp"
 #include "judge/golden/reader.hpp"
 #include "judge/golden/sets.hpp"
 #include "report/table.hpp"

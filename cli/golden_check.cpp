@@ -7,8 +7,8 @@
 #include "cli/lineup.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
-#include "judge/golden/find_sets.hpp"
-#include "judge/golden/questions.hpp"
+#include "judge/golden/reader.hpp"
+#include "judge/golden/sets.hpp"
 #include "report/claim_words.hpp"
 #include "report/table.hpp"
 

@@ -6,8 +6,8 @@
 #include "cli/app.hpp"
 #include "cli/case_report.hpp"
 #include "cli/output.hpp"
-#include "judge/golden/find_sets.hpp"
 #include "judge/golden/reader.hpp"
+#include "judge/golden/sets.hpp"
 #include "report/reason.hpp"
 #include "report/table.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <lorentz/claim.hpp>
 #include <lorentz/exchange.hpp>
-#include "judge/golden/seen.hpp"
+#include "judge/golden/maker.hpp"
 #include "report/files/messages.hpp"
 #include "src/exchange/exchange_json.hpp"
 

@@ -6,9 +6,9 @@
 #include "cli/app.hpp"
 #include "cli/output.hpp"
 #include "cli/progress.hpp"
-#include "judge/golden/find_sets.hpp"
 #include "judge/golden/maker.hpp"
 #include "judge/golden/reader.hpp"
+#include "judge/golden/sets.hpp"
 
 namespace lorentz::cli {
 namespace {

@@ -19,6 +19,7 @@
 #include "report/claim_words.hpp"
 #include "report/files/whole_file.hpp"
 #include "report/page.hpp"
+#include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::cli {
 
@@ -39,7 +40,7 @@ judge::OnJudged recorder(const ExaminationOptions& options, FailureLedger& ledge
     const question::Question& question = judged.question;
     const Scene& scene = question.place->scene();
     const std::string id = question.is_query() ? golden::id_of(scene, question.query)
-                                               : golden::id_of(golden::scene_line_of(scene), question.text);
+                                               : golden::id_of(scene_line(scene), question.text);
     ledger.take(row, id, failure_of(judged.judgement, options.times, options.strict));
   };
 }

@@ -72,8 +72,9 @@ std::string description(const Judged& judged, const std::string& engine, const A
   }
   text += fmt::format("    says  {}    truth {}    {}\n", says, truth, fault_of(judged));
   if (question.is_query() && judgement.verdict == Verdict::wrong)
-    text += report::reason_of(place.margins(), scene, question.query, question.exact, reply.answer,
-                              judgement.obstacle, "    ");
+    for (const std::string& line : report::reason_of(place.margins(), scene, question.query, question.exact,
+                                                     reply.answer, judgement.obstacle))
+      text += "    " + line + '\n';
   if (part.set.empty()) return text;
   return text + fmt::format("    again: lorentz golden check --engine {}{} --id {} {}\n",
                             shell_quoted(engine), part.claim, shell_quoted(question.where),

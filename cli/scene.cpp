@@ -149,10 +149,9 @@ std::string lattice_in_words(const Scene& scene, std::size_t l) {
 
 std::string contact_in_words(const oracle::Contact& contact, int dimension) {
   if (!contact.cell) return oracle::description_of(contact) + " somewhere";
-  std::string cell;
-  for (int i = 0; i < dimension; ++i) cell += (i ? ", " : "") + (*contact.cell)[i].decimal();
   return fmt::format("lattice {}: atom {} {} atom {} of cell ({})", contact.lattice, contact.atom,
-                     contact.overlap ? "overlaps" : "touches", contact.other_atom, cell);
+                     contact.overlap ? "overlaps" : "touches", contact.other_atom,
+                     decimals(components(*contact.cell, dimension)));
 }
 
 std::string contacts_in_words(const oracle::Contacts& contacts, int dimension) {

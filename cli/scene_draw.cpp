@@ -15,6 +15,7 @@
 #include "report/files/scene_file.hpp"
 #include "report/files/whole_file.hpp"
 #include "report/pictures/scene_drawing.hpp"
+#include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::cli {
 
@@ -85,12 +86,6 @@ std::optional<std::array<double, 4>> window_of(const SceneDrawOptions& options) 
   return std::array{numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
-std::string indices_of(const std::array<Integer, 3>& indices, int dimension) {
-  std::string out;
-  for (int i = 0; i < dimension; ++i) out += (i ? " " : "") + indices[i].decimal();
-  return out;
-}
-
 // The widest corridors, or the widest planar channels and the same number of cylinders. Channels that are
 // open only because a radius was rounded are too narrow to be visible.
 std::vector<FreeWay> ways_of(const Scene& scene, std::size_t most) {
@@ -103,7 +98,7 @@ std::vector<FreeWay> ways_of(const Scene& scene, std::size_t most) {
     for (std::size_t i = 0; i < std::min(most, horizon.channels.size()); ++i) {
       const oracle::Channel& channel = horizon.channels[i];
       if (channel.width < narrow) break;
-      const std::string indices = indices_of(channel.indices, scene.dimension);
+      const std::string indices = decimals(components(channel.indices, scene.dimension), " ");
       const std::string name = flat ? "corridor [" + indices + "]" : "channel (" + indices + ")";
       ways.push_back({flat ? FreeWay::Kind::corridor : FreeWay::Kind::layer, channel.point, channel.vector,
                       channel.width, fmt::format("{}: width {:.4g}", name, channel.width)});
@@ -113,7 +108,7 @@ std::vector<FreeWay> ways_of(const Scene& scene, std::size_t most) {
       if (cylinder.radius < narrow) break;
       ways.push_back(
           {FreeWay::Kind::cylinder, cylinder.point, cylinder.vector, 2 * cylinder.radius,
-           fmt::format("cylinder [{}]: radius {:.4g}", indices_of(cylinder.direction, 3), cylinder.radius)});
+           fmt::format("cylinder [{}]: radius {:.4g}", decimals(cylinder.direction, " "), cylinder.radius)});
     }
     if (ways.empty()) say("no channels are drawn: none is known to be open, or none is wide enough");
   } catch (const oracle::TooManyChannels& error) {

@@ -9,6 +9,7 @@
 #include <lorentz/geometry.hpp>
 #include "question/radii.hpp"
 #include "src/exchange/exchange_number.hpp"
+#include "src/problem/same_answer.hpp"
 #include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::judge {
@@ -155,15 +156,8 @@ constexpr double kRarer = 10;
 constexpr double kBetter = 1.1, kBetterOfScene = 2;
 constexpr std::size_t kFewestRight = 20;
 
-using Holds = bool (*)(const Features&);
-
 // Properties without a limit, with what a question needs to have them.
-struct Property {
-  const char *name, *text;
-  Holds holds;
-  double Features::*quantity = nullptr;
-};
-constexpr Property kProperties[] = {
+const std::vector<Circumstance> kProperties{
     {"on-surface", "where x lies on the surface of the obstacle in question",
      [](const Features& f) { return f.start_gap == 0; }, &Features::start_gap},
     {"at-once", "where the exact time is 0", [](const Features& f) { return f.time == 0; }, &Features::time},
@@ -185,7 +179,7 @@ constexpr Property kProperties[] = {
     {"never", "where nothing is ever hit", [](const Features& f) { return f.outcome == Outcome::never; }}};
 
 // Properties of scenes, which questions of one row often share by accident.
-constexpr Property kSceneProperties[] = {
+const std::vector<Circumstance> kSceneProperties{
     {"several-lattices", "in scenes of several lattices",
      [](const Features& f) { return f.several_lattices; }},
     {"several-atoms", "in scenes of several atoms a cell", [](const Features& f) { return f.several_atoms; }},
@@ -239,13 +233,11 @@ std::optional<Circumstance> circumstance_with(const Limit& its, double exponent)
   const bool is_below = its.bound == LimitSide::below, is_far = its.bound == LimitSide::from_afar;
   const double limit = std::pow(is_far ? 2 : 10, exponent), said = is_far ? exponent : limit;
   if (is_below ? said > its.telling * (1 + 1e-9) : said < its.telling * (1 - 1e-9)) return std::nullopt;
-  Circumstance one;
-  one.name = its.name;
-  one.text = fmt::format(fmt::runtime(its.text), said, said == 1 ? "" : "s");
-  one.holds = [=](const Features& f) { return is_below ? f.*quantity < limit : f.*quantity >= limit; };
-  one.quantity = quantity;
-  one.is_limit = true;
-  return one;
+  return Circumstance{.name = its.name,
+                      .text = fmt::format(fmt::runtime(its.text), said, said == 1 ? "" : "s"),
+                      .holds = [=](const Features& f) { return (f.*quantity < limit) == is_below; },
+                      .quantity = quantity,
+                      .is_limit = true};
 }
 
 // Limits at quantiles of the failing questions: that of all, and those that leave a part of them out.
@@ -271,15 +263,9 @@ void add_limits(const Limit& its, const std::vector<Features>& failing, std::vec
 }
 
 std::vector<Circumstance> circumstances_for(const std::vector<Features>& failing) {
-  std::vector<Circumstance> all;
-  const auto add = [&](const Property& its, bool is_of_scene) {
-    Circumstance& one = all.emplace_back();
-    one.name = its.name, one.text = its.text, one.holds = its.holds, one.quantity = its.quantity;
-    one.is_of_scene = is_of_scene;
-  };
-  for (const Property& its : kProperties) add(its, false);
+  std::vector<Circumstance> all = kProperties;
   for (const Limit& limit : kLimits) add_limits(limit, failing, all);
-  for (const Property& its : kSceneProperties) add(its, true);
+  for (const Circumstance& its : kSceneProperties) all.emplace_back(its).is_of_scene = true;
   return all;
 }
 

@@ -7,13 +7,10 @@
 
 #include "fuzz/campaign/examiner.hpp"
 #include "question/radii.hpp"
+#include "src/problem/same_answer.hpp"
 
 namespace lorentz::judge {
 namespace {
-
-bool exists(const Question& question, const ObstacleId& obstacle) {
-  return !flaw_of(Query{question.query.x, question.query.v, obstacle}, question.place->scene());
-}
 
 // Below, diagnoses are of wrong answers, and `decisive` is the obstacle that the judgement rests on.
 
@@ -56,8 +53,9 @@ Diagnosis of_another_answer(const Question& question, const Answer& given,
                             const std::optional<ObstacleId>& needed) {
   const Query& query = question.query;
   const Answer& exact = question.exact;
-  if (names_obstacle(given) && !exists(question, given.obstacle)) return of_wrong(Cause::no_obstacle);
-  if (names_obstacle(given) && query.from == given.obstacle) return of_wrong(Cause::leaving);
+  const bool names = names_obstacle(given);
+  if (names && !names_obstacle(given, query, question.place->scene())) return of_wrong(Cause::no_obstacle);
+  if (names && query.from == given.obstacle) return of_wrong(Cause::leaving);
   // A judgement that rests on no obstacle has margin 0: there is a tie, or an obstacle is touched.
   const ObstacleId& decisive = needed                        ? *needed
                                : is_touched(question, given) ? given.obstacle
@@ -142,10 +140,6 @@ double exit_time(const Question& question) {
 }
 
 }  // namespace
-
-bool names_obstacle(const Answer& answer) {
-  return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
-}
 
 std::string_view quantity_of(const Question& question, const Answer& given) {
   const auto &entry = question.exact.time, &its = given.time;

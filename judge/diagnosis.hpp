@@ -60,8 +60,6 @@ struct Diagnosis {
   Blame blame() const;
 };
 
-bool names_obstacle(const Answer& answer);
-
 /// Quantities that are given in place of the time of the entry.
 inline constexpr std::string_view kDistance = "the distance (|v| times the time)",
                                   kExit = "the time of the exit from that obstacle",

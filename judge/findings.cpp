@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "fuzz/campaign/shrink.hpp"
+#include "src/problem/same_answer.hpp"
 
 namespace lorentz::judge {
 namespace {
@@ -179,10 +180,8 @@ void choose_simplest(Finding& finding) {
 std::optional<ObstacleId> obstacle_in_question(const Example& example) {
   if (!example.question.is_query()) return std::nullopt;
   if (example.judgement.obstacle) return example.judgement.obstacle;
-  const Query& query = example.question.query;
   for (const Answer* answer : {&example.question.exact, &example.given})
-    if (names_obstacle(*answer) &&
-        !flaw_of(Query{query.x, query.v, answer->obstacle}, example.question.place->scene()))
+    if (names_obstacle(*answer, example.question.query, example.question.place->scene()))
       return answer->obstacle;
   return std::nullopt;
 }

@@ -55,16 +55,16 @@ Features features_of(const Question& question, const std::optional<ObstacleId>& 
 
 /// What distinguishes the questions on which an engine fails.
 struct Circumstance {
-  std::string_view name;   ///< for programs: "flight"
-  std::string text;        ///< a clause: "after flights of 100 lattice vectors or more"
-  std::size_t number = 0;  ///< of the failing questions, those that have it
-  std::size_t of = 0;      ///< the failing questions that were compared
-  double share = 0;        ///< the share of the right answers that have it, of those with the quantity
-  double weight = 0;       ///< D, as below
+  std::string_view name;  ///< for programs: "flight"
+  std::string text;       ///< a clause: "after flights of 100 lattice vectors or more"
   std::function<bool(const Features&)> holds = [](const Features&) { return true; };
   double Features::*quantity = nullptr;  ///< what a question needs to be compared; null: nothing
   bool is_limit = false;                 ///< on the quantity
   bool is_of_scene = false;              ///< which all questions of a row may share by accident
+  std::size_t number = 0;                ///< of the failing questions, those that have it
+  std::size_t of = 0;                    ///< the failing questions that were compared
+  double share = 0;   ///< the share of the right answers that have it, of those with the quantity
+  double weight = 0;  ///< D, as below
 
   double part() const { return of == 0 ? 1 : static_cast<double>(number) / static_cast<double>(of); }
   bool can_hold(const Features& f) const { return !quantity || f.*quantity >= 0; }

@@ -178,7 +178,7 @@ std::string text_of(const Finding& finding, const JudgeReport& report, int numbe
   if (finding.severity() == Severity::ill_posed) return text;
   text += fmt::format("   the simplest, {} {}:\n   {}\n   {}\n   says  {}\n   truth {}\n",
                       finding.was_shrunk ? "shrunk from" : "from", finding.where,
-                      report::scene_line(example.question.place->scene()), readable_query(example),
+                      scene_line(example.question.place->scene()), readable_query(example),
                       json::text_of(json_of(example.given, dimension)),
                       json::text_of(json_of(exact_of(example), dimension)));
   for (const std::string& line : reason_lines(finding)) text += "   " + line + '\n';

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "judge/golden/find_sets.hpp"
 #include "judge/golden/reader.hpp"
+#include "judge/golden/sets.hpp"
 #include "report/files/scene_file.hpp"
 
 namespace lorentz::judge {

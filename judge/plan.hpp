@@ -28,21 +28,10 @@ std::shared_ptr<Place> place_for(const Scene& scene, const Claim& claim);
 /// Counts questions that are not asked because they are outside of the engine's domain. For many threads.
 using Outside = std::atomic<std::size_t>;
 
-/// Numbers of questions: blocks of several places in turn, without the places that are beyond the engine.
-class InTurn {
- public:
-  InTurn(std::size_t places, std::size_t count) : places_(places), count_(count) {}
-
-  /// Question number `index` of a place.
-  struct Next {
-    std::size_t place, index;
-  };
-  std::optional<Next> next(const std::function<bool(std::size_t place)>& is_beyond);
-
- private:
-  static constexpr std::size_t kBlock = 16;
-  std::size_t places_, count_, number_ = 0;
-};
+/// The questions that `ask(place, index)` gives, if it gives any, in blocks of several places in turn: `count` numbers
+/// in all. Places beyond the engine are left out.
+Source in_turn(const std::vector<std::shared_ptr<Place>>& places, std::size_t count,
+               const std::function<std::optional<Question>(std::size_t place, std::size_t index)>& ask);
 
 /// The question with its exact answer, at another speed if that brings it into the engine's domain. Nothing if it stays
 /// outside, which is counted.

@@ -9,7 +9,7 @@
 
 #include "fuzz/campaign/variants.hpp"
 #include "fuzz/families/family.hpp"
-#include "judge/golden/questions.hpp"
+#include "judge/golden/reader.hpp"
 #include "question/starts/free_starts.hpp"
 
 namespace lorentz::judge {
@@ -25,41 +25,6 @@ Starts starts_in(const Place& place, starts::Kind kind, std::uint64_t seed) {
   return [all = std::make_shared<starts::FreeStarts>(place.scene(), kind, seed, place.claim().precision)](
              std::uint64_t index) { return starts::VariedStart{(*all)[index]}; };
 }
-
-class Drawn {
- public:
-  Drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count,
-        Outside& outside)
-      : places_(places), turns_(places.size(), count), what_(words_of(kind)), outside_(outside) {
-    for (const NamedPlace& place : places) starts_.push_back(starts_in(*place.place, kind, seed));
-  }
-
-  std::optional<Question> next() {
-    while (const auto next =
-               turns_.next([this](std::size_t place) { return places_[place].place->is_beyond_engine(); })) {
-      const auto& [name, place] = places_[next->place];
-      const starts::VariedStart start = starts_[next->place](next->index);
-      auto question = question_in(place, start.query, fmt::format("{}, {}", what_, name), outside_);
-      if (!question) continue;
-      question->max_time = start.max_time;
-      return question;
-    }
-    return std::nullopt;
-  }
-
- private:
-  static std::string words_of(starts::Kind kind) {
-    return kind == starts::Kind::uniform   ? "drawn"
-           : kind == starts::Kind::surface ? "free paths"
-                                           : name_of(kind);
-  }
-
-  const std::vector<NamedPlace>& places_;
-  InTurn turns_;
-  const std::string what_;
-  Outside& outside_;
-  std::vector<Starts> starts_;
-};
 
 class CampaignQuestions {
  public:
@@ -141,22 +106,25 @@ class CampaignQuestions {
   std::deque<Question> questions_;
 };
 
-// Shares the maker, because std::function must copy what it holds.
-template <class Maker, class... Arguments>
-Source source_of(Arguments&&... arguments) {
-  auto maker = std::make_shared<Maker>(std::forward<Arguments>(arguments)...);
-  return [maker] { return maker->next(); };
-}
-
 }  // namespace
 
-std::optional<InTurn::Next> InTurn::next(const std::function<bool(std::size_t)>& is_beyond) {
-  for (std::size_t tried = 0; number_ < count_ && tried < places_; ++tried) {
-    const std::size_t block = number_ / kBlock, place = block % places_;
-    if (!is_beyond(place)) return Next{place, block / places_ * kBlock + number_++ % kBlock};
-    number_ = (block + 1) * kBlock;
-  }
-  return std::nullopt;
+// Copies of the source share the number at which it is.
+Source in_turn(const std::vector<std::shared_ptr<Place>>& places, std::size_t count,
+               const std::function<std::optional<Question>(std::size_t place, std::size_t index)>& ask) {
+  constexpr std::size_t kBlock = 16;
+  return [=, shared = std::make_shared<std::size_t>(0)]() -> std::optional<Question> {
+    std::size_t& number = *shared;
+    for (std::size_t beyond = 0; number < count && beyond < places.size();) {
+      const std::size_t block = number / kBlock, place = block % places.size();
+      if (places[place]->is_beyond_engine()) {
+        number = (block + 1) * kBlock, ++beyond;
+        continue;
+      }
+      beyond = 0;
+      if (auto question = ask(place, block / places.size() * kBlock + number++ % kBlock)) return question;
+    }
+    return std::nullopt;
+  };
 }
 
 std::optional<Question> question_in(const std::shared_ptr<Place>& place, const Query& start,
@@ -176,7 +144,20 @@ std::shared_ptr<Place> place_for(const Scene& scene, const Claim& claim) {
 
 Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count,
              Outside& outside) {
-  return source_of<Drawn>(places, kind, seed, count, std::ref(outside));
+  const std::string what = kind == starts::Kind::uniform   ? "drawn"
+                           : kind == starts::Kind::surface ? "free paths"
+                                                           : name_of(kind);
+  std::vector<Starts> starts;
+  std::vector<std::shared_ptr<Place>> in;
+  for (const NamedPlace& place : places)
+    in.push_back(place.place), starts.push_back(starts_in(*place.place, kind, seed));
+  return in_turn(in, count, [=, &places, &outside](std::size_t which, std::size_t index) {
+    const auto& [name, place] = places[which];
+    const starts::VariedStart start = starts[which](index);
+    auto question = question_in(place, start.query, fmt::format("{}, {}", what, name), outside);
+    if (question) question->max_time = start.max_time;
+    return question;
+  });
 }
 
 Source golden_set(const std::string& path, const Claim& claim, Outside& outside) {
@@ -200,7 +181,8 @@ Source golden_set(const std::string& path, const Claim& claim, Outside& outside)
 
 Source campaign(std::uint64_t seed, const fuzz::Scope& scope, bool same_time, unsigned part, unsigned parts,
                 const Claim& claim, Outside& outside) {
-  return source_of<CampaignQuestions>(seed, scope, same_time, part, parts, claim, std::ref(outside));
+  const auto maker = std::make_shared<CampaignQuestions>(seed, scope, same_time, part, parts, claim, outside);
+  return [maker] { return maker->next(); };
 }
 
 fuzz::Scope scope_of(const std::vector<NamedPlace>& places) {

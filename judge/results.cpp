@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "question/radii.hpp"
+#include "src/problem/same_answer.hpp"
 
 namespace lorentz::judge {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "judge/findings.hpp"
 #include "question/examination.hpp"
-#include "report/calls.hpp"
+#include "report/curves.hpp"
 
 namespace lorentz::judge {
 

@@ -26,9 +26,8 @@ int bits_to_move(NumberFormat format) {
 
 class Retold {
  public:
-  Retold(const std::vector<NamedPlace>& places, Retelling how, std::uint64_t seed, std::size_t count,
-         Outside& outside)
-      : places_(places), how_(how), seed_(seed), turns_(places.size(), count), outside_(outside) {
+  Retold(const std::vector<NamedPlace>& places, Retelling how, std::uint64_t seed, Outside& outside)
+      : places_(places), how_(how), seed_(seed), outside_(outside) {
     Random random(seed, "retold places", 0);
     for (int i = 0; i < 3; ++i) away_[i] = random.whole(-kAway, kAway);
     for (const NamedPlace& named : places) {
@@ -39,12 +38,10 @@ class Retold {
     }
   }
 
-  std::optional<Question> next() {
-    while (const auto next =
-               turns_.next([this](std::size_t place) { return retold_[place]->is_beyond_engine(); }))
-      if (const auto plain = plain_flight(next->place, next->index))
-        if (auto question = asked(next->place, next->index, *plain)) return question;
-    return std::nullopt;
+  const std::vector<std::shared_ptr<Place>>& places() const { return retold_; }
+  std::optional<Question> question(std::size_t place, std::size_t index) const {
+    const auto plain = plain_flight(place, index);
+    return plain ? asked(place, index, *plain) : std::nullopt;
   }
 
  private:
@@ -83,7 +80,7 @@ class Retold {
     return query;
   }
 
-  std::optional<Question> asked(std::size_t which, std::size_t index, const Query& plain) {
+  std::optional<Question> asked(std::size_t which, std::size_t index, const Query& plain) const {
     const std::shared_ptr<Place>& place = retold_[which];
     Random random(seed_, "retold flights", index);
     auto question =
@@ -99,7 +96,6 @@ class Retold {
   const std::vector<NamedPlace>& places_;
   const Retelling how_;
   const std::uint64_t seed_;
-  InTurn turns_;
   Outside& outside_;
   Vec away_{};
   std::vector<starts::FreeStarts> starts_;
@@ -120,8 +116,9 @@ RowWords row_words_of(Retelling how) {
 
 Source retold(const std::vector<NamedPlace>& places, Retelling how, std::uint64_t seed, std::size_t count,
               Outside& outside) {
-  const auto maker = std::make_shared<Retold>(places, how, seed, count, outside);
-  return [maker] { return maker->next(); };
+  const auto maker = std::make_shared<Retold>(places, how, seed, outside);
+  return in_turn(maker->places(), count,
+                 [maker](std::size_t place, std::size_t index) { return maker->question(place, index); });
 }
 
 }  // namespace lorentz::judge

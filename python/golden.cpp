@@ -1,6 +1,6 @@
 // Golden sets, record by record.
-#include "judge/golden/find_sets.hpp"
 #include "judge/golden/reader.hpp"
+#include "judge/golden/sets.hpp"
 #include "python/certificates.hpp"
 #include "python/lines.hpp"
 #include "python/scene.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "question/tally.hpp"
-#include "report/calls.hpp"
+#include "report/curves.hpp"
 #include "report/share.hpp"
 
 namespace lorentz::report {

@@ -40,18 +40,13 @@ namespace {
 
 constexpr std::size_t kMostRows = 20;
 
-using Indices = std::array<Integer, 3>;
-
-std::string text_of(const Indices& indices, int dimension) {
-  std::string out;
-  for (int i = 0; i < dimension; ++i) out += (i ? " " : "") + indices[i].decimal();
-  return out;
+std::string text_of(const Vec& a, int dimension) {
+  return fmt::format("{:.6g}", fmt::join(components(a, dimension), " "));
 }
 
-std::string text_of(const Vec& a, int dimension) {
-  std::string out;
-  for (int i = 0; i < dimension; ++i) out += fmt::format("{}{:.6g}", i ? " " : "", a[i]);
-  return out;
+// Those that a table has.
+auto first_of(const auto& all) {
+  return std::span(all).first(std::min(kMostRows, all.size()));
 }
 
 std::string rest_of(std::size_t all) {
@@ -76,9 +71,8 @@ std::string channel_table(const oracle::Horizon& h) {
                                   "through"};
   if (counts) header.push_back("count");
   Table table(header);
-  for (std::size_t i = 0; i < std::min(kMostRows, h.channels.size()); ++i) {
-    const auto& c = h.channels[i];
-    const std::string indices = text_of(c.indices, h.dimension);
+  for (const oracle::Channel& c : first_of(h.channels)) {
+    const std::string indices = decimals(components(c.indices, h.dimension), " ");
     std::vector<std::string> row{flat ? "[" + indices + "]" : "(" + indices + ")",
                                  fmt::format("{:.10g}", c.width), text_of(c.vector, h.dimension),
                                  point_text(c.point, c.inside, h.dimension)};
@@ -90,19 +84,16 @@ std::string channel_table(const oracle::Horizon& h) {
 
 std::string cylinder_table(const oracle::Horizon& h) {
   Table table({"cylinder", "radius", "vector", "through"});
-  for (std::size_t i = 0; i < std::min(kMostRows, h.cylinders.size()); ++i) {
-    const auto& c = h.cylinders[i];
-    table.add({"[" + text_of(c.direction, 3) + "]", fmt::format("{:.6g}", c.radius), text_of(c.vector, 3),
+  for (const oracle::Cylinder& c : first_of(h.cylinders))
+    table.add({"[" + decimals(c.direction, " ") + "]", fmt::format("{:.6g}", c.radius), text_of(c.vector, 3),
                point_text(c.point, c.inside, 3)});
-  }
   return table.text() + rest_of(h.cylinders.size());
 }
 
 std::string families_text(const oracle::Horizon& h) {
   std::string out;
-  for (std::size_t i = 0; i < std::min(kMostRows, h.families.size()); ++i) {
-    const auto& family = h.families[i];
-    const std::string planes = text_of(family.indices, 3);
+  for (const oracle::CylinderFamily& family : first_of(h.families)) {
+    const std::string planes = decimals(family.indices, " ");
     if (family.infinite)
       out += fmt::format(
           "planes ({}): the obstacles just touch; cylindrical channels in all but finitely many directions\n",
@@ -129,8 +120,8 @@ std::string tail_text(const oracle::Horizon& h, bool limited) {
 std::string text_of(const oracle::Horizon& h, bool limited) {
   std::string out = verdict_of(h, limited) + "\n";
   bool outside = false;
-  for (std::size_t i = 0; i < std::min(kMostRows, h.channels.size()); ++i) outside |= !h.channels[i].inside;
-  for (std::size_t i = 0; i < std::min(kMostRows, h.cylinders.size()); ++i) outside |= !h.cylinders[i].inside;
+  for (const oracle::Channel& c : first_of(h.channels)) outside |= !c.inside;
+  for (const oracle::Cylinder& c : first_of(h.cylinders)) outside |= !c.inside;
   if (!h.channels.empty()) out += "\n" + channel_table(h);
   if (!h.cylinders.empty()) out += "\n" + cylinder_table(h);
   if (!h.families.empty()) out += "\n" + families_text(h);
@@ -179,7 +170,7 @@ std::string json_of(const oracle::Horizon& h, const std::string& scene, bool lim
   const int d = h.dimension;
   const bool is_finite = h.is_finite() && !limited;
   const auto channel = [d](json::Members& one, const oracle::Channel& c) { add_channel(one, c, d); };
-  const auto undecided = [d](std::string& out, const Indices& i) { json::append(out, components(i, d)); };
+  const auto undecided = [d](std::string& out, const auto& i) { json::append(out, components(i, d)); };
   return json::line_of([&](json::Members& object) {
     object.add("scene", scene, "dimension", d, "horizon",
                h.is_infinite() ? "infinite" : (is_finite ? "finite" : "undecided"), "directions", h.normals);

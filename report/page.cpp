@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "report/page_text.hpp"
-
 #include <lorentz/errors.hpp>
 #include "src/problem/safe_text.hpp"
 

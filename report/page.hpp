@@ -6,6 +6,9 @@
 
 namespace lorentz::report {
 
+/// The page without its report, made by report/web/build.mjs. Empty in a program that was built without npm.
+extern const std::string_view page_text;
+
 /// True if this program contains the page. Its script is bundled when the program is built, which needs npm.
 bool has_page();
 

@@ -1,4 +1,4 @@
-#include "report/page_text.hpp"
+#include "report/page.hpp"
 
 namespace lorentz::report {
 

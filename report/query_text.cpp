@@ -10,13 +10,6 @@
 
 namespace lorentz::report {
 
-std::string scene_line(const Scene& scene) {
-  std::string line;
-  append_scene_line(line, scene);
-  line.pop_back();
-  return line;
-}
-
 std::vector<std::string> hexadecimal(const Vec& a, int dimension) {
   std::vector<std::string> texts;
   for (const double x : components(a, dimension)) texts.push_back(fmt::format("{:a}", x));
@@ -44,11 +37,19 @@ std::string printed(const Scene& scene, const std::string& query_members, std::s
                     : fmt::format("{{ {}; yes {} | head -n {}; }}", first, query, times);
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
-    lines.push_back(text.substr(begin, end - begin));
-  return lines;
+std::optional<double> common_radius(const Scene& scene) {
+  std::optional<double> radius;
+  bool same = true;
+  for_each_atom(scene, [&](const Atom& atom) {
+    same = same && atom.is_ball() && (!radius || *radius == atom.radius);
+    radius = atom.radius;
+  });
+  return same ? radius : std::nullopt;
+}
+
+std::string name_with_radius(const std::string& name, const Scene& scene) {
+  const std::optional<double> radius = common_radius(scene);
+  return radius ? fmt::format("{}, r = {:g}", name, *radius) : name;
 }
 
 }  // namespace lorentz::report

@@ -1,7 +1,8 @@
-// Scenes and queries for people to copy, exact to the bit, in the exchange format.
+// Scenes and queries for people: to copy, exact to the bit, in the exchange format; and the name of a scene.
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,9 +10,6 @@
 #include <lorentz/scene.hpp>
 
 namespace lorentz::report {
-
-/// {"scene":{..}}: a line of a query stream, without the line end.
-std::string scene_line(const Scene& scene);
 
 /// The first `dimension` components, as "0x1.8p-1".
 std::vector<std::string> hexadecimal(const Vec& a, int dimension);
@@ -27,7 +25,10 @@ std::string query_members(const Query& query, const Components& count,
 /// The shell command that prints a query stream: the scene, and the query `times` times.
 std::string printed(const Scene& scene, const std::string& query_members, std::size_t times = 1);
 
-/// The lines of a text; each must end with a line end.
-std::vector<std::string> lines_of(const std::string& text);
+/// The radius that all obstacles have, or nothing.
+std::optional<double> common_radius(const Scene& scene);
+
+/// "square", or "square, r = 0.1" if all obstacles are balls of one radius.
+std::string name_with_radius(const std::string& name, const Scene& scene);
 
 }  // namespace lorentz::report

@@ -5,13 +5,11 @@
 #include <cmath>
 
 #include <lorentz/verdict.hpp>
+#include "src/exchange/exchange_write.hpp"
+#include "src/problem/same_answer.hpp"
 
 namespace lorentz::report {
 namespace {
-
-bool names_obstacle(const Answer& answer) {
-  return answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
-}
 
 Dispute about_start(const oracle::Approach& approach, const std::string& name) {
   const char* side = approach.start_gap < 0 ? "inside" : "outside of";
@@ -32,10 +30,8 @@ std::string ulps_text(double ulps) {
 }
 
 std::string name_of(const ObstacleId& obstacle, const Components& count) {
-  std::string cell;
-  for (int i = 0; i < count.of_cells(obstacle.lattice); ++i)
-    cell += (i ? ", " : "") + obstacle.cell[i].decimal();
-  return fmt::format("lattice {}, atom {}, cell ({})", obstacle.lattice, obstacle.atom, cell);
+  return fmt::format("lattice {}, atom {}, cell ({})", obstacle.lattice, obstacle.atom,
+                     decimals(components(obstacle.cell, count.of_cells(obstacle.lattice))));
 }
 
 std::string decision_text(const oracle::HardestDecision& decision, const Components& count) {
@@ -73,7 +69,7 @@ std::optional<Dispute> about_named(const oracle::Approach& approach, const Answe
 std::optional<Dispute> dispute_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
                                   const Answer& exact, const Answer& given,
                                   const std::optional<ObstacleId>& decisive) {
-  const bool names = names_obstacle(given) && !flaw_of(Query{query.x, query.v, given.obstacle}, scene);
+  const bool names = names_obstacle(given, query, scene);
   if (names && given.outcome == exact.outcome && given.obstacle == exact.obstacle) return std::nullopt;
   if (names && decisive.value_or(given.obstacle) == given.obstacle)
     if (auto dispute =
@@ -95,15 +91,15 @@ std::optional<ObstacleId> decisive_of(const Scene& scene, const Query& query, co
   return oracle::Judge(scene).judge(query, exact, given).obstacle;
 }
 
-std::string reason_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
-                      const Answer& exact, const Answer& given, const std::optional<ObstacleId>& decisive,
-                      const std::string& indent) {
+std::vector<std::string> reason_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
+                                   const Answer& exact, const Answer& given,
+                                   const std::optional<ObstacleId>& decisive) {
   const auto dispute = dispute_of(margins, scene, query, exact, given, decisive);
-  if (!dispute) return "";
-  std::string text = indent + dispute->text + '\n';
+  if (!dispute) return {};
+  std::vector<std::string> lines{dispute->text};
   if (const auto decision = margins.hardest_decision(query, exact))
-    text += indent + decision_text(*decision, scene) + '\n';
-  return text;
+    lines.push_back(decision_text(*decision, scene));
+  return lines;
 }
 
 }  // namespace lorentz::report

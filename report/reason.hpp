@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <lorentz/margin.hpp>
 
@@ -37,9 +38,9 @@ std::optional<Dispute> dispute_of(const oracle::Margins& margins, const Scene& s
 std::optional<ObstacleId> decisive_of(const Scene& scene, const Query& query, const Answer& exact,
                                       const Answer& given);
 
-/// The dispute and the hard decision, one line each, with line ends. Empty if the two agree.
-std::string reason_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
-                      const Answer& exact, const Answer& given, const std::optional<ObstacleId>& decisive,
-                      const std::string& indent);
+/// The dispute and the hard decision, one line each. Empty if the two agree.
+std::vector<std::string> reason_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
+                                   const Answer& exact, const Answer& given,
+                                   const std::optional<ObstacleId>& decisive);
 
 }  // namespace lorentz::report

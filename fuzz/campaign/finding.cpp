@@ -7,6 +7,7 @@
 #include <lorentz/errors.hpp>
 #include <lorentz/exchange.hpp>
 #include "fuzz/campaign/notation.hpp"
+#include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::fuzz {
 namespace {
@@ -118,11 +119,10 @@ std::string flaw_of_text(const CaseText& text) {
 
 CaseText text_of(const std::string& id, const Scene& scene, const Query& query, const Examined& examined) {
   const std::string quoted = json_quoted(id);
-  std::string scene_line, query_line;
-  append_scene_line(scene_line, scene);
+  std::string query_line;
   append_query_line(query_line, quoted, query, scene);
-  scene_line.pop_back(), query_line.pop_back();  // the line ends
-  return {std::move(scene_line),
+  query_line.pop_back();  // the line end
+  return {scene_line(scene),
           std::move(query_line),
           answer_text(quoted, examined.given, scene),
           answer_text(quoted, examined.exact, scene),

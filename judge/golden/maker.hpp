@@ -12,6 +12,7 @@
 #include <lorentz/verdict.hpp>
 #include <lorentz/walk.hpp>
 #include "judge/golden/record.hpp"
+#include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::golden {
 
@@ -44,7 +45,7 @@ struct Others {
 class Maker {
  public:
   explicit Maker(const Scene& scene, Others others = {}, NumberFormat precision = NumberFormat::binary64)
-      : Maker(scene, scene_line_of(scene), std::move(others), precision) {}
+      : Maker(scene, lorentz::scene_line(scene), std::move(others), precision) {}
   /// For a scene that a set contains in this line; ids depend on its text.
   Maker(const Scene& scene, std::string scene_line, Others others = {},
         NumberFormat precision = NumberFormat::binary64);
@@ -83,5 +84,12 @@ class Maker {
   const oracle::Prover prover_;
   const oracle::CertificateCheck check_;
 };
+
+/// All tags that the program gives to questions, each with the sentence that explains it.
+const std::vector<std::pair<std::string, std::string>>& seen_tags();
+
+/// The tags of a question with this exact answer and this hardest decision (or nothing).
+std::vector<std::string> tags_seen(const Scene& scene, const Query& query, const Answer& exact,
+                                   const std::optional<oracle::HardestDecision>& decision);
 
 }  // namespace lorentz::golden

@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
-#include <condition_variable>
-#include <exception>
-#include <mutex>
-#include <stop_token>
-#include <thread>
+#include <deque>
+#include <iterator>
 #include <unordered_set>
 
 #include "judge/golden/maker.hpp"
-#include "judge/golden/seen.hpp"
+#include "question/examine.hpp"
 
 namespace lorentz::golden {
 
@@ -66,7 +64,7 @@ Batch make_batch(const Order& order, std::uint64_t number) {
   const std::uint64_t end = std::min(number_in(order), (number + 1) * kBatch);
   for (std::uint64_t index = number * kBatch; index < end; ++index) {
     const SetQuestion question = posed(order, index);
-    const std::string scene_line = scene_line_of(question.scene);
+    const std::string scene_line = lorentz::scene_line(question.scene);
     if (!maker || maker->scene_line() != scene_line)
       maker.emplace(question.scene, Others{}, precision_of(order));
     batch.push_back({scene_line, question.scene, make_record(*maker, order, question)});
@@ -74,57 +72,16 @@ Batch make_batch(const Order& order, std::uint64_t number) {
   return batch;
 }
 
-// Batches made by several threads, handed out in order. Only a few wait at any time.
-class BatchQueue {
- public:
-  explicit BatchQueue(const Order& order) : order_(order) {
-    for (std::uint64_t i = 0; i < order.jobs; ++i)
-      threads_.emplace_back([this](const std::stop_token& stop) { work(stop); });
-  }
-  ~BatchQueue() {
-    for (std::jthread& thread : threads_) thread.request_stop();
-  }
-  BatchQueue(const BatchQueue&) = delete;
-  BatchQueue& operator=(const BatchQueue&) = delete;
-
-  Batch next() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return failure_ || ready_.contains(wanted_); });
-    if (failure_) std::rethrow_exception(failure_);
-    Batch batch = std::move(ready_.extract(wanted_).mapped());
-    ++wanted_;
-    lock.unlock();
-    changed_.notify_all();
-    return batch;
-  }
-
- private:
-  void work(const std::stop_token& stop) {
-    for (std::unique_lock lock(mutex_);;) {
-      changed_.wait(lock, stop, [&] { return failure_ || next_ < wanted_ + 4 * order_.jobs; });
-      if (stop.stop_requested() || failure_) return;
-      const std::uint64_t number = next_++;
-      lock.unlock();
-      try {
-        Batch batch = make_batch(order_, number);
-        lock.lock();
-        ready_.emplace(number, std::move(batch));
-      } catch (...) {
-        if (!lock.owns_lock()) lock.lock();
-        failure_ = std::current_exception();
-      }
-      changed_.notify_all();
-    }
-  }
-
-  const Order& order_;
-  std::uint64_t next_ = 0, wanted_ = 0;
-  std::map<std::uint64_t, Batch> ready_;
-  std::exception_ptr failure_;
-  std::mutex mutex_;
-  std::condition_variable_any changed_;
-  std::vector<std::jthread> threads_;
-};
+// The batches from number `first` on, made by all threads: a few for each, but no more than hold `most` questions.
+std::vector<Batch> make_batches(const Order& order, std::uint64_t first, std::uint64_t most) {
+  constexpr std::uint64_t kOfEach = 4;
+  std::vector<Batch> batches(std::min(kOfEach * order.jobs, most / kBatch + 1));
+  std::atomic<std::size_t> next = 0;
+  question::in_stretches(order.jobs, order.jobs, [&](auto...) {
+    for (std::size_t i; (i = next++) < batches.size();) batches[i] = make_batch(order, first + i);
+  });
+  return batches;
+}
 
 // The number with the sixteen hexadecimal digits of an id.
 std::uint64_t number_of(std::string_view id) {
@@ -137,30 +94,28 @@ void count(RecordCounts& counts, const MadeRecord& made) {
   ++counts.records;
   counts.needing_judge += needs_judge(made.record);
   counts.walked += made.walked;
-  switch (made.record.expect.outcome) {
-    case Outcome::hit:
-      ++counts.hits;
-      break;
-    case Outcome::inside:
-      ++counts.insides;
-      break;
-    case Outcome::never:
-      ++counts.nevers;
-      break;
-    default:
-      ++counts.errors;
-  }
+  const Outcome outcome = made.record.expect.outcome;
+  counts.hits += outcome == Outcome::hit;
+  counts.insides += outcome == Outcome::inside;
+  counts.nevers += outcome == Outcome::never;
+  counts.errors += outcome == Outcome::error;
 }
 
 // Makes all records, and passes on the text of one batch at a time.
 RecordCounts produce_lines(const Order& order, const Write& write, const OnProgress& progress) {
-  BatchQueue queue(order);
   RecordCounts counts;
-  std::string scene_line;  // the last one written
+  std::deque<Batch> batches;
+  std::uint64_t number = 0;  // of batches so far
+  std::string scene_line;    // the last one written
   std::unordered_set<std::uint64_t> ids;
   while (counts.records + counts.left_out < order.count) {
+    if (batches.empty()) {
+      auto more = make_batches(order, number, order.count - counts.records - counts.left_out);
+      number += more.size();
+      std::ranges::move(more, std::back_inserter(batches));
+    }
     std::string text;
-    for (const Made& made : queue.next()) {
+    for (const Made& made : batches.front()) {
       if (!made.record) ++counts.left_out;
       if (!made.record) continue;
       const Record& record = made.record->record;
@@ -172,6 +127,7 @@ RecordCounts produce_lines(const Order& order, const Write& write, const OnProgr
       append_record_line(text, record, made.components);
       count(counts, *made.record);
     }
+    batches.pop_front();
     write(text);
     if (progress) progress(counts.records);
   }
@@ -182,7 +138,7 @@ RecordCounts produce_lines(const Order& order, const Write& write, const OnProgr
 
 bool GivenQuestions::add(SetQuestion question) {
   const auto [place, is_new] =
-      by_id_.try_emplace(id_of(scene_line_of(question.scene), question.text), questions.size());
+      by_id_.try_emplace(id_of(scene_line(question.scene), question.text), questions.size());
   if (is_new) {
     questions.push_back(std::move(question));
     return true;

@@ -10,6 +10,7 @@
 #include <lorentz/scene_check.hpp>
 #include "src/exchange/exchange_json.hpp"
 #include "src/exchange/exchange_line.hpp"
+#include "src/problem/same_answer.hpp"
 
 namespace lorentz::golden {
 namespace {
@@ -160,13 +161,13 @@ oracle::Certificate read_certificate(json::Value value, const Components& count)
 
 // An answer of a record has the members of its outcome, and no id. `expect` has a time, and may have an exit_time;
 // acceptable answers have ulps.
-void check_members(const std::set<std::string>& keys, Outcome outcome, bool is_expected) {
-  const bool named = outcome == Outcome::hit || outcome == Outcome::inside;
+void check_members(const std::set<std::string>& keys, const Answer& answer, bool is_expected) {
+  const bool named = names_obstacle(answer);
   const std::pair<const char*, bool> members[] = {{"id", false},
                                                   {"lattice", named},
                                                   {"atom", named},
                                                   {"cell", named},
-                                                  {"time", is_expected && outcome == Outcome::hit},
+                                                  {"time", is_expected && answer.outcome == Outcome::hit},
                                                   {"ulps", !is_expected}};
   const auto refuse = [&](const char* key, const char* why) {
     throw InputError(fmt::format("{}: {} {}", is_expected ? "expect" : "acceptable", key, why));
@@ -283,9 +284,9 @@ struct Reader::Impl {
     Answer answer;
     if (!read_answer(object, id, answer, components, {}, &keys, ulps))
       throw InputError(fmt::format("{}: is not an answer", key));
-    check_members(keys, answer.outcome, !ulps);
-    const bool names_one = answer.outcome == Outcome::hit || answer.outcome == Outcome::inside;
-    if (names_one && static_cast<int>(components) != Components(*scene).of_cells(answer.obstacle.lattice))
+    check_members(keys, answer, !ulps);
+    if (names_obstacle(answer) &&
+        static_cast<int>(components) != Components(*scene).of_cells(answer.obstacle.lattice))
       throw InputError(fmt::format("{}.cell: has {} components", key, components));
     return answer;
   }
@@ -410,6 +411,29 @@ bool Reader::next(ReadRecord& record) {
     if (found) return true;
   }
   return false;
+}
+
+question::Source questions_of(Reader& reader, const Claim& claim) {
+  return [&reader, claim, scene = std::size_t{0},
+          place = std::shared_ptr<question::Place>()]() mutable -> std::optional<question::Question> {
+    ReadRecord read;
+    if (!reader.next(read)) return std::nullopt;
+    if (scene != reader.scene_number())
+      place = std::make_shared<question::Place>(reader.scene(), question::Truth::oracle, claim);
+    scene = reader.scene_number();
+    Record& record = read.record;
+    if (claim.inside != StartInside::inside && record.expect.outcome == Outcome::inside && read.query)
+      record.expect = place->exact(*read.query);
+    return question::Question{
+        .place = place,
+        .query = read.query.value_or(Query()),
+        .exact = std::move(record.expect),
+        .where = record.id,
+        .text = read.query ? "" : std::move(record.question),
+        .id = json_quoted(record.id),
+        .tags = std::move(record.tags),
+        .margin = claim.precision == reader.header().precision ? record.margin : std::nullopt};
+  };
 }
 
 }  // namespace lorentz::golden

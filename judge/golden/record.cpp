@@ -59,19 +59,12 @@ std::string sha256(std::string_view text) {
   return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
-std::string scene_line_of(const Scene& scene) {
-  std::string line;
-  append_scene_line(line, scene);
-  line.pop_back();
-  return line;
-}
-
 std::string id_of(std::string_view scene_line, std::string_view question) {
   return sha256(fmt::format("{}\n{}", scene_line, question)).substr(0, 16);
 }
 
 std::string id_of(const Scene& scene, const Query& query) {
-  return id_of(scene_line_of(scene), question_of(query, scene));
+  return id_of(scene_line(scene), question_of(query, scene));
 }
 
 std::string question_of(const Query& query, const Components& count) {

@@ -54,9 +54,6 @@ struct Record {
 
 bool needs_judge(const Record& record);
 
-/// The line of a scene, without the line end.
-std::string scene_line_of(const Scene& scene);
-
 /// The id of a question: the beginning of the SHA-256 of the scene's line, a line feed, and the question.
 std::string id_of(std::string_view scene_line, std::string_view question);
 std::string id_of(const Scene& scene, const Query& query);

@@ -1,4 +1,4 @@
-// The golden sets by name, and their contents.
+// The golden sets by name, their contents, and their files.
 #pragma once
 
 #include <optional>
@@ -39,5 +39,16 @@ const std::vector<Set>& sets();
 /// The set of this family in this precision; otherwise the set of this name in any precision; null if no set
 /// fits.
 const Set* set_named(std::string_view name, NumberFormat precision = NumberFormat::binary64);
+
+/// The committed sets: every *.ndjson in data/golden, by name. Empty if the folder does not exist.
+std::vector<std::string> committed_sets();
+
+/// The file of a set, given a file (or a folder) or the name of a committed set. Throws InputError for a name that no
+/// set has, listing the sets, and FileError for a file that is not there.
+std::string find_set(const std::string& name_or_file);
+
+/// The files of these sets; for a folder every *.ndjson in it; all committed sets if no name is given. Throws
+/// FileError if there are none.
+std::vector<std::string> find_sets(const std::vector<std::string>& names_or_files);
 
 }  // namespace lorentz::golden

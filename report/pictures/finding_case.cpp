@@ -34,11 +34,6 @@ FindingCase::FindingCase(const Scene& its_scene, const Query& its_query, const A
   if (issue == Issue::none) take_hardest_decision();
 }
 
-bool FindingCase::names_obstacle(const Answer& answer) const {
-  return (answer.outcome == Outcome::hit || answer.outcome == Outcome::inside) &&
-         !flaw_of(Query{query.x, query.v, answer.obstacle}, scene);
-}
-
 std::optional<PlaceOnLine> FindingCase::end_of(const Answer& answer) const {
   if (answer.outcome == Outcome::inside) return PlaceOnLine::start();
   if (answer.outcome != Outcome::hit || !names_obstacle(answer)) return std::nullopt;

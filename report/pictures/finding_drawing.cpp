@@ -207,9 +207,7 @@ std::string Sheet::draw() {
 
 bool can_be_drawn(const Scene& scene, const Query& query, const Answer& exact) {
   if (flaw_of(scene) || flaw_of(query, scene)) return false;
-  if (exact.outcome == Outcome::never) return true;
-  return (exact.outcome == Outcome::hit || exact.outcome == Outcome::inside) &&
-         !flaw_of(Query{query.x, query.v, exact.obstacle}, scene);
+  return exact.outcome == Outcome::never || names_obstacle(exact, query, scene);
 }
 
 // The exponent of the unit of length in which a scene has ordinary size; 0 in most cases. Scenes whose
@@ -232,59 +230,32 @@ int length_exponent(const Scene& scene) {
   return std::abs(exponent) <= kOrdinary ? 0 : exponent;
 }
 
-// Divides all lengths by 2^exponent; false if that is not possible without rounding.
-bool scale_lengths(int exponent, Scene& scene, Query& query) {
-  bool exact = true;
-  const auto scale = [&](Vec& a) {
-    for (double& number : a) {
-      const double before = number;
-      number = std::ldexp(number, -exponent);
-      exact &= std::ldexp(number, exponent) == before;
-    }
-  };
-  for (Lattice& lattice : scene.lattices)
-    for (Vec& u : lattice.vectors) scale(u);
-  for_each_atom(scene, [&](Atom& atom) {
-    Vec radius{atom.radius, 0, 0};
-    scale(radius);
-    atom.radius = radius[0];
-    scale(atom.position);
-    for (Vec& axis : atom.semiaxes) scale(axis);
-  });
-  scale(query.x);
-  return exact;
+Query with_lengths_times(Query query, int exponent) {
+  for (double& component : query.x) component = std::ldexp(component, exponent);
+  return query;
 }
 
 // An answer in other units of length, with v as it is.
-Answer scaled_answer(Answer answer, int exponent) {
-  if (answer.time) answer.time = std::ldexp(*answer.time, -exponent);
+std::optional<Answer> in_units(std::optional<Answer> answer, int exponent) {
+  if (answer && answer->time) answer->time = std::ldexp(*answer->time, -exponent);
   return answer;
-}
-
-std::string drawing(const Scene& scene, const Query& query, const Answer* given, const Answer& exact,
-                    const std::optional<ObstacleId>& decisive) {
-  if (!can_be_drawn(scene, query, exact)) return "";
-  Scene its_scene = scene;
-  Query its_query = query;
-  int exponent = length_exponent(scene);
-  if (!scale_lengths(exponent, its_scene, its_query)) its_scene = scene, its_query = query, exponent = 0;
-  const Answer its_exact = scaled_answer(exact, exponent);
-  const std::optional<Answer> its_given =
-      given ? std::optional(scaled_answer(*given, exponent)) : std::nullopt;
-  const FindingCase finding(its_scene, its_query, its_given ? &*its_given : nullptr, its_exact, decisive,
-                            exponent);
-  return Sheet(finding, given, exact).draw();
 }
 
 }  // namespace
 
-std::string finding_drawing(const Scene& scene, const Query& query, const Answer& given, const Answer& exact,
-                            const std::optional<ObstacleId>& decisive) {
-  return drawing(scene, query, &given, exact, decisive);
-}
-
-std::string finding_drawing(const Scene& scene, const Query& query, const Answer& exact) {
-  return drawing(scene, query, nullptr, exact, std::nullopt);
+std::string finding_drawing(const Scene& scene, const Query& query, const std::optional<Answer>& given,
+                            const Answer& exact, const std::optional<ObstacleId>& decisive) {
+  if (!can_be_drawn(scene, query, exact)) return "";
+  int exponent = length_exponent(scene);
+  Scene its_scene = scaled(scene, -exponent);
+  Query its_query = with_lengths_times(query, -exponent);
+  if (scaled(its_scene, exponent) != scene ||
+      with_lengths_times(its_query, exponent).x != query.x)  // rounded
+    its_scene = scene, its_query = query, exponent = 0;
+  const auto its_given = in_units(given, exponent), its_exact = in_units(exact, exponent);
+  const FindingCase finding(its_scene, its_query, its_given ? &*its_given : nullptr, *its_exact, decisive,
+                            exponent);
+  return Sheet(finding, given ? &*given : nullptr, exact).draw();
 }
 
 }  // namespace lorentz::pictures

@@ -18,12 +18,10 @@ namespace lorentz::pictures {
 ///
 /// Distances in the inset are exact, rounded to 52 bits: 1e-15 of a radius is drawn as well as a tenth.
 /// `exact` is the oracle's answer: hit, inside or never. The text is empty if scene, query or `exact` cannot
-/// be drawn (flaw_of). `given` may be anything. `decisive` is the obstacle by which it is judged
-/// (Judgement::obstacle), which is therefore shown; the exact one if that is not known.
-std::string finding_drawing(const Scene& scene, const Query& query, const Answer& given, const Answer& exact,
-                            const std::optional<ObstacleId>& decisive = {});
-
-/// The same for the exact answer alone, with its decision of smallest margin.
-std::string finding_drawing(const Scene& scene, const Query& query, const Answer& exact);
+/// be drawn (flaw_of). `given` may be any answer; without one, the decision of smallest margin is shown.
+/// `decisive` is the obstacle by which it is judged (Judgement::obstacle), which is therefore shown; the exact
+/// one if that is not known.
+std::string finding_drawing(const Scene& scene, const Query& query, const std::optional<Answer>& given,
+                            const Answer& exact, const std::optional<ObstacleId>& decisive = {});
 
 }  // namespace lorentz::pictures

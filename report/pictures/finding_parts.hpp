@@ -11,6 +11,7 @@
 #include <lorentz/surroundings.hpp>
 #include "report/pictures/drawing_parts.hpp"
 #include "report/pictures/svg.hpp"
+#include "src/problem/same_answer.hpp"
 
 namespace lorentz::pictures {
 
@@ -54,7 +55,7 @@ class FindingCase {
   std::optional<oracle::PlaceOnLine> end_of(const Answer& answer) const;
 
   /// True if the answer names an obstacle of the scene.
-  bool names_obstacle(const Answer& answer) const;
+  bool names_obstacle(const Answer& answer) const { return lorentz::names_obstacle(answer, query, scene); }
 
   const Atom& atom_of(const ObstacleId& id) const { return scene.lattices[id.lattice].atoms[id.atom]; }
 

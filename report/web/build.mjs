@@ -71,7 +71,7 @@ function literal(piece) {
 
 function source(html) {
   const lines = html.match(/[\s\S]{1,2000}/gu).map((piece) => `    "${literal(piece)}"`);
-  return `// Written by report/web/build.mjs.\n#include "report/page_text.hpp"\n\nnamespace lorentz::report {\n
+  return `// Written by report/web/build.mjs.\n#include "report/page.hpp"\n\nnamespace lorentz::report {\n
 extern const std::string_view page_text{\n${lines.join("\n")},\n    ${Buffer.byteLength(html)}};\n\n}  // namespace lorentz::report\n`;
 }
 

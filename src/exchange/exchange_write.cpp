@@ -128,12 +128,19 @@ void add_answer(json::Members& object, const Answer& answer, const Components& c
   if (answer.unsupported) object.add("reason", "unsupported");
 }
 
-void append_scene_line(std::string& out, const Scene& scene) {
+std::string scene_line(const Scene& scene) {
   (void)Components(scene);
-  json::append(out, [&](json::Members& line) {
-    line.add("scene", [&](json::Members& object) { add_scene(object, scene); });
-  });
-  out += '\n';
+  return json::text_of([&](json::Members& line) { line.add("scene", scene); });
+}
+
+std::string decimals(std::span<const Integer> numbers, const char* separator) {
+  std::string text;
+  for (const Integer& number : numbers) text += (text.empty() ? "" : separator) + number.decimal();
+  return text;
+}
+
+void append_scene_line(std::string& out, const Scene& scene) {
+  out += scene_line(scene) + '\n';
 }
 
 void append_query_line(std::string& out, const Id& id, const Query& query, const Components& count,

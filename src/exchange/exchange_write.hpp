@@ -9,6 +9,10 @@
 namespace lorentz {
 
 void add_scene(json::Members& object, const Scene& scene);
+
+/// {"scene":{..}}: a line of a query stream, without the line end.
+std::string scene_line(const Scene& scene);
+
 void add_query(json::Members& object, const Query& query, const Components& count,
                double max_time = std::numeric_limits<double>::infinity());
 void add_answer(json::Members& object, const Answer& answer, const Components& count);
@@ -35,5 +39,8 @@ template <class Three>
 auto components(const Three& three, int dimension) {
   return std::span(three).first(static_cast<std::size_t>(dimension));
 }
+
+/// "2, -1"
+std::string decimals(std::span<const Integer> numbers, const char* separator = ", ");
 
 }  // namespace lorentz

@@ -120,6 +120,8 @@ int size_exponent(const Lattice& lattice, int dimension) {
   return sum / dimension;
 }
 
+}  // namespace
+
 Scene scaled(Scene scene, int exponent) {
   const auto scale = [exponent](Vec& a) {
     for (double& component : a) component = std::scalbn(component, exponent);
@@ -128,12 +130,11 @@ Scene scaled(Scene scene, int exponent) {
     for (Vec& u : lattice.vectors) scale(u);
   for_each_atom(scene, [&](Atom& atom) {
     atom.radius = std::scalbn(atom.radius, exponent);
+    scale(atom.position);
     for (Vec& axis : atom.semiaxes) scale(axis);
   });
   return scene;
 }
-
-}  // namespace
 
 std::optional<AtomShares> shares_of(const Scene& given) {
   if (!is_crystal(given)) return std::nullopt;

@@ -17,6 +17,9 @@ std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension);
 /// The length of the shortest of all primitive vectors; infinite if no lattice repeats.
 double shortest_vector(const Scene& scene);
 
+/// The scene with all its lengths times 2^exponent.
+Scene scaled(Scene scene, int exponent);
+
 double cell_volume(const Lattice& lattice, int dimension);
 double volume_of(const Atom& atom, int dimension);
 double surface_of(const Atom& atom, int dimension);

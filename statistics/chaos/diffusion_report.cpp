@@ -1,7 +1,7 @@
 // Reports of mean squared displacements as text, CSV and JSON.
 #include <fmt/format.h>
 
-#include "report/scene_name.hpp"
+#include "report/query_text.hpp"
 #include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
 #include "statistics/chaos/diffusion.hpp"

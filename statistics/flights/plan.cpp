@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/query_text.hpp"
+#include "src/exchange/exchange_write.hpp"
 #include "src/problem/scene_geometry.hpp"
 #include "statistics/flights/account.hpp"
 
@@ -18,7 +18,7 @@ std::vector<std::pair<std::string, std::string>> FlightsPlan::words() const {
           {"seed", std::to_string(seed)},
           {"count", std::to_string(count)},
           {"cells", std::to_string(cells)},
-          {"scene", report::scene_line(scene)}};
+          {"scene", scene_line(scene)}};
 }
 
 int unit_exponent(const Scene& scene) {

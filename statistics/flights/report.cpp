@@ -9,7 +9,7 @@
 #include "report/curves.hpp"
 #include "report/files/messages.hpp"
 #include "report/manifest.hpp"
-#include "report/scene_name.hpp"
+#include "report/query_text.hpp"
 #include "report/table.hpp"
 #include "src/exchange/csv_table.hpp"
 #include "src/exchange/json_writer.hpp"

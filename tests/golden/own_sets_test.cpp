@@ -6,9 +6,9 @@
 #include <set>
 #include <sstream>
 
-#include "judge/golden/find_sets.hpp"
 #include "judge/golden/index.hpp"
-#include "judge/golden/seen.hpp"
+#include "judge/golden/maker.hpp"
+#include "judge/golden/sets.hpp"
 #include "tests/golden/golden_support.hpp"
 
 using namespace lorentz;

@@ -12,7 +12,7 @@
 #include <lorentz/geometry.hpp>
 #include "fuzz/campaign/shrink.hpp"
 #include "fuzz/families/family.hpp"
-#include "judge/golden/find_sets.hpp"
+#include "judge/golden/sets.hpp"
 #include "judge/plan.hpp"
 #include "judge/simplest.hpp"
 #include "question/engines.hpp"

@@ -243,8 +243,8 @@ TEST_CASE("Texts of engines stay texts, no ids, no scripts, nothing from elsewhe
       for (int k = 1; k <= more; ++k) REQUIRE((static_cast<unsigned char>(svg[i + k]) & 0xc0) == 0x80);
     }
   }
-  CHECK(finding_drawing(scene, {{0, 0}, {0, 0}, {}}, Answer::never()).empty());  // no query
-  CHECK(finding_drawing(scene, query, Answer::hit({0, 3, {}}, 1)).empty());
+  CHECK(finding_drawing(scene, {{0, 0}, {0, 0}, {}}, {}, Answer::never()).empty());  // no query
+  CHECK(finding_drawing(scene, query, {}, Answer::hit({0, 3, {}}, 1)).empty());
 }
 
 TEST_CASE("Cells with long numbers are named in full, and the picture gives way",
@@ -313,7 +313,7 @@ TEST_CASE("Golden records are drawn with numbers only", "[pictures][finding_draw
         CHECK(coordinate_flaw(svg) == "");
         CHECK(xml_flaw(svg) == "");
       };
-      check(finding_drawing(reader.scene(), *read.query, read.record.expect));
+      check(finding_drawing(reader.scene(), *read.query, {}, read.record.expect));
       for (const Answer& given : others(read.record.expect, draw))
         check(finding_drawing(reader.scene(), *read.query, given, read.record.expect));
     }
