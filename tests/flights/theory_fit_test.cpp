@@ -1,7 +1,7 @@
 // Tests of fit on samples of which the law is known.
 #include "question/cases/random.hpp"
 #include "statistics/theory/fit.hpp"
-#include "statistics/theory/limit_law.hpp"
+#include "statistics/theory/laws.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // The limit law against quadrature of its density, which is written out here once more, in 50 digits.
-#include "statistics/theory/limit_law.hpp"
+#include "statistics/theory/laws.hpp"
 
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>

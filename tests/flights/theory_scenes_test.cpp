@@ -1,7 +1,6 @@
 // What theory says of scenes: against closed forms, counting, and the oracle's channels.
 #include "statistics/theory/incommensurate.hpp"
 #include "statistics/theory/laws.hpp"
-#include "statistics/theory/limit_law.hpp"
 #include "statistics/theory/small_obstacles.hpp"
 
 #include <catch2/catch.hpp>
