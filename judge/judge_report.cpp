@@ -13,7 +13,6 @@
 #include "report/files/messages.hpp"
 #include "report/manifest.hpp"
 #include "report/pictures/finding_drawing.hpp"
-#include "report/primitive.hpp"
 #include "report/query_text.hpp"
 #include "report/reason.hpp"
 #include "report/table.hpp"
@@ -53,17 +52,12 @@ const char* option_for(Severity severity) {
   return severity == Severity::wrong ? "" : " --strict";
 }
 
-// The shell command that prints the question, as many times as needed.
-std::string lines_of_question(const Finding& finding) {
-  return report::printed(finding.simplest.question.place->scene(), members_of(finding.simplest),
-                         finding.repetitions);
-}
-
 std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& report) {
   if (report.engine.kind == question::EngineInfo::Kind::guest)
     return {};                                                      // a function of the caller has no command
   if (finding.recheck == Recheck::passes) return {report.command};  // the question alone does not show it
-  const std::string lines = lines_of_question(finding);
+  const std::string lines = report::printed(finding.simplest.question.place->scene(),
+                                            members_of(finding.simplest), finding.repetitions);
   std::string engine = shell_quoted(report.engine.name);
   const std::string claim = report::arguments_of(report.claim);
   if (finding.cause() == Cause::no_answer) engine += fmt::format(" --timeout {:g}", report.longest_wait);
@@ -207,15 +201,10 @@ std::optional<std::string> drawing_of(const Example& example) {
   return drawing.empty() ? std::nullopt : std::optional(std::move(drawing));
 }
 
-// How far the inputs must move for the answer to be right, or how much tolerance the time would need.
-std::optional<double> ulps_of(const Example& example) {
-  const double departs = example.judgement.departs;
-  return departs > 0 ? std::optional(departs) : std::nullopt;
-}
-
 void add_finding(json::Members& object, const Finding& finding, const JudgeReport& report) {
   const Example& example = finding.simplest;
   const Components dimension = components_of(example);
+  const double departs = example.judgement.departs;  // of the inputs, or the tolerance that the time needs
   object.add("cause", name_of(finding.cause()), "explanation", finding.explanation(), "why", finding.why(),
              "count", finding.count, "share_of_plain", finding.share_of_plain, "share_of_hard",
              finding.share_of_hard, "often", often(finding, report), "where", finding.where, "shrunk",
@@ -227,9 +216,9 @@ void add_finding(json::Members& object, const Finding& finding, const JudgeRepor
              "last_words", example.last_words.empty() ? std::nullopt : std::optional(example.last_words),
              "primitive", primitive ? std::optional(json::Raw{primitive->json}) : std::nullopt,
              "primitive_cpp", primitive ? std::optional(primitive->cpp) : std::nullopt);
-  object.add("by_radii", json::finite(example.diagnosis.by_radii), "by_ulps", json::finite(ulps_of(example)),
-             "reason", reason_lines(finding), "commands", commands_of(finding, report), "drawing",
-             drawing_of(example));
+  object.add("by_radii", json::finite(example.diagnosis.by_radii), "by_ulps",
+             json::finite(departs > 0 ? std::optional(departs) : std::nullopt), "reason",
+             reason_lines(finding), "commands", commands_of(finding, report), "drawing", drawing_of(example));
 }
 
 constexpr double kSlowStart = 0.05;  // seconds; less is not worth a line

@@ -4,15 +4,12 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include <lorentz/margin.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 
 namespace lorentz::report {
-
-/// The first `dimension` components, as "0x1.8p-1".
-std::vector<std::string> hexadecimal(const Vec& a, int dimension);
 
 /// {"x":["0x1.8p-1","0x0p+0"],"v":[..]}, with `from` if the query has it. A 2D query has two components.
 std::string hexadecimal_query(const Query& query, const Components& count,
@@ -30,5 +27,17 @@ std::optional<double> common_radius(const Scene& scene);
 
 /// "square", or "square, r = 0.1" if all obstacles are balls of one radius.
 std::string name_with_radius(const std::string& name, const Scene& scene);
+
+/// The one question to which a finding reduces: a ray, and one ball or ellipsoid. All numbers exactly, the true
+/// answer, and a snippet of C++ with the same numbers.
+struct Primitive {
+  std::string
+      json;  ///< origin, direction, centre, radius or semiaxes (hexadecimal), discriminant, entry_time
+  std::string cpp;
+};
+
+/// The obstacle must exist.
+Primitive primitive_of(const oracle::Margins& margins, const Scene& scene, const Query& query,
+                       const ObstacleId& obstacle);
 
 }  // namespace lorentz::report

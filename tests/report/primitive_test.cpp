@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "report/primitive.hpp"
+#include "report/query_text.hpp"
 #include "report/reason.hpp"
 #include "tests/support/command_line.hpp"
 
