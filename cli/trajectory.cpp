@@ -11,7 +11,7 @@
 #include "report/files/messages.hpp"
 #include "report/files/scene_file.hpp"
 #include "report/files/whole_file.hpp"
-#include "report/pictures/path_drawing.hpp"
+#include "report/pictures/scene_drawing.hpp"
 #include "src/exchange/csv_table.hpp"
 #include "src/exchange/exchange_number.hpp"
 #include "src/exchange/exchange_write.hpp"

@@ -27,7 +27,7 @@ struct Extent {
 
   void include(const Vec& point, double margin = 0);
   bool contains(const Vec& point, double margin) const;
-  Vec centre() const;
+  Vec centre() const { return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2}; }
   double width() const { return high[0] - low[0]; }
   double height() const { return high[1] - low[1]; }
   double diagonal() const { return std::hypot(width(), height()); }

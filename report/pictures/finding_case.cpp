@@ -9,10 +9,6 @@ namespace lorentz::pictures {
 using oracle::Approach;
 using oracle::PlaceOnLine;
 
-std::array<Vec, 3> to_ball(const Atom& atom, int dimension) {
-  return dual_of(semiaxes_of(atom, dimension), dimension);
-}
-
 Vec unit(const Vec& a) {
   const double largest = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
   if (!(largest > 0) || !std::isfinite(largest)) return {1, 0, 0};
@@ -32,6 +28,7 @@ FindingCase::FindingCase(const Scene& its_scene, const Query& its_query, const A
       along(unit(its_query.v)) {
   if (given) compare_answers(decisive);
   if (issue == Issue::none) take_hardest_decision();
+  set_axes();
 }
 
 std::optional<PlaceOnLine> FindingCase::end_of(const Answer& answer) const {
@@ -161,10 +158,9 @@ void FindingCase::about_time(double time) {
 
 // ---- how it is looked at
 
-Axes axes_of(const FindingCase& finding) {
-  const Vec& along = finding.along;
-  Vec across{-along[1], along[0], 0};
-  if (finding.scene.dimension == 3) {
+void FindingCase::set_axes() {
+  across = {-along[1], along[0], 0};
+  if (scene.dimension == 3) {
     // Any direction at right angles, unless an obstacle determines it.
     const int smallest =
         static_cast<int>(std::min_element(along.begin(), along.end(),
@@ -173,21 +169,20 @@ Axes axes_of(const FindingCase& finding) {
     Vec axis{};
     axis[smallest] = 1;
     across = unit(cross(along, axis));
-    if (finding.issue != Issue::none) {
-      const Vec centre =
-          finding.surroundings.centre(finding.query, place_in_question(finding), finding.obstacle);
+    if (issue != Issue::none) {
+      const Vec centre = surroundings.centre(query, place(), obstacle);
       const Vec rest = sum(centre, scaled(along, -dot(centre, along)));
       if (length(rest) > 1e-9 * length(centre)) across = unit(rest);
     }
   }
-  return {along, across, cross(along, across)};
+  depth = cross(along, across);
 }
 
 // y = B w + q, B the two columns of A^-1 for the axes: |w - w0|^2_S < 1, S = B^T B / k.
-std::optional<ShapeSection> section_of(const Atom& atom, const Axes& axes, double depth) {
+std::optional<ShapeSection> section_of(const FindingCase& finding, const Atom& atom, double depth) {
   const auto rows = to_ball(atom, 3);
-  const Vec a = coordinates(rows, axes.along), b = coordinates(rows, axes.across),
-            q = coordinates(rows, scaled(axes.depth, -depth));
+  const Vec a = coordinates(rows, finding.along), b = coordinates(rows, finding.across),
+            q = coordinates(rows, scaled(finding.depth, -depth));
   const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), det = aa * bb - ab * ab;
   const double aq = dot(a, q), bq = dot(b, q);
   const Point w0{(ab * bq - bb * aq) / det, (ab * aq - aa * bq) / det};

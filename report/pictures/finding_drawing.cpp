@@ -34,16 +34,8 @@ void open_clip(Svg& svg, const Panel& panel) {
                   panel.left, panel.top, panel.width, panel.height));
 }
 
-void close_clip(Svg& svg) {
-  svg.raw("</svg>\n");
-}
-
 void frame(Svg& svg, const Panel& panel, const std::string& style) {
   svg.rectangle({panel.left, panel.top}, {panel.right(), panel.bottom()}, "fill=\"none\" " + style);
-}
-
-void open_hint(Svg& svg, const std::string& words) {
-  svg.raw("<g><title>" + xml_escaped(words) + "</title>\n");
 }
 
 double on_paper(double pixels) {
@@ -116,7 +108,7 @@ class Sheet {
   void add_answer(double& y, const char* who, const Answer& answer, Ink ink, const std::string& style);
   void add_text(double& y, const std::string& text, std::size_t letters, const std::string& style);
   void add_details(const FlightPanel& flight);
-  void add_inset(const FlightPanel& flight, const Axes& axes);
+  void add_inset(const FlightPanel& flight);
   std::string label() const;
 
   const FindingCase& case_;
@@ -147,18 +139,17 @@ void Sheet::add_text(double& y, const std::string& text, std::size_t letters, co
 
 // Adds the parts below the flight.
 void Sheet::add_details(const FlightPanel& flight) {
-  const Axes axes = axes_of(case_);
   const bool in_space = case_.scene.dimension == 3;
   double y = kInsetPanel.top + 8;
   const std::size_t letters = in_space ? 28 : 46;
   add_text(y, case_.margin, letters, " font-size=\"11\"");
   for (const std::string& note : flight.notes) add_text(y, note, letters, " font-size=\"11\"");
-  if (in_space) draw_side_view(svg_, case_, axes, kSidePanel);
-  add_inset(flight, axes);
+  if (in_space) draw_side_view(svg_, case_, kSidePanel);
+  add_inset(flight);
 }
 
 // Adds the inset, and a square around the part that it shows.
-void Sheet::add_inset(const FlightPanel& flight, const Axes& axes) {
+void Sheet::add_inset(const FlightPanel& flight) {
   if (flight.at) {
     const Point at = *flight.at;
     const Panel seen{at.x - 6, at.y - 6, 12, 12};
@@ -167,7 +158,7 @@ void Sheet::add_inset(const FlightPanel& flight, const Axes& axes) {
     svg_.polyline({{seen.right(), seen.bottom()}, {kInsetPanel.right(), kInsetPanel.top}},
                   outline(kFaintInk, 0.6));
   }
-  const double scale = draw_inset(svg_, case_, axes, kInsetPanel);
+  const double scale = draw_inset(svg_, case_, kInsetPanel);
   const double before = flight.scale / case_.in_radii(1);
   std::string words = fmt::format("magnified {} times", in_short(scale / before));
   if (!case_.atom_of(case_.obstacle).is_ball())

@@ -26,7 +26,7 @@ struct LineStretch {
 class FlightDrawing {
  public:
   FlightDrawing(Svg& svg, const FindingCase& finding, const Panel& panel)
-      : svg_(svg), case_(finding), panel_(panel), axes_(axes_of(finding)), cell_(cell_size(finding.scene)) {}
+      : svg_(svg), case_(finding), panel_(panel), cell_(cell_size(finding.scene)) {}
 
   FlightPanel draw();
 
@@ -39,13 +39,12 @@ class FlightDrawing {
   }
   std::optional<Point> on_line(const PlaceOnLine& place) const;
   Point on_paper_of(const LineStretch& stretch, const Vec& place) const {
-    return {stretch.left + (dot(place, axes_.along) - stretch.low) * result_.scale,
-            panel_.middle() - dot(place, axes_.across) * result_.scale};
+    return {stretch.left + (dot(place, case_.along) - stretch.low) * result_.scale,
+            panel_.middle() - dot(place, case_.across) * result_.scale};
   }
   void add_stretch(const LineStretch& stretch);
   void add_neighbours(const LineStretch& stretch);
   bool add_neighbour(const LineStretch& stretch, const ObstacleId& id, const Vec& centre);
-  double largest_radius() const;
   void add_obstacle(const LineStretch& stretch, const ObstacleId& id, const Vec& centre);
   void add_ellipse(Point at, const ShapeSection& ellipse, const std::string& style, const std::string& hint,
                    bool is_dot);
@@ -57,7 +56,6 @@ class FlightDrawing {
   Svg& svg_;
   const FindingCase& case_;
   const Panel panel_;
-  const Axes axes_;
   const double cell_;
   std::vector<LineStretch> stretches_;
   FlightPanel result_;
@@ -70,7 +68,7 @@ std::vector<PlaceOnLine> FlightDrawing::places() const {
   for (const Answer* answer : {&case_.exact, case_.given})
     if (answer)
       if (auto end = case_.end_of(*answer)) places.push_back(*end);
-  if (case_.issue != Issue::none) places.push_back(place_in_question(case_));
+  if (case_.issue != Issue::none) places.push_back(case_.place());
   if (case_.second) places.push_back(PlaceOnLine::at(*case_.second));
   std::sort(places.begin(), places.end(),
             [&](const PlaceOnLine& a, const PlaceOnLine& b) { return way(b, a) < 0; });
@@ -133,7 +131,11 @@ void FlightDrawing::add_ellipse(Point at, const ShapeSection& ellipse, const std
 // Adds the obstacles beside the flight, faint. They are searched in balls along it; each ball takes those
 // beside its own part of the line. Obstacles that begin before a stretch may reach into it.
 void FlightDrawing::add_neighbours(const LineStretch& stretch) {
-  const double margin = std::min(largest_radius(), cell_);
+  double largest = 0;  // radius
+  for_each_atom(case_.scene, [&](const Atom& atom) {
+    largest = std::max(largest, principal_semiaxes(atom, case_.scene.dimension)[0]);
+  });
+  const double margin = std::min(largest, cell_);
   const double half_height = panel_.height / 2 / result_.scale + margin;
   const double low = stretch.low - margin, high = stretch.high + margin;
   const double pieces = std::ceil((high - low) / (2 * half_height)), half = (high - low) / (2 * pieces);
@@ -146,9 +148,9 @@ void FlightDrawing::add_neighbours(const LineStretch& stretch) {
         case_.surroundings.around(case_.query, middle, std::hypot(half, half_height), kMostLookedAt);
     incomplete_ |= !found.complete;
     for (const oracle::Neighbour& one : found.obstacles) {
-      const double along = dot(one.centre, axes_.along);
+      const double along = dot(one.centre, case_.along);
       if (along < -half || along >= half || ink_of(case_, one.obstacle)) continue;
-      const Vec centre = sum(one.centre, scaled(axes_.along, middle.beyond));
+      const Vec centre = sum(one.centre, scaled(case_.along, middle.beyond));
       if (drawn < kMostNeighbours)
         drawn += add_neighbour(stretch, one.obstacle, centre);
       else
@@ -163,10 +165,10 @@ void FlightDrawing::add_neighbours(const LineStretch& stretch) {
 bool FlightDrawing::add_neighbour(const LineStretch& stretch, const ObstacleId& id, const Vec& centre) {
   const Point at = on_paper_of(stretch, centre);
   const Atom& atom = case_.atom_of(id);
-  const ShapeSection shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
+  const ShapeSection shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, case_.along, case_.across)};
   const double radius = shadow.shape.rx * result_.scale;
   if (at.y < panel_.top - radius || at.y > panel_.bottom() + radius) return false;
-  const double depth = dot(centre, axes_.depth);
+  const double depth = dot(centre, case_.depth);
   const bool is_dot = radius < kSmallestDot;
   const bool is_left = case_.query.from == id;
   const std::string name = case_.name_of(id) + (is_left ? ", which the flight leaves" : "");
@@ -174,7 +176,7 @@ bool FlightDrawing::add_neighbour(const LineStretch& stretch, const ObstacleId& 
   leaves_ |= is_left;
   if (case_.scene.dimension == 2) {
     add_ellipse(at, shadow, style, name, is_dot);
-  } else if (const auto section = section_of(atom, axes_, depth)) {
+  } else if (const auto section = section_of(case_, atom, depth)) {
     add_ellipse(at, *section, style, name, is_dot);
   } else if (std::fabs(depth) < cell_ / 2) {
     add_ellipse(at, shadow, is_dot ? "fill-opacity=\"0\"" : "fill-opacity=\"0\" stroke-dasharray=\"2 3\"",
@@ -185,28 +187,20 @@ bool FlightDrawing::add_neighbour(const LineStretch& stretch, const ObstacleId& 
   return true;
 }
 
-double FlightDrawing::largest_radius() const {
-  double largest = 0;
-  for_each_atom(case_.scene, [&](const Atom& atom) {
-    largest = std::max(largest, principal_semiaxes(atom, case_.scene.dimension)[0]);
-  });
-  return largest;
-}
-
 // Adds an obstacle that an answer names, or that is in question.
 void FlightDrawing::add_obstacle(const LineStretch& stretch, const ObstacleId& id, const Vec& centre) {
   const Point at = on_paper_of(stretch, centre);
   if (!(std::fabs(at.x) < 1e4 && std::fabs(at.y) < 1e4)) return;
   const Ink ink = *ink_of(case_, id);
   const Atom& atom = case_.atom_of(id);
-  const ShapeSection shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, axes_.along, axes_.across)};
+  const ShapeSection shadow{{0, 0}, shadow_of(atom, case_.scene.dimension, case_.along, case_.across)};
   const std::string filled = paint(ink, ink, 1.5) + " fill-opacity=\"0.3\"";
   const std::string hint = hint_of(case_, id);
   const bool is_dot = shadow.shape.rx * result_.scale < kSmallestDot;
   if (case_.scene.dimension == 2) return add_ellipse(at, shadow, filled, hint, is_dot);
   add_ellipse(at, shadow, paint(ink, ink, 0.8) + " fill-opacity=\"0.05\" stroke-dasharray=\"2 3\"", hint,
               is_dot);
-  if (const auto section = section_of(atom, axes_, dot(centre, axes_.depth)))
+  if (const auto section = section_of(case_, atom, dot(centre, case_.depth)))
     add_ellipse(at, *section, filled, hint, is_dot);
 }
 
@@ -265,7 +259,7 @@ void FlightDrawing::add_compass() {
   svg_.open(fmt::format("color=\"{1}\" style=\"color:var({0},{1})\"", kInk.variable, kInk.otherwise));
   svg_.ellipse(middle, {20, 20, 0}, paint(kPaper) + " fill-opacity=\"0.8\"");
   for (int k = 0; k < case_.scene.dimension; ++k) {
-    const double x = axes_.along[k], y = axes_.across[k];
+    const double x = case_.along[k], y = case_.across[k];
     if (std::hypot(x, y) < 0.25) continue;  // it points towards the reader
     svg_.arrow(middle, {middle.x + kArm * x, middle.y - kArm * y}, 5, "currentColor", 1);
     svg_.text({middle.x + 1.5 * kArm * x - 3, middle.y - 1.5 * kArm * y + 3}, std::string(1, "xyz"[k]),
@@ -304,7 +298,7 @@ FlightPanel FlightDrawing::draw() {
   add_breaks();
   add_ends();
   add_compass();
-  if (case_.issue != Issue::none) result_.at = on_line(place_in_question(case_));
+  if (case_.issue != Issue::none) result_.at = on_line(case_.place());
   if (result_.at && case_.issue == Issue::line && case_.distance < 0)  // in the middle of the chord
     result_.at->x += std::sqrt(-case_.distance * (2 + case_.distance)) * result_.scale / case_.in_radii(1);
   if (leaves_) result_.notes.push_back("Dashed: the obstacle that the flight leaves.");
@@ -318,20 +312,16 @@ FlightPanel FlightDrawing::draw() {
 
 }  // namespace
 
-PlaceOnLine place_in_question(const FindingCase& finding) {
-  return finding.issue == Issue::start ? PlaceOnLine::start() : PlaceOnLine::at(finding.obstacle);
-}
-
 FlightPanel draw_flight(Svg& svg, const FindingCase& finding, const Panel& panel) {
   return FlightDrawing(svg, finding, panel).draw();
 }
 
 // The view along the flight, which appears as a point, with the shadows of the obstacles around it.
-void draw_side_view(Svg& svg, const FindingCase& finding, const Axes& axes, const Panel& panel) {
+void draw_side_view(Svg& svg, const FindingCase& finding, const Panel& panel) {
   const auto shadow_along = [&](const ObstacleId& id) {
     const Vec centre = finding.surroundings.centre(finding.query, PlaceOnLine::at(id), id);
-    return ShapeSection{{dot(centre, axes.depth), dot(centre, axes.across)},
-                        shadow_of(finding.atom_of(id), 3, axes.depth, axes.across)};
+    return ShapeSection{{dot(centre, finding.depth), dot(centre, finding.across)},
+                        shadow_of(finding.atom_of(id), 3, finding.depth, finding.across)};
   };
   double reach = 0;
   for (const ObstacleId& id : marked_obstacles(finding)) {

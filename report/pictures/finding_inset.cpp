@@ -59,11 +59,11 @@ std::vector<Point> curve_of(const InsetSurface& surface, double scale) {
 
 class Inset {
  public:
-  Inset(Svg& svg, const FindingCase& finding, const Axes& axes, const Panel& panel);
+  Inset(Svg& svg, const FindingCase& finding, const Panel& panel);
   double draw();
 
  private:
-  void set_axes(const Axes& axes);
+  void set_axes();
   void set_scale();
   void draw_line();
   void draw_start();
@@ -89,20 +89,20 @@ class Inset {
   Point origin_{};
 };
 
-Inset::Inset(Svg& svg, const FindingCase& finding, const Axes& axes, const Panel& panel)
+Inset::Inset(Svg& svg, const FindingCase& finding, const Panel& panel)
     : svg_(svg),
       case_(finding),
       panel_(panel),
       to_ball_(to_ball(finding.atom_of(finding.obstacle), finding.scene.dimension)) {
-  set_axes(axes);
+  set_axes();
   set_scale();
 }
 
-void Inset::set_axes(const Axes& axes) {
-  const Vec centre = case_.surroundings.centre(case_.query, place_in_question(case_), case_.obstacle);
+void Inset::set_axes() {
+  const Vec centre = case_.surroundings.centre(case_.query, case_.place(), case_.obstacle);
   right_ = unit(coordinates(to_ball_, case_.along));
-  if (dot(centre, axes.across) < 0) side_ = -1;
-  const Vec c = coordinates(to_ball_, centre), across = coordinates(to_ball_, scaled(axes.across, side_));
+  if (dot(centre, case_.across) < 0) side_ = -1;
+  const Vec c = coordinates(to_ball_, centre), across = coordinates(to_ball_, scaled(case_.across, side_));
   for (const Vec& other : {c, across}) {
     const Vec rest = sum(other, scaled(right_, -dot(other, right_)));
     up_ = unit(rest);
@@ -248,8 +248,8 @@ double Inset::draw() {
 
 }  // namespace
 
-double draw_inset(Svg& svg, const FindingCase& finding, const Axes& axes, const Panel& panel) {
-  return Inset(svg, finding, axes, panel).draw();
+double draw_inset(Svg& svg, const FindingCase& finding, const Panel& panel) {
+  return Inset(svg, finding, panel).draw();
 }
 
 }  // namespace lorentz::pictures

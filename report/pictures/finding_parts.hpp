@@ -38,7 +38,8 @@ class FindingCase {
   const int exponent;
   const oracle::Margins margins;
   const oracle::Surroundings surroundings;
-  const Vec along;  ///< the flight's direction, of length 1
+  const Vec along;        ///< the flight's direction, of length 1: from left to right
+  Vec across{}, depth{};  ///< upwards, in 3D towards the obstacle in question; and towards the reader
 
   Issue issue = Issue::none;
   ObstacleId obstacle;
@@ -59,6 +60,11 @@ class FindingCase {
 
   const Atom& atom_of(const ObstacleId& id) const { return scene.lattices[id.lattice].atoms[id.atom]; }
 
+  /// The place that the inset shows.
+  oracle::PlaceOnLine place() const {
+    return issue == Issue::start ? oracle::PlaceOnLine::start() : oracle::PlaceOnLine::at(obstacle);
+  }
+
   /// A way along the flight in radii of the obstacle in question.
   double in_radii(double way) const;
 
@@ -69,6 +75,7 @@ class FindingCase {
   void compare_answers(const std::optional<ObstacleId>& decisive);
   bool compare_named();
   void take_hardest_decision();
+  void set_axes();
   void about_line(const ObstacleId& id, const oracle::Approach& approach);
   void about_start(const ObstacleId& id, const oracle::Approach& approach);
   void about(Issue its, const ObstacleId& id, double gap, const char* at, const char* within,
@@ -78,7 +85,9 @@ class FindingCase {
 };
 
 /// The rows of A^-1 of an obstacle { position + A y : |y| < 1 }.
-std::array<Vec, 3> to_ball(const Atom& atom, int dimension);
+inline std::array<Vec, 3> to_ball(const Atom& atom, int dimension) {
+  return dual_of(semiaxes_of(atom, dimension), dimension);
+}
 
 /// a / |a|, for any size; the first axis for 0.
 Vec unit(const Vec& a);
@@ -109,20 +118,18 @@ struct Panel {
 
 /// Everything drawn until close_clip() is visible only inside the panel.
 void open_clip(Svg& svg, const Panel& panel);
-void close_clip(Svg& svg);
+inline void close_clip(Svg& svg) {
+  svg.raw("</svg>\n");
+}
 void frame(Svg& svg, const Panel& panel, const std::string& style);
 
 /// The following shapes until close() have this text under the mouse.
-void open_hint(Svg& svg, const std::string& words);
+inline void open_hint(Svg& svg, const std::string& words) {
+  svg.raw("<g><title>" + xml_escaped(words) + "</title>\n");
+}
 
 /// Limits a coordinate to the range of any picture; no infinity or NaN.
 double on_paper(double pixels);
-
-/// The flight goes from left to right; in 3D the obstacle in question is above it.
-struct Axes {
-  Vec along, across, depth;
-};
-Axes axes_of(const FindingCase& finding);
 
 /// The section of an obstacle by a plane, relative to the foot of its centre there.
 struct ShapeSection {
@@ -132,7 +139,7 @@ struct ShapeSection {
 
 /// The section by the plane of `along` and `across`, in 3D, with the centre `depth` in front of it; nothing
 /// if the plane misses the obstacle.
-std::optional<ShapeSection> section_of(const Atom& atom, const Axes& axes, double depth);
+std::optional<ShapeSection> section_of(const FindingCase& finding, const Atom& atom, double depth);
 
 /// The ink of an obstacle that is exact, given, or in question for another reason; nothing for neighbours.
 std::optional<Ink> ink_of(const FindingCase& finding, const ObstacleId& id);
@@ -150,15 +157,12 @@ struct FlightPanel {
   double scale = 0;         ///< pixels per unit of length
 };
 
-/// The place that the inset shows.
-oracle::PlaceOnLine place_in_question(const FindingCase& finding);
-
 FlightPanel draw_flight(Svg& svg, const FindingCase& finding, const Panel& panel);
 
 /// Returns the pixels per radius of the obstacle in question, along the flight.
-double draw_inset(Svg& svg, const FindingCase& finding, const Axes& axes, const Panel& panel);
+double draw_inset(Svg& svg, const FindingCase& finding, const Panel& panel);
 
 /// The view along the flight, with the obstacles beside it.
-void draw_side_view(Svg& svg, const FindingCase& finding, const Axes& axes, const Panel& panel);
+void draw_side_view(Svg& svg, const FindingCase& finding, const Panel& panel);
 
 }  // namespace lorentz::pictures

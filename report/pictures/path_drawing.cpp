@@ -1,5 +1,4 @@
-#include "report/pictures/path_drawing.hpp"
-
+// A particle's path among the obstacles of a 2D scene.
 #include <algorithm>
 
 #include <lorentz/geometry.hpp>

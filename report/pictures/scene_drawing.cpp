@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <set>
+#include <tuple>
 
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
@@ -32,10 +35,6 @@ std::array<Vec, 3> short_vectors(const Lattice& lattice, int dimension) {
 
 namespace {
 
-double reach_of(const Atom& atom, int dimension) {
-  return principal_semiaxes(atom, dimension)[0];
-}
-
 // The largest number of cells that are examined, whatever the scene is.
 constexpr double kMostCells = 300'000;
 
@@ -44,7 +43,7 @@ void add_obstacles(const Scene& scene, Placed obstacle, const std::array<Vec, 3>
                    std::vector<Placed>& found, bool& cut) {
   const int d = scene.dimension;
   const Atom& atom = scene.lattices[obstacle.lattice].atoms[obstacle.atom];
-  const double reach = reach_of(atom, d);
+  const double reach = principal_semiaxes(atom, d)[0];
   const std::array<Vec, 3> rows = dual_of(u, d);
   const Vec middle = box.centre();
   std::array<std::int64_t, 3> first{}, last{};
@@ -90,10 +89,6 @@ bool Extent::contains(const Vec& point, double margin) const {
   for (int k = 0; k < 3; ++k)
     if (point[k] < low[k] - margin || point[k] > high[k] + margin) return false;
   return true;
-}
-
-Vec Extent::centre() const {
-  return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2};
 }
 
 std::vector<Placed> obstacles_in(const Scene& scene, const Extent& box, bool& cut) {
@@ -179,7 +174,8 @@ Scene with_cells(Scene scene) {
   for (Lattice& lattice : scene.lattices) {
     double size = 0;
     for (const Atom& atom : lattice.atoms)
-      size = std::max(size, length(plus(atom.position, -1, lattice.atoms[0].position)) + reach_of(atom, d));
+      size = std::max(
+          size, length(plus(atom.position, -1, lattice.atoms[0].position)) + principal_semiaxes(atom, d)[0]);
     const int rank = lattice.rank(d);
     complete_perpendicularly(lattice.vectors, rank, d);
     for (int i = rank; i < d; ++i) lattice.vectors[i] = scaled(lattice.vectors[i], 3 * size);
@@ -191,6 +187,103 @@ Drawing draw_scene(const Scene& given, const DrawOptions& options, const std::ve
   const Scene scene = with_cells(given);
   return scene.dimension == 2 ? draw_scene_2d(scene, options, flights)
                               : draw_scene_3d(scene, options, flights);
+}
+
+// ---- Flights as lines: their drawn lengths, and the obstacles that they hit
+
+namespace {
+
+double speed_of(const Query& query) {
+  return std::hypot(query.v[0], query.v[1], query.v[2]);
+}
+
+double length_of(const DrawnFlight& flight) {
+  return flight.answer.outcome == Outcome::hit ? flight.answer.time.value_or(0) * speed_of(flight.query) : 0;
+}
+
+// The greatest length at which a flight is drawn to its end. Nine of ten flights are shorter; so are those
+// that are not much longer than these.
+double longest_drawn(const std::vector<DrawnFlight>& flights, double cell) {
+  const double most = kLongestFlight * cell;
+  std::vector<double> lengths;
+  for (const DrawnFlight& flight : flights)
+    if (flight.answer.outcome == Outcome::hit) lengths.push_back(length_of(flight));
+  constexpr std::size_t kFew = 4;
+  if (lengths.size() < kFew) return most;
+  std::sort(lengths.begin(), lengths.end());
+  const double usual = std::max(4 * cell, 1.5 * lengths[lengths.size() * 9 / 10 - 1]);
+  const auto end = std::upper_bound(lengths.begin(), lengths.end(), std::min(usual, most));
+  return end == lengths.begin() ? most : *(end - 1);
+}
+
+// The line to the flight's hit, or cut at `longest`; a flight that never ends is three cells long.
+DrawnLine line_of(const DrawnFlight& flight, double longest, double cell) {
+  const Query& query = flight.query;
+  DrawnLine line{query.x, query.x, true, &flight};
+  double length = length_of(flight);
+  if (!(length <= longest)) {
+    line.ends = false;
+    length = longest;
+  } else if (flight.answer.outcome == Outcome::never) {
+    line.ends = false;
+    length = 3 * cell;
+  }
+  for (int k = 0; k < 3; ++k) line.to[k] += length * (query.v[k] / speed_of(query));
+  return line;
+}
+
+Placed placed(const Scene& scene, const ObstacleId& id) {
+  const Lattice& lattice = scene.lattices[id.lattice];
+  Vec centre = lattice.atoms[id.atom].position;
+  for (int i = 0; i < scene.dimension; ++i)
+    centre = plus(centre, std::strtod(id.cell[i].decimal().c_str(), nullptr), lattice.vectors[i]);
+  return {id.lattice, id.atom, centre};
+}
+
+}  // namespace
+
+std::vector<DrawnLine> lines_of(const Scene& scene, const std::vector<DrawnFlight>& flights,
+                                std::vector<std::string>& remarks) {
+  const double cell = cell_size(scene), longest = longest_drawn(flights, cell);
+  std::vector<DrawnLine> lines;
+  std::size_t far = 0, cut = 0;
+  double most = 0;
+  for (const DrawnFlight& flight : flights) {
+    if (!(length(plus(flight.query.x, -1, flights[0].query.x)) <= kLongestFlight * cell)) {
+      ++far;
+      continue;
+    }
+    lines.push_back(line_of(flight, longest, cell));
+    if (lines.back().ends || flight.answer.outcome != Outcome::hit) continue;
+    ++cut;
+    most = std::max(most, length_of(flight));
+  }
+  if (cut > 0)
+    remarks.push_back(
+        fmt::format("flights that go on beyond the picture: {}, the longest for {:.4g}", cut, most));
+  if (far > 0)
+    remarks.push_back(fmt::format("flights left out, for they start more than {} cells from the first: {}",
+                                  kLongestFlight, far));
+  return lines;
+}
+
+std::vector<DrawnLine> lines_in_window(const Scene& scene, const std::vector<DrawnFlight>& flights) {
+  constexpr double kFar = 1e12;  // cells: beyond any window that contains obstacles
+  std::vector<DrawnLine> lines;
+  for (const DrawnFlight& flight : flights)
+    lines.push_back(line_of(flight, kFar * cell_size(scene), cell_size(scene)));
+  return lines;
+}
+
+std::vector<Placed> hits_of(const Scene& scene, const std::vector<DrawnLine>& lines) {
+  std::vector<Placed> hits;
+  std::set<std::tuple<int, int, Vec>> seen;
+  for (const DrawnLine& line : lines) {
+    if (!line.ends) continue;
+    const Placed hit = placed(scene, line.flight->answer.obstacle);
+    if (seen.emplace(hit.lattice, hit.atom, hit.centre).second) hits.push_back(hit);
+  }
+  return hits;
 }
 
 }  // namespace lorentz::pictures

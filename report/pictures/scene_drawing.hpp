@@ -1,4 +1,4 @@
-// Pictures of scenes and of flights in them.
+// Pictures of scenes, and of flights and paths in them.
 #pragma once
 
 #include <array>
@@ -43,5 +43,19 @@ struct Drawing {
 /// A few cells of a valid scene around the first cell or the first flight's start, or a window on it; a 3D
 /// scene in orthographic projection. A cubic lattice with centred cells is shown in a cube.
 Drawing draw_scene(const Scene& scene, const DrawOptions& options, const std::vector<DrawnFlight>& flights);
+
+/// A picture of a particle's path among the obstacles of a 2D scene, and of another path from where they part.
+struct PathDrawing {
+  Scene scene;  ///< in two dimensions
+  std::size_t collisions = 0;
+  std::vector<Vec> path;      ///< the start, the places of collisions, possibly an end
+  std::optional<Vec> escape;  ///< the velocity with which it goes on forever, if it does
+  std::vector<Vec> other;     ///< another path beside it, or empty
+  std::size_t parting = 0;    ///< index in `other` of the first place in which they differ
+  std::string other_name;     ///< the name of the other path
+};
+
+/// The picture as SVG, at most 800 pixels wide. Obstacles are left out if there are too many to be seen.
+std::string draw_path(const PathDrawing& drawing);
 
 }  // namespace lorentz::pictures

@@ -58,10 +58,6 @@ void Svg::polygon(const std::vector<Point>& points, const std::string& style) {
   body_ += fmt::format("<polygon points=\"{}\" {}/>\n", path_of(points), style);
 }
 
-void Svg::rectangle(Point corner, Point opposite, const std::string& style) {
-  polygon({corner, {opposite.x, corner.y}, opposite, {corner.x, opposite.y}}, style);
-}
-
 void Svg::text(Point at, const std::string& words, const std::string& style) {
   body_ +=
       fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" {}>{}</text>\n", at.x, at.y, style, xml_escaped(words));
@@ -79,14 +75,6 @@ void Svg::arrow(Point from, Point to, double head, const std::string& colour, do
            {neck.x - half * along.y, neck.y + half * along.x},
            {neck.x + half * along.y, neck.y - half * along.x}},
           fmt::format("fill=\"{}\"", colour));
-}
-
-void Svg::open(const std::string& attributes) {
-  body_ += "<g " + attributes + ">\n";
-}
-
-void Svg::close() {
-  body_ += "</g>\n";
 }
 
 std::string Svg::document(double width, double height, const std::string& title) const {

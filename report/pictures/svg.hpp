@@ -27,15 +27,17 @@ class Svg {
                const std::string& hint = "");
   void polyline(const std::vector<Point>& points, const std::string& style);
   void polygon(const std::vector<Point>& points, const std::string& style);
-  void rectangle(Point corner, Point opposite, const std::string& style);
+  void rectangle(Point corner, Point opposite, const std::string& style) {
+    polygon({corner, {opposite.x, corner.y}, opposite, {corner.x, opposite.y}}, style);
+  }
   void text(Point at, const std::string& words, const std::string& style = "");
 
   /// A line with a head of this size at its end.
   void arrow(Point from, Point to, double head, const std::string& colour, double width);
 
   /// Everything drawn until close() forms a group; `attributes` hold for all of it.
-  void open(const std::string& attributes);
-  void close();
+  void open(const std::string& attributes) { raw("<g " + attributes + ">\n"); }
+  void close() { raw("</g>\n"); }
 
   /// Anything else, e.g. definitions.
   void raw(const std::string& xml) { body_ += xml; }

@@ -4,7 +4,7 @@
 #include <set>
 
 #include <lorentz/oracle.hpp>
-#include "report/pictures/path_drawing.hpp"
+#include "report/pictures/scene_drawing.hpp"
 #include "tests/pictures/crowd.hpp"
 
 using namespace lorentz;
