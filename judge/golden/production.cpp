@@ -170,27 +170,22 @@ Header header_of(const Order& order) {
   return header;
 }
 
-namespace {
-
-std::string header_line(Order order, std::uint64_t count) {
-  order.count = count;
-  std::string line;
-  append_header_line(line, header_of(order));
-  return line;
-}
-
-}  // namespace
-
 // For given questions the number of records is known only at the end.
 RecordCounts produce(const Order& order, const Write& write, const OnProgress& progress) {
+  auto write_header = [&, header = header_of(order)](std::uint64_t count) mutable {
+    header.count = count;
+    std::string line;
+    append_header_line(line, header);
+    write(line);
+  };
   if (!order.given) {
-    write(header_line(order, order.count));
+    write_header(order.count);
     return produce_lines(order, write, progress);
   }
   std::string all;
   const RecordCounts counts = produce_lines(
       order, [&](std::string_view text) { all += text; }, progress);
-  write(header_line(order, counts.records));
+  write_header(counts.records);
   write(all);
   return counts;
 }

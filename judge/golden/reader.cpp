@@ -291,35 +291,27 @@ struct Reader::Impl {
     return answer;
   }
 
-  void read_expectation(json::Value object, Answer& expect) {
-    Answer answer = read_answer_in(object, nullptr);
-    answer.time_decimal = std::move(expect.time_decimal);  // a key of the record, wherever it stands
-    expect = std::move(answer);
-  }
-
-  void read_acceptable(json::Value object, Record& record) {
-    oracle::ExcusedAnswer& excused = record.acceptable.emplace_back();
-    excused.answer = read_answer_in(object, &excused.ulps);
-  }
-
   void read_field(const std::string& key, json::Value value, Record& record) {
     if (key == "id") {
       record.id = read_text(value, key);
     } else if (key == "tags") {
       json::each_element(value, [&](json::Value tag) { record.tags.push_back(read_text(tag, key)); });
     } else if (key == "expect") {
-      read_expectation(value, record.expect);
+      Answer answer = read_answer_in(value, nullptr);
+      answer.time_decimal = std::move(record.expect.time_decimal);  // a key of the record, wherever it stands
+      record.expect = std::move(answer);
     } else if (key == "time_decimal") {
       record.expect.time_decimal = read_text(value, key);
       if (record.expect.time_decimal.empty()) throw InputError(key + ": is empty");
-    } else if (key == "margin") {
-      record.margin = read_number_or_infinity(value, key);
-    } else if (key == "condition") {
-      record.condition = read_number_or_infinity(value, key);
-    } else if (key == "time_change") {
-      record.time_change = read_number_or_infinity(value, key);
+    } else if (key == "margin" || key == "condition" || key == "time_change") {
+      (key == "margin"      ? record.margin
+       : key == "condition" ? record.condition
+                            : record.time_change) = read_number_or_infinity(value, key);
     } else if (key == "acceptable") {
-      json::each_element(value, [&](json::Value one) { read_acceptable(one, record); });
+      json::each_element(value, [&](json::Value one) {
+        oracle::ExcusedAnswer& excused = record.acceptable.emplace_back();
+        excused.answer = read_answer_in(one, &excused.ulps);
+      });
     } else if (key == "comment") {
       record.comment = read_text(value, key);
     } else if (key == "source_id") {

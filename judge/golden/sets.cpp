@@ -27,16 +27,15 @@ constexpr std::string_view kCommittedInBinary32[] = {
 
 Set set_of(const cases::Family& family, NumberFormat precision) {
   const std::string name(family.name());
-  if (precision == NumberFormat::binary64)
-    return {name, name, std::string(family.description()), family.tags(), precision, kCount, kEndless, true};
-  return {name + "-binary32",
+  const bool is_wide = precision == NumberFormat::binary64;
+  return {name + (is_wide ? "" : "-binary32"),
           name,
           std::string(family.description(precision)),
           family.tags(precision),
           precision,
-          kCountInBinary32,
+          is_wide ? kCount : kCountInBinary32,
           kEndless,
-          std::ranges::find(kCommittedInBinary32, name) != std::end(kCommittedInBinary32)};
+          is_wide || std::ranges::count(kCommittedInBinary32, name) > 0};
 }
 
 std::vector<Set> make_sets() {
