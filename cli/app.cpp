@@ -82,8 +82,9 @@ Called subcommand_of(CLI::App& app, const Command& command, const std::string& b
     return subcommand_of(*app.get_subcommand(argv[1]), *one, name, argc - 1, argv + 1);
   std::vector<std::string> names;
   for (const Command& one : command.commands) names.push_back(one.name);
-  throw InputError(fmt::format("no subcommand is called {}{}; there are {}", json_quoted(argv[1]),
-                               did_you_mean(argv[1], names), fmt::join(names, ", ")));
+  throw InputError(fmt::format("no subcommand is called {}{}; there {} {}", json_quoted(argv[1]),
+                               did_you_mean(argv[1], names), names.size() > 1 ? "are" : "is",
+                               fmt::join(names, ", ")));
 }
 
 // The unparsed words that look like options, with suggestions of the intended options.

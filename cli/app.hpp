@@ -36,7 +36,6 @@ Command golden_explain_command();
 
 // The parts of `lorentz fuzz`.
 Command fuzz_show_command();
-Command fuzz_export_command();
 
 /// The shell line that called this program.
 const std::string& command_line();

@@ -255,7 +255,7 @@ Command fuzz_command() {
           "--engine: reduction.\nExample:\n  lorentz fuzz --engine published --time 60 --store "
           "published.campaign\n  lorentz fuzz show --store published.campaign",
           [options] { return run_fuzz(*options); },
-          {fuzz_show_command(), fuzz_export_command()}};
+          {fuzz_show_command()}};
 }
 
 }  // namespace lorentz::cli

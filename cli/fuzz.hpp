@@ -53,9 +53,6 @@ struct FuzzReport {
   void add_targets(json::Members& object) const;
 };
 
-/// A kind of finding as a word: "wrong-time".
-std::string tag_of(const std::string& kind);
-
 /// A campaign from the store, with its findings.
 FuzzReport report_of(const fuzz::Store& store, const fuzz::Campaign& campaign);
 

@@ -205,10 +205,4 @@ void add_finding(json::Members& object, const fuzz::Stored& stored) {
              "tries", f.tries, "case", lines(f.text), "shrunk", lines(f.shrunk));
 }
 
-std::string tag_of(const std::string& kind) {
-  std::string tag = kind;
-  std::ranges::replace(tag, ' ', '-');
-  return tag;
-}
-
 }  // namespace lorentz::cli

@@ -59,7 +59,6 @@ class Target {
   Target(std::string_view name, std::vector<Family> families) : name_(name), families_(std::move(families)) {}
 
   std::string_view name() const { return name_; }
-  std::string_view description() const { return families_.front().description(); }
   Case make(std::uint64_t seed, std::uint64_t index, NumberFormat precision = NumberFormat::binary64) const;
   const std::vector<Family>& families() const { return families_; }
 

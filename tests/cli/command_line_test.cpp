@@ -108,11 +108,10 @@ TEST_CASE("Without a subcommand the help is shown, every help has an example", "
     CHECK(folder.lorentz("help " + std::string(bare)).out == help.out);
   }
   CHECK(folder.lorentz("help compair").status == 2);
-  for (const char* command : {"",           "first-hit",   "compare",      "convergents",   "horizon",
-                              "sample",     "demo",        "bench",        "scene",         "scene list",
-                              "scene show", "scene draw",  "fuzz",         "fuzz show",     "fuzz export",
-                              "golden",     "golden make", "golden check", "golden verify", "golden explain",
-                              "golden list"}) {
+  for (const char* command :
+       {"",       "first-hit",   "compare",      "convergents",   "horizon",        "sample",     "demo",
+        "bench",  "scene",       "scene list",   "scene show",    "scene draw",     "fuzz",       "fuzz show",
+        "golden", "golden make", "golden check", "golden verify", "golden explain", "golden list"}) {
     INFO(command);
     CHECK(contains(folder.lorentz(std::string(command) + " --help").out, "Example"));
   }

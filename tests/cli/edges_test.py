@@ -75,7 +75,6 @@ EDGES = {
                  ["--store"], status=1),
     "fuzz show": Edge("1/leaving/6 --store published.campaign", "", ["--svg", "--html"], "1 --store /no/such/file",
                       room=1000, report=True),
-    "fuzz export": Edge("--store published.campaign", "", ["-o"], missing="--store /no/such/file"),
     "flights": Edge("--count 1e4", "--count 1e10 --csv OUT", ["--csv", "--html", "--store"],
                     "--scene /no/such/file", reports=True),
     "trajectory": Edge("--scene square --radius 1/3 --time 10 start",
@@ -379,7 +378,6 @@ def prepare(made):
         "many.ndjson": "sample --count 50000",
         "queries.npy": "sample --count 10 --format npy",
         "campaign": f"fuzz {EDGES['fuzz'].quick} --store published.campaign",
-        "mine.ndjson": "fuzz export --store published.campaign",
     }.items():
         with open(made / file, "w") as out:
             run = subprocess.run([PROGRAM, *words.split()], cwd=made, stdout=out, stderr=subprocess.PIPE, text=True)

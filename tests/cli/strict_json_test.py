@@ -132,9 +132,8 @@ class StrictJson(unittest.TestCase):
         wrong = strict_json.read_lines((self.path / "wrong.ndjson").read_bytes())
         self.assertEqual(self.ids_in(wrong[1:]), IDS)
         self.assertEqual(self.ids_in(line["given"] for line in wrong[1:]), IDS)
-        for made in (["golden", "make", "--set", "ties", "--count", "5"], ["fuzz", "export", "--store", "store"]):
-            with self.subTest(made):
-                self.assertIn("golden", strict_json.read_lines(self.run_program(*made))[0])
+        made = strict_json.read_lines(self.run_program("golden", "make", "--set", "ties", "--count", "5"))
+        self.assertIn("golden", made[0])
 
     def test_the_demonstration_s_own_file_is_asked_again(self):
         self.run_program("demo", "--disagreements", "demo.ndjson")

@@ -180,9 +180,7 @@ TEST_CASE("Files of another kind are left as they are", "[cli][whole_file]") {
                "--engine reads");
   CHECK(folder.lorentz("scene draw square -o " + old).status == 0);
   CHECK(contains(folder.read("old"), "radius"));
-  // The outputs that are golden sets, too.
   require_left("golden make --set ties --count 1 -o ", "queries", "is not a golden set");
-  require_left("fuzz export --store " + store + " -o ", "engine.py", "is not a golden set");
 }
 
 TEST_CASE("`-` is standard output where that makes sense, and no file", "[cli][whole_file]") {
