@@ -54,7 +54,6 @@ struct Examined {
   double departs = 0;  ///< as in oracle::Judgement
   std::optional<double> work = {};
   std::optional<Stage> stage = {};
-  bool is_misreading = false;  ///< an error of the reader: the engine was not asked
 };
 
 /// A place, and the answerer that is asked there.

@@ -6,7 +6,6 @@
 
 #include <lorentz/errors.hpp>
 #include <lorentz/exchange.hpp>
-#include "fuzz/campaign/notation.hpp"
 #include "src/exchange/exchange_write.hpp"
 
 namespace lorentz::fuzz {
@@ -63,7 +62,10 @@ std::string features_of(const Scene& scene, const Query& query) {
 
 // Reads a line that text_of() wrote.
 StreamItem read_stored(const std::string& line, const Scene* scene) {
-  StreamItem item = read_line(line, scene);
+  static thread_local ExchangeReader reader;
+  const std::string padded = line + std::string(LineReader::kPadding, ' ');
+  StreamItem item;
+  reader.read_query_line({std::string_view(padded).substr(0, line.size()), 1, false}, scene, item);
   if (item.kind != (scene ? StreamItem::Kind::query : StreamItem::Kind::scene))
     throw FileError("the store holds an invalid line: " + line);
   return item;
@@ -170,7 +172,6 @@ std::string sort_of(const Scene& scene, const Query& query, const Examined& exam
 
 std::string cause_of(const Scene& scene, const Query& query, const Examined& examined) {
   std::string text(name_of(examined.kind).words);
-  if (examined.is_misreading) return text + ", read otherwise than written";
   const Answer &given = examined.given, &exact = examined.exact;
   if (examined.kind == Kind::wrong && given.outcome == Outcome::hit && exact.outcome == Outcome::hit)
     text += !given.time                 ? ", another obstacle"

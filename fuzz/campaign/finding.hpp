@@ -88,8 +88,6 @@ std::string sort_of(const Scene& scene, const Query& query, const Examined& exam
 /// - the dimension, and the scene: unit lattice, lattice, several atoms, several lattices, with ellipsoids;
 /// - of the query: leaving (`from` matters), along an axis, in a plane of axes (3D), a far start, numbers
 ///   near the ends of the range.
-/// Everything that is read back differently from what was written has one cause, because a fault of the
-/// reader shows in any notation and in scenes of every kind.
 std::string cause_of(const Scene& scene, const Query& query, const Examined& examined);
 
 }  // namespace lorentz::fuzz

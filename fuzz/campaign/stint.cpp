@@ -9,7 +9,6 @@
 
 #include <lorentz/geometry.hpp>
 #include <lorentz/margin.hpp>
-#include "fuzz/campaign/notation.hpp"
 #include "fuzz/campaign/rewording.hpp"
 #include "fuzz/campaign/variants.hpp"
 
@@ -22,9 +21,8 @@ namespace {
 // Work (in the engine's own count) that shrinking one case may cost: a few seconds of `published`.
 constexpr double kShrinkWork = 1.5e7;
 
-// Each scene is asked about in kWordings other wordings. One question in kCasesPerLimit is asked with a time
-// limit, and one in kCasesPerNotation in other digits instead.
-constexpr std::uint64_t kWordings = 3, kCasesPerLimit = 4, kCasesPerNotation = 8;
+// Each scene is asked about in kWordings other wordings, one question in kCasesPerLimit with a time limit.
+constexpr std::uint64_t kWordings = 3, kCasesPerLimit = 4;
 
 std::shared_ptr<Place> place_in(const Scene& scene, const Plan& plan) {
   return std::make_shared<Place>(scene, plan.truth, plan.claim);
@@ -53,10 +51,9 @@ struct StintRunner::Case {
   int step;
   Question question;
   SceneContext* context;
-  std::string words = {};                // the other words, if any
-  bool is_carried = false;               // the exact answer came from the case in its own words
-  std::optional<Examined> misread = {};  // if set, the engine is not asked
-  std::optional<Reply> reply = {};       // of the engine
+  std::string words = {};           // the other words, if any
+  bool is_carried = false;          // the exact answer came from the case in its own words
+  std::optional<Reply> reply = {};  // of the engine
 };
 
 // A scene, with all that is needed to ask and to judge in it.
@@ -172,10 +169,7 @@ void StintRunner::pose(const Stint& stint, Questions& questions) {
 void StintRunner::pose_in_other_words(Random& random, Questions& questions, std::size_t first) {
   for (std::size_t i = first, last = questions.cases.size(); i < last && !stop_; ++i) {
     const Case& one = questions.cases[i];
-    if (random.one_in(kCasesPerNotation)) {
-      if (auto other = in_other_digits(random, one)) questions.cases.push_back(std::move(*other));
-      continue;
-    }
+    random.bits();  // not used: with it, the words of a seed stay as they were
     const auto number = (one.index + static_cast<std::uint64_t>(one.step)) % kWordings;
     auto& [rewording, context] = questions.other_words(plan_, *answerer_, one, number);
     if (!plan_.scope.admits(context->scene())) continue;
@@ -196,22 +190,10 @@ void StintRunner::pose_in_other_words(Random& random, Questions& questions, std:
   }
 }
 
-// The case in other digits, if they are read differently; the engine does not see them.
-std::optional<StintRunner::Case> StintRunner::in_other_digits(Random& random, const Case& one) {
-  const auto misread = misreading(random, one.context->scene(), one.question.query);
-  if (!misread) return std::nullopt;
-  const Examined examined{.kind = Kind::error,
-                          .given = Answer::error("read back otherwise: " + misread->line),
-                          .exact = one.question.exact,
-                          .is_misreading = true};
-  return Case{one.index, one.step, one.question, one.context, misread->notation, false, examined};
-}
-
 // Scene by scene, so that an engine is prepared once for each scene.
 void StintRunner::ask(Questions& questions) {
   std::vector<Case*> asked;
-  for (Case& one : questions.cases)
-    if (!one.misread) asked.push_back(&one);
+  for (Case& one : questions.cases) asked.push_back(&one);
   std::stable_sort(asked.begin(), asked.end(),
                    [](const Case* a, const Case* b) { return a->context->number < b->context->number; });
   const auto in_order = [&, next = std::size_t{0}]() mutable -> std::optional<Question> {
@@ -228,9 +210,8 @@ void StintRunner::take(Questions& questions, const std::map<std::string, std::ui
   std::set<std::tuple<std::uint64_t, std::string>> kept;
   for (Case& one : questions.cases) {
     if (stop_) break;
-    if (!one.misread && !one.reply) continue;
-    const Examined examined =
-        one.misread ? *one.misread : one.context->examiner.judge(one.question, *one.reply, one.is_carried);
+    if (!one.reply) continue;
+    const Examined examined = one.context->examiner.judge(one.question, *one.reply, one.is_carried);
     const bool in_other_words = !one.words.empty();
     // That an engine does not support the other words is not a finding.
     if (in_other_words && examined.kind == Kind::unsupported) continue;
@@ -260,7 +241,7 @@ Finding StintRunner::finding_of(const Target& target, const Case& one, const std
   finding.sort = sort;
   take_for_shrunk(finding, *one.context->place(), one.question.query, examined);
   finding.text = finding.shrunk;
-  if (one.misread || answerer_->failed()) finding.shrinking = Shrinking::done;
+  if (answerer_->failed()) finding.shrinking = Shrinking::done;
   return finding;
 }
 

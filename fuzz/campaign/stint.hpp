@@ -59,7 +59,6 @@ class StintRunner {
   struct Questions;
   void pose(const Stint& stint, Questions& questions);
   void pose_in_other_words(cases::Random& random, Questions& questions, std::size_t first);
-  static std::optional<Case> in_other_digits(cases::Random& random, const Case& one);
   void ask(Questions& questions);
   void take(Questions& questions, const std::map<std::string, std::uint64_t>& known);
   Finding finding_of(const cases::Target& target, const Case& one, const std::string& sort,

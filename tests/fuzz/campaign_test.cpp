@@ -125,7 +125,6 @@ TEST_CASE("What goes wrong in other words alone is found, and keeps its words", 
   for (const fuzz::Stored& one : findings_in_other_words(1, with)) {
     const fuzz::Finding& f = one.finding;
     INFO(one.label() << ": " << f.words << '\n' << f.text.scene << '\n' << f.text.query);
-    if (f.words.starts_with("digits")) continue;  // what a reader misread
     CHECK(f.kind == "wrong");
     CHECK(one.label().ends_with('r'));
     CHECK(f.sort.ends_with("in other words"));
@@ -136,8 +135,8 @@ TEST_CASE("What goes wrong in other words alone is found, and keeps its words", 
     CHECK(f.words.find("2^") != std::string::npos);
     CHECK(f.text.given.find("never") != std::string::npos);
   }
-  CHECK(lengths > 13);  // 17 seen
-  CHECK(limits > 17);   // 22 seen
+  CHECK(lengths > 15);  // 20 seen
+  CHECK(limits > 15);   // 20 seen
   CHECK(with.reworded > (with.cases + with.variants) / 2);
   CHECK(with.reworded <= with.cases + with.variants);
 }
@@ -314,20 +313,6 @@ TEST_CASE("What scopes admit", "[fuzz][campaign]") {
   CHECK(admitted({Scenes::ball, 0}) == "000010");
   CHECK(admitted({Scenes::unit, 0}) == "110000");
   CHECK(admitted({Scenes::unit, 3}) == "010000");
-}
-
-TEST_CASE("What is misread is of one cause, whatever it is", "[fuzz][campaign]") {
-  fuzz::Examined misread;
-  misread.kind = Kind::error;
-  misread.is_misreading = true;
-  const std::string cause = fuzz::cause_of(unit_scene(2, 0.2), {{0.5, 0}, {1, 0}, {}}, misread);
-  CHECK(cause == "error, read otherwise than written");
-  Scene other = unit_scene(3, 0.2);
-  other.lattices[0].atoms.push_back({{0.5, 0.5, 0.5}, 0.1, {}});
-  const Query query{{0.5, 1e200, 0}, {1, 2, 3}, ObstacleId{}};
-  CHECK(fuzz::cause_of(other, query, misread) == cause);
-  misread.is_misreading = false;
-  CHECK(fuzz::cause_of(other, query, misread) != cause);
 }
 
 TEST_CASE("A target keeps the first few findings of each sort, and counts all", "[fuzz][campaign]") {

@@ -1,5 +1,5 @@
 // Those who watch others, with partners that err: the examiner of an oracle that contradicts itself, the two
-// ways in which `reduction` and batches are asked, the reader that is read back.
+// ways in which `reduction` and batches are asked.
 #include "fuzz/campaign/examiner.hpp"
 
 #include <catch2/catch.hpp>
@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include <lorentz/exchange.hpp>
-#include "fuzz/campaign/notation.hpp"
 #include "fuzz/families/family.hpp"
 #include "question/both_ways.hpp"
 #include "tests/fuzz/campaign_support.hpp"
@@ -115,85 +114,6 @@ TEST_CASE("A single flight that says anything else than a batch is seen", "[fuzz
     CHECK(said(*fuzz::answerer_maker(question::engine_named(engine))({}), scene, queries, 0.125) == "ll");
 }
 
-TEST_CASE("A reader that loses or changes anything is seen by reading back", "[fuzz][examiner]") {
-  using Change = std::function<void(StreamItem&)>;
-  const auto ulp = [](double& a) { a = std::nextafter(a, 1e308); };
-  const std::map<std::string, Change> faults{
-      {"as it is", [](StreamItem&) {}},
-      {"no from", [](StreamItem& item) { item.query.from.reset(); }},
-      {"from of the first atom",
-       [](StreamItem& item) {
-         if (item.query.from) item.query.from->atom = 0;
-       }},
-      {"from of the cell 0",
-       [](StreamItem& item) {
-         if (item.query.from) item.query.from->cell[1] = 0;
-       }},
-      {"x, second component", [&](StreamItem& item) { ulp(item.query.x[1]); }},
-      {"v, first component", [&](StreamItem& item) { ulp(item.query.v[0]); }},
-      {"no second atom",
-       [](StreamItem& item) {
-         for (Lattice& lattice : item.scene.lattices) lattice.atoms.resize(1);
-       }},
-      {"no second lattice",
-       [](StreamItem& item) {
-         if (!item.scene.lattices.empty()) item.scene.lattices.resize(1);
-       }},
-      {"last vector",
-       [&](StreamItem& item) {
-         if (!item.scene.lattices.empty())
-           ulp(item.scene.lattices.back().vectors[item.scene.dimension - 1][0]);
-       }},
-      {"radius",
-       [&](StreamItem& item) {
-         for_each_atom(item.scene, [&](Atom& atom) {
-           if (atom.is_ball()) ulp(atom.radius);
-         });
-       }},
-      {"semiaxes exchanged",
-       [](StreamItem& item) {
-         for_each_atom(item.scene, [](Atom& atom) {
-           if (!atom.is_ball()) std::swap(atom.semiaxes[0], atom.semiaxes[1]);
-         });
-       }},
-      {"says error", [](StreamItem& item) {
-         if (item.kind == StreamItem::Kind::query) item.kind = StreamItem::Kind::bad;
-       }}};
-  ExchangeReader reader;
-  std::map<std::string, int> met;
-  for (const cases::Target& target : cases::targets())
-    for (std::uint64_t index = 0; index < 8 * 37; index += 37) {
-      const cases::Case one = target.make(kSeed, index);
-      for (const auto& [name, change] : faults) {
-        bool changed = false;
-        cases::Random random(kSeed, target.name(), index, cases::Use::rewordings);
-        const auto misreading = fuzz::misreading(
-            random, one.scene, one.query, [&, &change = change](const std::string& text, const Scene* scene) {
-              const std::string padded = text + std::string(LineReader::kPadding, ' ');
-              StreamItem item;
-              reader.read_query_line({std::string_view(padded).substr(0, text.size()), 1, false}, scene,
-                                     item);
-              const StreamItem before = item;
-              // A reader keeps what it read last: only what the line is about counts.
-              change(item);
-              changed |= item.kind != before.kind;
-              if (item.kind == StreamItem::Kind::scene) changed |= item.scene != before.scene;
-              if (item.kind == StreamItem::Kind::query)
-                changed |= item.query.x != before.query.x || item.query.v != before.query.v ||
-                           item.query.from != before.query.from;
-              return item;
-            });
-        INFO(target.name() << ' ' << index << ", " << name);
-        CHECK(misreading.has_value() == changed);
-        met[name] += changed;
-      }
-    }
-  for (const auto& [name, change] : faults) {
-    INFO(name);
-    CHECK((met[name] > 1) == (name != "as it is"));
-  }
-}
-
 namespace {
 
 // The kind of a right answer with work `its`. The questions after the first take the work `drawn`, in turn.
@@ -275,34 +195,5 @@ TEST_CASE("What an engine said of one scene it does not say of the next", "[fuzz
     CHECK(here.size() == 2);
     if (!is_exact) CHECK(said(*answerer, beyond, queries) == "ee");
     CHECK(said(*answerer, unit_scene(2, 0.25), queries) == here);
-  }
-}
-
-TEST_CASE("A notation is what it is called", "[fuzz][examiner]") {
-  std::map<std::string, int> met;
-  const cases::Target& target = *cases::target_named("mixture");
-  for (std::uint64_t index = 0; index < 400; ++index) {
-    const cases::Case one = target.make(kSeed, index);
-    cases::Random random(kSeed, target.name(), index, cases::Use::rewordings);
-    const auto misread = fuzz::misreading(random, one.scene, one.query, [](const std::string&, const Scene*) {
-      return StreamItem{};  // so that it is told what was written
-    });
-    REQUIRE(misread);
-    const auto& [notation, text] = *misread;
-    const auto says = [&](const char* word) { return notation.find(word) != std::string::npos; };
-    INFO(notation << '\n' << text);
-    CHECK((text.find_first_of(" \t\r") != std::string::npos) == says(", blanks"));
-    if (text.find("\\u") != std::string::npos) CHECK(says("escaped keys"));
-    // The scene's dimension comes first, as a rule.
-    if (!says("another order") && !says("escaped") && !says("blanks"))
-      CHECK(text.starts_with("{\"scene\":{\"dimension\":"));
-    if (says("shortest") || says("%.17g"))
-      CHECK(text.find("00000000000000000000e") == std::string::npos);  // 40 digits
-    for (const char* word : {"blanks", "another order", "escaped", "shortest", "%.17g", "%.20f", "hexa"})
-      met[word] += says(word);
-  }
-  for (const auto& [word, count] : met) {
-    INFO(word);
-    CHECK(count > 30);
   }
 }

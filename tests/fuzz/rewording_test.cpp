@@ -9,7 +9,6 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/scene_check.hpp>
-#include "fuzz/campaign/notation.hpp"
 #include "fuzz/campaign/rewording_steps.hpp"
 #include "fuzz/campaign/time_limit.hpp"
 #include "fuzz/families/family.hpp"
@@ -310,22 +309,6 @@ TEST_CASE("Rewording: what cannot be said otherwise is left as it is", "[fuzz][r
     const auto reworded = rewording.reword(random, {{0, 0}, {0x1.8p1023, 0x1p-1074}, {}});
     if (reworded) CHECK(reworded->speed == 0);
   }
-}
-
-TEST_CASE("Rewording: other digits, keys and blanks are read as the same numbers", "[fuzz][rewording]") {
-  std::map<std::string, int> misread;
-  int questions = 0;
-  for (const cases::Target& target : cases::targets())
-    for (std::uint64_t index = 0; index < 320; ++index, ++questions) {
-      const cases::Case one = target.make(kSeed, index);
-      Random random(kSeed, target.name(), index, cases::Use::rewordings);
-      const auto misreading = fuzz::misreading(random, one.scene, one.query);
-      if (misreading && ++misread[misreading->notation] == 1)
-        UNSCOPED_INFO(target.name() << ' ' << index << ", " << misreading->notation << ": "
-                                    << misreading->line);
-    }
-  INFO("seed " << kSeed << ", " << questions << " questions");
-  CHECK(misread.empty());
 }
 
 TEST_CASE("Rewording: a limit's answer follows from the rounded time, but at the time itself",

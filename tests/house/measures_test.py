@@ -15,8 +15,8 @@ PROGRAM = sys.argv.pop(1)
 NO_PRODUCTION = ("tests", "docs", "oracle/proof", "build", "fuzz/planted")
 TYPE = re.compile(r"^ *(?:template <.*> *)?(?:struct|class|enum(?: class)?) +\w+(?: final)?(?: *:[^;{]*)? *\{", re.MULTILINE)
 
-LIMITS = {"lines of production C++": 68_500, "type definitions": 830, "names of types in two files": 20, "libraries": 38,
-          "subcommands": 25, "options": 212}
+LIMITS = {"lines of production C++": 68_400, "type definitions": 815, "names of types in two files": 19, "libraries": 38,
+          "subcommands": 24, "options": 200}
 
 
 NAMED = re.compile(r"^ *(?:template <.*> *)?(?:struct|class|enum(?: class)?) +(\w+)(?: final)?(?: *:(?!:)[^;{]*)? *\{", re.MULTILINE)

@@ -1,20 +1,21 @@
-#include "fuzz/campaign/notation.hpp"
+// A line means the same in any notation: drawn scenes and queries are written with all the freedom that JSON
+// allows, in digits, order and escapes of keys, blanks and line ends, and are read as the same numbers.
+#include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <string_view>
-#include <vector>
+#include <map>
 
 #include <lorentz/exchange.hpp>
+#include "fuzz/families/family.hpp"
+#include "tests/support/support.hpp"
 
-namespace lorentz::fuzz {
-
-using namespace cases;
+using namespace lorentz;
+using test::Draw;
 
 namespace {
 
-enum class DigitsOfNumber { shortest, general, fixed, scientific, hexadecimal, mixed };
+enum class Digits { shortest, general, fixed, scientific, hexadecimal, mixed };
 constexpr const char* kNames[] = {"shortest", "%.17g", "%.20f", "%.40e", "hexadecimal", "of all kinds"};
 
 template <class Value>
@@ -31,15 +32,15 @@ bool means(const std::string& text, double value) {
   return end.ec == std::errc() && read == value;
 }
 
-// Writes JSON with all the freedom that JSON allows.
-class FreeJsonWriter {
+// Writes lines of a query stream in a drawn notation.
+class FreeWriter {
  public:
-  explicit FreeJsonWriter(Random& random)
-      : random_(random),
-        digits_(static_cast<DigitsOfNumber>(random.below(6))),
-        blanks_(random.one_in(2)),
-        shuffles_(random.one_in(2)),
-        escapes_(random.one_in(4)) {}
+  explicit FreeWriter(Draw& draw)
+      : draw_(draw),
+        digits_(static_cast<Digits>(draw.below(std::size(kNames)))),
+        blanks_(draw.one_in(2)),
+        shuffles_(draw.one_in(2)),
+        escapes_(draw.one_in(4)) {}
 
   std::string notation() const {
     return std::string("digits ") + kNames[static_cast<int>(digits_)] + (blanks_ ? ", blanks" : "") +
@@ -74,8 +75,8 @@ class FreeJsonWriter {
   };
 
   std::string blank() {
-    if (!blanks_ || random_.one_in(2)) return {};
-    return random_.one_in(2) ? " " : "\t ";
+    if (!blanks_ || draw_.one_in(2)) return {};
+    return draw_.one_in(2) ? " " : "\t ";
   }
 
   std::string end(std::string text) { return text + (blanks_ ? "\r" : ""); }
@@ -88,7 +89,7 @@ class FreeJsonWriter {
 
   std::string object(std::vector<Member> members) {
     if (shuffles_)
-      for (std::size_t i = members.size(); i > 1; --i) std::swap(members[i - 1], members[random_.below(i)]);
+      for (std::size_t i = members.size(); i > 1; --i) std::swap(members[i - 1], members[draw_.below(i)]);
     std::string text = "{";
     for (const Member& member : members)
       text += (text == "{" ? "" : ",") + blank() + key(member.key) + blank() + ":" + blank() + member.value +
@@ -99,19 +100,17 @@ class FreeJsonWriter {
   std::string key(const std::string& name) {
     std::string text = "\"";
     for (const char c : name)
-      text +=
-          escapes_ && random_.one_in(4) ? printed("\\u%04x", static_cast<unsigned>(c)) : std::string(1, c);
+      text += escapes_ && draw_.one_in(4) ? printed("\\u%04x", static_cast<unsigned>(c)) : std::string(1, c);
     return text + "\"";
   }
 
   std::string text_of(double value) {
-    const DigitsOfNumber digits =
-        digits_ == DigitsOfNumber::mixed ? static_cast<DigitsOfNumber>(random_.below(5)) : digits_;
+    const Digits digits = digits_ == Digits::mixed ? static_cast<Digits>(draw_.below(5)) : digits_;
     std::string text;
-    if (digits == DigitsOfNumber::shortest) append_number(text, value);
-    if (digits == DigitsOfNumber::general) text = printed("%.17g", value);
-    if (digits == DigitsOfNumber::fixed) text = printed("%.20f", value);
-    if (digits == DigitsOfNumber::hexadecimal) return printed("\"%a\"", value);
+    if (digits == Digits::shortest) append_number(text, value);
+    if (digits == Digits::general) text = printed("%.17g", value);
+    if (digits == Digits::fixed) text = printed("%.20f", value);
+    if (digits == Digits::hexadecimal) return printed("\"%a\"", value);
     return means(text, value) ? text : printed("%.40e", value);
   }
 
@@ -136,33 +135,56 @@ class FreeJsonWriter {
     return object({{"vectors", array(vectors)}, {"atoms", array(atoms)}});
   }
 
-  Random& random_;
-  DigitsOfNumber digits_;
+  Draw& draw_;
+  Digits digits_;
   bool blanks_, shuffles_, escapes_;
 };
 
-}  // namespace
-
-StreamItem read_line(const std::string& line, const Scene* scene) {
-  static thread_local ExchangeReader reader;
+StreamItem read(ExchangeReader& reader, const std::string& line, const Scene* scene) {
   const std::string padded = line + std::string(LineReader::kPadding, ' ');
   StreamItem item;
   reader.read_query_line({std::string_view(padded).substr(0, line.size()), 1, false}, scene, item);
   return item;
 }
 
-std::optional<Misreading> misreading(Random& random, const Scene& scene, const Query& query,
-                                     const ReadLine& read) {
-  FreeJsonWriter writer(random);
-  const std::string scene_line = writer.scene_line(scene), query_line = writer.query_line(query, scene);
-  const StreamItem first = read(scene_line, nullptr);
-  if (first.kind != StreamItem::Kind::scene || first.scene != scene)
-    return Misreading{writer.notation(), scene_line};
-  const StreamItem second = read(query_line, &scene);
-  if (second.kind != StreamItem::Kind::query || second.query.x != query.x || second.query.v != query.v ||
-      second.query.from != query.from)
-    return Misreading{writer.notation(), query_line};
-  return std::nullopt;
-}
+}  // namespace
 
-}  // namespace lorentz::fuzz
+TEST_CASE("Scenes and queries are read as the same numbers in any notation", "[exchange][notation]") {
+  constexpr std::uint64_t kSeed = 75;
+  Draw draw(kSeed);
+  ExchangeReader reader;
+  std::map<std::string, int> misread, met;
+  const auto note = [&](const FreeWriter& writer, const std::string& line, const StreamItem& item) {
+    if (++misread[writer.notation()] == 1)
+      UNSCOPED_INFO(writer.notation() << ": " << line << '\n' << item.message);
+  };
+  for (const cases::Target& target : cases::targets())
+    for (std::uint64_t index = 0; index < 320; ++index) {
+      const cases::Case one = target.make(kSeed, index);
+      FreeWriter writer(draw);
+      const std::string scene = writer.scene_line(one.scene), query = writer.query_line(one.query, one.scene);
+      const StreamItem first = read(reader, scene, nullptr);
+      if (first.kind != StreamItem::Kind::scene || first.scene != one.scene) note(writer, scene, first);
+      const StreamItem second = read(reader, query, &one.scene);
+      if (second.kind != StreamItem::Kind::query || second.query.x != one.query.x ||
+          second.query.v != one.query.v || second.query.from != one.query.from)
+        note(writer, query, second);
+      const auto has = [text = scene + query](const char* part) { return text.find(part) != text.npos; };
+      ++met["questions"];
+      met["from"] += one.query.from.has_value();
+      met["ellipsoids"] += has("\"semiaxes\"");
+      met["blanks"] += has("\t ") && has("\r");
+      met["escapes"] += has("\\u00");
+      met["another order"] += has("\"v\"") && query.find("\"v\"") < query.find("\"x\"");
+      met["shortest"] += has("\"position\":[0,");
+      met["%.20f"] += has("0.00000000000000000000");
+      met["%.40e"] += has("0.0000000000000000000000000000000000000000e+00");
+      met["hexadecimal"] += has("\"0x1");
+    }
+  INFO("seed " << kSeed);
+  CHECK(misread.empty());
+  for (const auto& [word, number] : met) {
+    INFO(word);
+    CHECK(number > 1000);  // of 11 840 questions
+  }
+}
