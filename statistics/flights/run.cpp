@@ -108,9 +108,9 @@ question::SceneEngine engine_of(const FlightsPlan& plan) {
 }
 
 // The blocks that are to be flown, and the account of those that are.
-class Work {
+class BlocksToFly {
  public:
-  Work(const FlightsPlan& plan, const FlightBounds& bounds, Account& account)
+  BlocksToFly(const FlightsPlan& plan, const FlightBounds& bounds, Account& account)
       : plan_(plan), bounds_(bounds), account_(account), next_(bounds.shard) {}
 
   // Takes the next blocks, at most `most`. False: all are taken, or it is time to stop.
@@ -127,7 +127,7 @@ class Work {
     return blocks.count > 0;
   }
 
-  void add(const BlockRange& blocks, const FlightTally& tally) {
+  void finished(const BlockRange& blocks, const FlightTally& tally) {
     const std::lock_guard lock(mutex_);
     account_.tally.add(tally);
     for (std::uint64_t i = 0; i < blocks.count; ++i) account_.done += blocks.first + i * blocks.every;
@@ -157,12 +157,12 @@ class Work {
   bool has_failed_ = false;
 };
 
-void fly_blocks(const FlightsPlan& plan, const question::SceneEngine& engine, Work& work) {
+void fly_blocks(const FlightsPlan& plan, const question::SceneEngine& engine, BlocksToFly& work) {
   Flyer flyer(plan, engine);
   for (BlockRange block; work.take(1, block);) {
     FlightTally tally(unit_exponent(plan.scene));
     flyer.fly(block.first * kBlock, std::min(kBlock, plan.count - block.first * kBlock), tally);
-    work.add(block, tally);
+    work.finished(block, tally);
   }
 }
 
@@ -205,7 +205,7 @@ void compare_with_processor(const FlightsPlan& plan, const question::SceneEngine
 
 // While the card flies, the threads here fly what it left before.
 void fly_on_card(const FlightsPlan& plan, const question::SceneEngine& engine, const FlightBounds& bounds,
-                 Work& work) {
+                 BlocksToFly& work) {
   compare_with_processor(plan, engine, *bounds.card);
   CardFlights card(plan, *bounds.card);
   BlockRange now, before{};
@@ -216,7 +216,7 @@ void fly_on_card(const FlightsPlan& plan, const question::SceneEngine& engine, c
     if (goes_on) card.start(now);
     if (before.count > 0) {
       fly_left(plan, engine, bounds.jobs, left, tally);
-      work.add(before, tally);
+      work.finished(before, tally);
     }
     if (!goes_on) return;
     tally = FlightTally(unit_exponent(plan.scene));
@@ -230,7 +230,7 @@ void fly_on_card(const FlightsPlan& plan, const question::SceneEngine& engine, c
 void run(const FlightsPlan& plan, const FlightBounds& bounds, Account& account,
          const OnProgress& on_progress) {
   const question::SceneEngine engine = engine_of(plan);
-  Work work(plan, bounds, account);
+  BlocksToFly work(plan, bounds, account);
   const auto fly = [&] {
     try {
       if (bounds.card)
