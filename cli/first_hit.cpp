@@ -118,9 +118,9 @@ oracle::Request request_of(const FirstHitOptions& options, const EngineInfo& eng
 int jobs_of(const FirstHitOptions& options, const EngineInfo& engine) {
   if (!options.jobs) return 1;
   const auto jobs = static_cast<int>(*options.jobs);
-  if (!engine.traits.in_bulk && engine.kind != EngineInfo::Kind::library)
+  if (engine.traits.together == 0 && engine.kind != EngineInfo::Kind::library)
     throw InputError(
-        "--jobs: only the engines batch and certified-batch, and libraries, use more than one thread");
+        "--jobs: only the engines batch, certified-batch and gpu, and libraries, use more than one thread");
   return jobs;
 }
 

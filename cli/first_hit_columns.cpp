@@ -9,9 +9,6 @@
 namespace lorentz::cli {
 namespace {
 
-// The number of rows answered together: few enough for the cache, enough to keep threads busy.
-constexpr std::size_t kRowsTogether = 4096;
-
 constexpr long kMost = 20;  // complaints of one kind
 
 // Reports why rows are errors.
@@ -105,7 +102,8 @@ int answer_all(const ColumnOrder& order) {
     output.flush();
   });
   try {
-    const std::size_t together = kRowsTogether * static_cast<std::size_t>(order.jobs);
+    const std::size_t together =
+        std::max<std::size_t>(order.engine.traits.together, 4096) * static_cast<std::size_t>(order.jobs);
     for (; reader.next(queries, together); output.flush_if_due()) answer();
     format.finish();
   } catch (const InputError& error) {  // the rows before it have their answers

@@ -37,16 +37,12 @@ struct FlightsOptions : ScanOptions {
   std::vector<std::string> parts;
 };
 
-// The results of a graphics card are those of certified-batch, so they can be added up.
-bool is_on_card(const FlightsOptions& options) {
-  return options.engine == "gpu" || options.engine == "certified-gpu";
-}
-
 FlightsPlan plan_of(const FlightsOptions& options, const Scene& scene) {
   FlightsPlan plan;
   plan.scene = scene;
-  plan.engine = is_on_card(options) ? "certified-batch" : options.engine;
-  if (!question::engine_named(plan.engine).is_own())
+  const question::EngineInfo engine = question::engine_named(options.engine);
+  plan.engine = engine.traits.needs_card ? flights::kAsOnCard : engine.name;
+  if (!engine.is_own())
     throw InputError(
         "--engine: flights are flown by engines of this program; `lorentz sample` writes the same "
         "starts for others");
@@ -76,7 +72,7 @@ flights::FlightBounds bounds_of(const FlightsOptions& options) {
   bounds.jobs = static_cast<unsigned>(options.jobs);
   bounds.seconds = options.seconds.value_or(0);
   std::tie(bounds.shard, bounds.shards) = shard_in(options.shard);
-  if (is_on_card(options)) bounds.card = 0;
+  if (question::engine_named(options.engine).traits.needs_card) bounds.card = 0;
   return bounds;
 }
 
@@ -200,8 +196,7 @@ Command flights_command() {
             "one "
             "collision to the next (cosine law)"},
            {"-e,--engine", &options->engine, "ENGINE",
-            fmt::format("one of {}; or gpu, which flies on a graphics card what certified-batch does here",
-                        fmt::join(question::own_names(), ", "))},
+            fmt::format("one of {}", fmt::join(question::own_names(), ", "))},
            {"--count", Whole{&options->count, 1, kMostFlights}, "N", "how many"},
            {"--time", Positive{&options->seconds}, "SECONDS", "stop after SECONDS (each scene and radius)"},
            {"--add", &options->parts, "FILE",

@@ -12,7 +12,8 @@ namespace {
 // The number of rows that are flown together: few enough for the cache, enough to keep threads busy. For
 // engines that are slow per row, few enough that Ctrl-C does not wait.
 std::size_t rows_together(const question::EngineInfo& engine, int jobs) {
-  return engine.traits.in_bulk ? std::size_t{4096} * static_cast<std::size_t>(jobs) : 16;
+  const std::size_t together = engine.traits.together;
+  return together > 0 ? together * static_cast<std::size_t>(jobs) : 16;
 }
 
 std::string shape_text(const py::array& array) {
@@ -58,8 +59,8 @@ void copy_vectors(const py::array& array, std::size_t first, std::size_t count,
 question::EngineInfo checked(const std::string& name, int jobs) {
   question::EngineInfo engine = own_engine(name);
   if (jobs < 1 || jobs > 1024) throw InputError("jobs: needs a number from 1 to 1024");
-  if (jobs > 1 && !engine.traits.in_bulk)
-    throw InputError("jobs: only the engines batch and certified-batch use more than one thread");
+  if (jobs > 1 && engine.traits.together == 0)
+    throw InputError("jobs: only the engines batch, certified-batch and gpu use more than one thread");
   return engine;
 }
 

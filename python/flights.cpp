@@ -16,17 +16,19 @@ py::array_t<Number> numpy_array(const std::vector<Number>& numbers) {
 // The report of `lorentz flights --json`, and its counts: bins, and paths beyond each edge.
 py::tuple flights_of(const PyScene& scene, std::uint64_t count, const std::string& start, std::uint64_t seed,
                      const std::string& engine, unsigned jobs) {
-  own_engine(engine);
+  const question::EngineInfo info = own_engine(engine);
   if (count < 1 || count > std::uint64_t{1} << 52) throw InputError("count: needs a number from 1 to 2^52");
   if (jobs < 1 || jobs > 1024) throw InputError("jobs: needs a number from 1 to 1024");
   flights::FlightsReport report;
-  report.plan.scene = scene.crystal("flights are counted"), report.plan.engine = engine,
+  report.plan.scene = scene.crystal("flights are counted"),
+  report.plan.engine = info.traits.needs_card ? flights::kAsOnCard : engine,
   report.plan.from = starts::ensemble_named(start, "start");
   report.plan.seed = seed, report.plan.count = count;
   report.account = flights::Account::begun(report.plan);
   found_by([&](std::atomic<bool>& stop) {
     flights::FlightBounds bounds;
     bounds.jobs = jobs, bounds.stop = &stop;
+    if (info.traits.needs_card) bounds.card = 0;
     flights::run(report.plan, bounds, report.account);
   });
   const flights::FlightsFindings found(report);

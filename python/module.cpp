@@ -55,6 +55,7 @@ PYBIND11_MODULE(_lorentz, module) {
              "Another folder to look for scenes and golden sets in, after the usual ones.");
   bind_scene(module);
   bind_first_hit(module);
+  bind_card(module);
   bind_certificates(module);
   bind_exact(module);
   bind_paths(module);

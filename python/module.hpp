@@ -24,6 +24,7 @@ py::array view(const Number* data, std::vector<py::ssize_t> shape, const py::obj
 // Each part adds its classes and functions to the module.
 void bind_scene(py::module_& module);
 void bind_first_hit(py::module_& module);
+void bind_card(py::module_& module);
 void bind_exact(py::module_& module);
 void bind_certificates(py::module_& module);
 void bind_paths(py::module_& module);

@@ -108,7 +108,7 @@ std::shared_ptr<Paths> follow(const PyScene& scene, const QueryArrays& arrays, s
   auto paths = std::make_shared<Paths>(starts.size(), collisions, every, scene.dimension());
   const Precision precision = double_double ? Precision::double_double : Precision::binary64;
   const py::gil_scoped_release release;
-  if (info.traits.in_bulk && !info.traits.is_exact)
+  if (info.traits.together > 0 && !info.traits.is_exact)
     follow_together(scene.scene(), starts, until, precision, *paths);
   else
     follow_one_by_one(info, scene.scene(), starts, until, precision, *paths);

@@ -27,7 +27,7 @@ struct EngineInfo {
     guest     ///< a function of the caller
   };
   std::string name;
-  Traits traits = {};  ///< all false for a command or a library; for a guest only in_bulk is true
+  Traits traits = {};  ///< all false for a command or a library; for a guest only `together` is not 0
   Kind kind = Kind::own;
   /// Makes it for a valid scene. Empty unless the kind is `own`.
   std::function<SceneEngine(const Scene&)> in = {};

@@ -7,9 +7,6 @@
 namespace lorentz::question {
 namespace {
 
-// Enough that threads have something to share, and few enough that answers come soon.
-constexpr std::size_t kGathered = 8192;
-
 class OwnAnswerer final : public Answerer {
  public:
   OwnAnswerer(const Traits& traits, MakeSceneEngine make, const AnswererOptions& options)
@@ -23,14 +20,14 @@ class OwnAnswerer final : public Answerer {
     if (!queries_.push_back(query, limit)) {  // `from` is too far away for the columns
       drain();
       ask_alone(query, limit);
-    } else if (queries_.size() == kGathered) {
+    } else if (queries_.size() == 2 * traits_.together) {
       drain();
     }
   }
 
   bool takes_limits() const override { return traits_.takes_limits; }
   // Several full vectors, and some lanes of one more.
-  std::uint64_t batch_size() const override { return traits_.in_bulk ? 100 : 1; }
+  std::uint64_t batch_size() const override { return traits_.together > 0 ? 100 : 1; }
 
   void drain() override {
     if (queries_.size() == 0) return;
@@ -55,7 +52,7 @@ class OwnAnswerer final : public Answerer {
   void enter(const Scene& scene) override {
     drain();
     engine_.emplace(make_(scene));
-    gathers_ = traits_.in_bulk && engine_->flies_together();
+    gathers_ = traits_.together > 0 && engine_->flies_together();
   }
 
   void ask_alone(const Query& query, double limit) {

@@ -10,6 +10,7 @@
 #include "question/both_ways.hpp"
 #include "question/engines.hpp"
 #include "question/precisions/precisions.hpp"
+#include "src/engines/gpu/gpu_batch.hpp"
 #include "src/engines/published/published.hpp"
 
 namespace lorentz::question {
@@ -53,7 +54,8 @@ SceneEngine published(const Scene& scene, const Traits& traits) {
 // `reduction` and `batch`: single flights, and many in lanes.
 SceneEngine of_batch(const Scene& scene, const Traits& traits) {
   if (const auto why_not = Reduction::beyond(scene))
-    return SceneEngine::unsupported(scene, traits, (traits.in_bulk ? "batch " : "reduction ") + *why_not);
+    return SceneEngine::unsupported(scene, traits,
+                                    (traits.together > 0 ? "batch " : "reduction ") + *why_not);
   const auto batch = std::make_shared<const Batch>(scene);
   return {scene, traits,
           [batch, scene](const Query& query, const oracle::Request& request, Reply& reply) {
@@ -71,9 +73,13 @@ Stage stage_in(const StageTally& tally) {
   return tally.binary64 ? Stage::binary64 : tally.double_double ? Stage::double_double : Stage::undecided;
 }
 
-// `certified` and `certified-batch`.
+// `certified`, `certified-batch` and `gpu`.
 SceneEngine certified(const Scene& scene, const Traits& traits) {
-  const auto batch = std::make_shared<const oracle::CertifiedBatch>(scene);
+  if (traits.needs_card)
+    if (const std::string why = gpu::beyond(prepare(scene)); !why.empty())
+      return SceneEngine::unsupported(scene, traits, "gpu " + why);
+  const auto batch = traits.needs_card ? std::make_shared<const oracle::CertifiedBatch>(scene, 0)
+                                       : std::make_shared<const oracle::CertifiedBatch>(scene);
   return {scene, traits,
           [batch](const Query& query, const oracle::Request& request, Reply& reply) {
             StageTally tally;
@@ -160,7 +166,11 @@ EngineInfo own(std::string name, const Traits& traits, const Make& make, const M
 std::vector<EngineInfo> table() {
   const Traits fast{.leaves_undecided = true, .uses_reduction = true, .takes_limits = true};
   const Traits sure{.is_exact = true, .uses_reduction = true, .takes_limits = true};
-  const auto in_bulk = [](Traits traits) { return traits.in_bulk = true, traits; };
+  const auto in_bulk = [](Traits traits, std::size_t together = 4096) {
+    return traits.together = together, traits;
+  };
+  Traits on_card = in_bulk(sure, 1 << 17);
+  on_card.needs_card = true;
   const auto plain = [](const char* name) {
     return [name](const Scene& scene, const Traits& traits) {
       return of_engine(scene, traits, make_engine(name, scene));
@@ -173,6 +183,7 @@ std::vector<EngineInfo> table() {
       own("certified", sure, certified),
       own("batch", in_bulk(fast), of_batch, batch_checked),
       own("certified-batch", in_bulk(sure), certified),
+      own("gpu", on_card, certified),
       own("oracle", {.is_exact = true, .knows_digits = true, .takes_limits = true}, exact),
       own("walk", {.is_exact = true, .takes_limits = true}, walk, hasty_walk)};
   for (const std::string& name : precision_names())

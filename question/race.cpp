@@ -153,7 +153,7 @@ class Entrant {
         name_(engine.name),
         listener_(options.answerer.listener),
         is_library_(engine.kind == EngineInfo::Kind::library) {
-    if (engine.is_own() && engine.traits.in_bulk) {
+    if (engine.is_own() && engine.traits.together > 0) {
       columns_ = columns_of(questions, engine);
       return;
     }

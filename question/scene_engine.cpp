@@ -57,7 +57,7 @@ class RowsAnswered {
   }
 
   void answer(int jobs) {
-    const bool together = engine_.traits().in_bulk && engine_.flies_together();
+    const bool together = engine_.traits().together > 0 && engine_.flies_together();
     if (together) fly(jobs);
     // For nearly all rows the flight has written everything already.
     const bool is_plain = together && limits_.empty() && uncertain_.empty() && queries_.flaws.empty() &&

@@ -21,7 +21,8 @@ struct Traits {
   bool leaves_undecided = false;  ///< on purpose: `undecided` for a hard query is not a failure
   bool uses_reduction = false;    ///< so `certified`, which rests on `reduction`, cannot judge it
   bool takes_limits = false;      ///< compares the exact time of a hit with a limit
-  bool in_bulk = false;           ///< slow with one query at a time, so its answerer gathers queries
+  std::size_t together = 0;       ///< slow with one query at a time: how many are best asked together; else 0
+  bool needs_card = false;        ///< flies on a graphics card
 };
 
 inline constexpr double kForEver = std::numeric_limits<double>::infinity();

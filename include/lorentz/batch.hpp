@@ -49,6 +49,8 @@ struct FlightColumns {
   std::span<double> time{};
 
   FlightColumns part(std::size_t begin) const;
+  /// Writes a row, into the columns that are there.
+  void set(std::size_t i, const Flight& flight) const;
 };
 
 /// Names the first column that is missing, or has another number of rows than there are queries (a column of

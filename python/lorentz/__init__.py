@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 from . import _lorentz
 from ._answer import Answer, ExactTime, hit, inside, never, undecided, unsupported
 from ._answers import Answers, Outcome
+from ._card import CardAnswers
 from ._first_hit import Engine, engines, first_hit
 from ._flights import FreePaths, flights, horizon, laws, mean_free_path
 from ._golden import GoldenRecord, GoldenSet, golden, golden_sets
@@ -33,7 +34,7 @@ if _TYPE_CHECKING:  # imported at its first use, because only it needs Matplotli
 __version__: str = _lorentz.VERSION
 
 __all__ = [
-    "Answer", "Answers", "Certificate", "CertifiedCollision", "Diffusion", "Engine", "Error", "Estimate",
+    "Answer", "Answers", "CardAnswers", "Certificate", "CertifiedCollision", "Diffusion", "Engine", "Error", "Estimate",
     "ExactTime", "FileError", "FreePaths", "GoldenRecord", "GoldenSet", "Itinerary", "Lyapunov", "Number",
     "Obstacle", "Outcome", "Paths", "STOPS", "Scene", "SceneLike", "Starts", "UnsupportedError",
     "Vector", "catalogue", "diffusion", "draw_starts", "engines", "first_hit", "flights", "golden", "golden_sets",

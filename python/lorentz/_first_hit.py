@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, Union
+from typing import Any, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _lorentz
+from . import _card, _lorentz
 from ._answer import Answer
 from ._answers import Answers, Floats, Outcome
+from ._card import CardAnswers, OnCard
 from ._lorentz import Error
 from ._numbers import Obstacle, integer, rational, renamed, whole, word
 from ._scene import SceneLike, native
@@ -26,8 +27,9 @@ class Engine:
     Args:
         scene: anything that `Scene` takes.
         name: one of `engines`. ``certified-batch`` is always exact; ``batch`` is a little faster, but answers
-            UNDECIDED if it cannot decide; ``oracle`` is the exact oracle.
-        jobs: the threads of ``batch`` and ``certified-batch``. The answers are the same, to the bit.
+            UNDECIDED if it cannot decide; ``oracle`` is the exact oracle; ``gpu`` is ``certified-batch`` on an
+            NVIDIA card, and takes arrays in its memory (docs/gpu.md).
+        jobs: the threads of ``batch``, ``certified-batch`` and ``gpu``. The answers are the same, to the bit.
 
     Any number of threads may use an engine; their calls wait for each other.
 
@@ -39,6 +41,7 @@ class Engine:
         self._scene = native(scene)
         self._arguments = scene, name, jobs
         self._engine = _lorentz.Engine(self._scene, word(name, "engine"), None, whole(jobs, "jobs", 1, 1024))
+        self._there: Any = None  # for arrays in a card's memory
 
     def __reduce__(self) -> Any:
         return _engine_of, self._arguments
@@ -46,9 +49,17 @@ class Engine:
     def __repr__(self) -> str:
         return f"Engine({self._engine.name!r}, {self._scene.dimension}D)"
 
-    @renamed("from", "start_from")
+    @overload
+    def first_hit(self, x: OnCard, v: OnCard, *, max_time: OnCard | None = None,
+                  start_from: CardAnswers | None = None, on_error: str = "raise") -> CardAnswers: ...
+
+    @overload
     def first_hit(self, x: npt.ArrayLike, v: npt.ArrayLike, *, max_time: npt.ArrayLike | None = None,
-                  start_from: StartFrom = None, on_error: str = "raise", out: Answers | None = None) -> Answers:
+                  start_from: StartFrom = None, on_error: str = "raise", out: Answers | None = None) -> Answers: ...
+
+    @renamed("from", "start_from")
+    def first_hit(self, x: Any, v: Any, *, max_time: Any = None, start_from: Any = None, on_error: str = "raise",
+                  out: Answers | None = None) -> Answers | CardAnswers:
         """As `lorentz.first_hit`, for this engine's scene.
 
         Args:
@@ -58,6 +69,11 @@ class Engine:
         """
         if word(on_error, "on_error") not in ("raise", "mark"):
             raise Error(f'on_error: "{on_error}" is unknown; expected "raise" or "mark"')
+        if _card.is_there(x) or _card.is_there(v):
+            if self._engine.name != "gpu" or out is not None:
+                raise Error("x, v: are in a graphics card's memory, which the engine gpu takes, without out")
+            self._there = self._there or _lorentz.CardEngine(self._scene)
+            return _card.first_hit(self._there, self._scene.dimension, x, v, max_time, start_from, on_error)
         if out is not None and (not isinstance(out, Answers) or out._native is None):
             raise Error("out: needs the Answers that an earlier call returned, not a part or a copy of them; "
                         f"got {type(out).__name__}")
@@ -69,9 +85,21 @@ class Engine:
         return Answers(rows) if out is None else out
 
 
+@overload
+def first_hit(scene: SceneLike, x: OnCard, v: OnCard, radius: float | None = None, *, engine: str, jobs: int = 1,
+              max_time: OnCard | None = None, start_from: CardAnswers | None = None,
+              on_error: str = "raise") -> CardAnswers: ...
+
+
+@overload
 def first_hit(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, radius: float | None = None, *,
               engine: str = "certified-batch", jobs: int = 1, max_time: npt.ArrayLike | None = None,
-              start_from: StartFrom = None, on_error: str = "raise") -> Answers:
+              start_from: StartFrom = None, on_error: str = "raise") -> Answers: ...
+
+
+def first_hit(scene: SceneLike, x: Any, v: Any, radius: float | None = None, *, engine: str = "certified-batch",
+              jobs: int = 1, max_time: Any = None, start_from: Any = None,
+              on_error: str = "raise") -> Answers | CardAnswers:
     """Which obstacle is hit first, and when?
 
     Args:
@@ -90,7 +118,8 @@ def first_hit(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, radius: floa
             does not support, has the outcome ERROR.
 
     Returns:
-        Answers, in columns with N rows.
+        Answers, in columns with N rows. With ``gpu``, arrays in a card's memory (of CuPy, PyTorch or Numba;
+        ``max_time`` and ``start_from`` there, too) give CardAnswers, whose columns stay there.
 
     Raises:
         Error: a row is not a query; the message has its number (``row 17: v is zero``). Or shapes do not fit,
@@ -100,8 +129,9 @@ def first_hit(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, radius: floa
     from ._scene import Scene
 
     place = scene if radius is None else Scene(scene, radius)
-    return Engine(place, engine, jobs=jobs).first_hit(x, v, max_time=max_time, start_from=start_from,
-                                                      on_error=on_error)
+    answers: Answers | CardAnswers = Engine(place, engine, jobs=jobs).first_hit(
+        x, v, max_time=max_time, start_from=start_from, on_error=on_error)
+    return answers
 
 
 def _engine_of(scene: SceneLike, name: str, jobs: int) -> Engine:

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdlib>
 #include <type_traits>
 
 #include <lorentz/errors.hpp>
 #include "question/cases/box.hpp"
-#include "statistics/gpu/kernel_texts.hpp"
+#include "src/engines/gpu/gpu_batch.hpp"
 
 namespace lorentz::flights {
 namespace {
@@ -18,36 +17,6 @@ static_assert(gpu::kLogarithmic == Bins::kLogarithmic + 2 && gpu::kLinear == Bin
               gpu::kPiece == kBlock && gpu::DigitSums::kDigits == std::tuple_size_v<ExactSum::Digits>);
 
 static_assert(std::is_trivially_copyable_v<Bravais>);  // as it is on the card
-
-constexpr int kMostExponent = 400;  // as in src/engines/batch
-
-// The kernel for a plan. Throws InputError if there is none.
-std::string kind_of(const FlightsPlan& plan, const PreparedScene& scene) {
-  const auto refuse = [](std::string_view what) {
-    throw InputError(fmt::format("gpu {}; certified-batch does", what));
-  };
-  if (plan.from != Ensemble::uniform) refuse("draws no starts on surfaces");
-  if (!scene.beyond.empty()) refuse(scene.beyond);
-  const int dimension = plan.scene.dimension;
-  if (scene.least_rank < dimension) refuse("does no lattices of fewer vectors than dimensions");
-  if (scene.strides) refuse("does no obstacles that overlap their own translates");
-  if (std::abs(scene.exponent) > kMostExponent) refuse("does no lengths so far from 1");
-  const bool is_unit = scene.atoms.size() == 1 && scene.atoms[0].unit;
-  const char* const atoms = is_unit && scene.ellipsoids ? "unit_ellipsoid"
-                            : is_unit                   ? "unit"
-                            : scene.ellipsoids          ? "ellipsoids"
-                            : scene.atoms.size() == 1   ? "ball"
-                                                        : "balls";
-  return fmt::format("{}_{}", dimension == 2 ? "plane" : "space", atoms);
-}
-
-const char* text_of(const std::string& kind) {
-  for (const gpu::KernelText& kernel : gpu::kernel_texts())
-    if (kind == kernel.name) return kernel.text;
-  throw InputError(
-      "this build has no kernels for graphics cards: clang was not found when it was configured "
-      "(docs/gpu.md)");
-}
 
 gpu::DrawnFlights drawn_of(const FlightsPlan& plan, const PreparedScene& scene) {
   const cases::Box box = cases::Box::of(plan.scene, plan.cells);
@@ -87,17 +56,17 @@ FlightTally tally_of(const gpu::DrawnTally& counted, int exponent) {
 }  // namespace
 
 CardFlights::CardFlights(const FlightsPlan& plan, unsigned number, bool hard)
-    : prepared_(prepare(plan.scene)),
+    : prepared_(gpu::prepared(plan.scene)),
       drawn_(drawn_of(plan, prepared_)),
       count_(plan.count),
       card_(number),
-      kernel_(card_, text_of(kind_of(plan, prepared_)), kind_of(plan, prepared_)),
+      kernel_(card_, gpu::drawn_kernels(), gpu::kind_of(prepared_), gpu::kind_of(prepared_)),
       atoms_(card_, prepared_.atoms.size() * sizeof(Bravais)),
       flights_(card_, sizeof(gpu::DrawnFlights)),
       tally_(card_, sizeof(gpu::DrawnTally) + gpu::kMostLeft * sizeof(gpu::LeftStart)) {
   atoms_.put(prepared_.atoms.data(), prepared_.atoms.size() * sizeof(Bravais));
   drawn_.hard = hard;
-  drawn_.atoms = reinterpret_cast<const Bravais*>(atoms_.address());
+  drawn_.atoms = atoms_.at<const Bravais>();
 }
 
 std::uint64_t CardFlights::most_blocks() const {

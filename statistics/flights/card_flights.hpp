@@ -4,9 +4,16 @@
 #include <memory>
 #include <vector>
 
+#include "src/engines/gpu/driver.hpp"
 #include "statistics/flights/account.hpp"
 #include "statistics/gpu/drawn.hpp"
-#include "statistics/gpu/driver.hpp"
+
+namespace lorentz::gpu {
+
+/// Kernels that draw starts, fly them and count.
+const KernelTexts& drawn_kernels();
+
+}  // namespace lorentz::gpu
 
 namespace lorentz::flights {
 
@@ -20,7 +27,7 @@ struct BlockRange {
 class CardFlights {
  public:
   /// On card `number`, modulo how many there are. Throws InputError if there is none, or the build has no
-  /// kernels, or none for the plan. `hard`: directions are made hard (drawn.hpp).
+  /// kernels, or none for the scene. `hard`: directions are made hard (drawn.hpp).
   CardFlights(const FlightsPlan& plan, unsigned number, bool hard = false);
 
   const std::string& card_name() const { return card_.name(); }

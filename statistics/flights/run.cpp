@@ -10,15 +10,13 @@
 
 #include <lorentz/errors.hpp>
 #include "question/engines.hpp"
+#include "src/engines/gpu/gpu_batch.hpp"
 #include "statistics/flights/card_flights.hpp"
 
 namespace lorentz::flights {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenNews{200};
-
-// The number of flights that are drawn and flown together: small enough that their columns stay in the cache.
-constexpr std::uint64_t kTogether = 4096;
 
 // Draws the starts of flights, flies them and counts the results, block by block. Each thread has its own.
 class Flyer {
@@ -29,8 +27,10 @@ class Flyer {
   // Flies the starts [first, first + count) and adds the results to the tally. Throws InputError if a start
   // cannot be found, or the engine cannot answer.
   void fly(std::uint64_t first, std::uint64_t count, FlightTally& tally) {
-    for (std::uint64_t done = 0; done < count; done += kTogether) {
-      missing_.resize(std::min(kTogether, count - done));
+    // Few enough that their columns stay in the cache, or enough for a card.
+    const std::uint64_t together = std::max<std::uint64_t>(4096, engine_.traits().together);
+    for (std::uint64_t done = 0; done < count; done += together) {
+      missing_.resize(std::min(together, count - done));
       std::iota(missing_.begin(), missing_.end(), first + done);
       fly_from(0, tally);
     }
@@ -99,8 +99,10 @@ class Flyer {
   std::vector<std::uint64_t> missing_;  // starts whose last candidate, if any, lay in an obstacle
 };
 
-question::SceneEngine engine_of(const FlightsPlan& plan) {
-  const question::EngineInfo info = question::engine_named(plan.engine);
+// Who flies starts that are drawn here. Those of a card's plan, which are its own, are left to the processor.
+question::SceneEngine engine_of(const FlightsPlan& plan, bool on_card) {
+  if (on_card) gpu::prepared(plan.scene);  // throws with the reason
+  const question::EngineInfo info = question::engine_named(on_card ? "gpu" : plan.engine);
   if (const auto why = info.traits.is_exact ? std::nullopt : Reduction::beyond(plan.scene);
       why && info.traits.uses_reduction)
     throw InputError(fmt::format("the engine {} {}; certified does such scenes", info.name, *why));
@@ -229,11 +231,12 @@ void fly_on_card(const FlightsPlan& plan, const question::SceneEngine& engine, c
 
 void run(const FlightsPlan& plan, const FlightBounds& bounds, Account& account,
          const OnProgress& on_progress) {
-  const question::SceneEngine engine = engine_of(plan);
+  const bool draws_there = bounds.card && plan.from == Ensemble::uniform;
+  const question::SceneEngine engine = engine_of(plan, bounds.card && !draws_there);
   BlocksToFly work(plan, bounds, account);
   const auto fly = [&] {
     try {
-      if (bounds.card)
+      if (draws_there)
         fly_on_card(plan, engine, bounds, work);
       else
         fly_blocks(plan, engine, work);
@@ -243,7 +246,7 @@ void run(const FlightsPlan& plan, const FlightBounds& bounds, Account& account,
     }
   };
   std::vector<std::future<void>> threads;
-  for (unsigned job = 0; job < (bounds.card ? 1 : bounds.jobs); ++job)
+  for (unsigned job = 0; job < (draws_there ? 1 : bounds.jobs); ++job)
     threads.push_back(std::async(std::launch::async, fly));
   for (std::future<void>& thread : threads) {
     while (thread.wait_for(kBetweenNews) != std::future_status::ready) work.tell(on_progress);

@@ -9,6 +9,9 @@
 
 namespace lorentz::flights {
 
+/// The engine of plans that a graphics card flies: the results are the same, so they can be added up.
+inline constexpr const char* kAsOnCard = "certified-batch";
+
 struct FlightBounds {
   unsigned jobs = 1;
   double seconds = 0;                       ///< stop after this time; 0: when all is flown

@@ -1,11 +1,9 @@
 // What kernels and their host share: which flights are to be flown, and what is counted of them.
 #pragma once
 
-#include <bit>
-#include <cmath>
 #include <cstdint>
 
-#include "src/engines/reduction/bravais.hpp"
+#include "src/engines/gpu/columns.hpp"
 
 namespace lorentz::gpu {
 
@@ -34,19 +32,6 @@ struct DrawnFlights {
   int bins_exponent;  ///< of Bins
   bool hard;          ///< directions are moved next to rational ones
 };
-
-/// A direction of eighths, or a few units in the last place beside it, as bits of the start say. (A component
-/// that is not 0 is at least 1/8 then.)
-inline void make_hard(const double* x, double* v, int dimension) {
-  double largest = 0;
-  for (int k = 0; k < dimension; ++k) {
-    v[k] = std::nearbyint(8 * v[k]) / 8;
-    largest = largest < std::fabs(v[k]) ? std::fabs(v[k]) : largest;
-  }
-  if (largest == 0) v[0] = 1;
-  const auto bits = std::bit_cast<std::uint64_t>(x[0]);
-  for (int k = 0; k < dimension; ++k) v[k] *= 1 + static_cast<double>(bits >> (8 + 3 * k) & 7) * 0x1p-52;
-}
 
 /// A start that the card does not decide: whose flight lanes leave to a single one, or whose time is not
 /// known to be correctly rounded. Its candidates before this attempt lay in obstacles, and have been counted.

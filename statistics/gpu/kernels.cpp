@@ -1,36 +1,15 @@
 // Kernels that draw starts, fly them and count, each thread one flight after the other. Compiled by clang for
 // graphics cards, each kind of scene (LORENTZ_KIND) by itself, and for the processor, where tests run them.
-#include "statistics/gpu/device.hpp"
-
-// The standard's functions that are not constexpr come before everything is for host and card.
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstring>
-#include <functional>
-#include <limits>
-#include <memory>
-#include <numbers>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <utility>
-#include <variant>
-#include <vector>
+#include "src/engines/gpu/device.hpp"
 
 #if !defined(LORENTZ_EMULATED_DEVICE)
 #pragma clang force_cuda_host_device begin
 #endif
+#include "src/engines/gpu/flight.hpp"
 #include "statistics/gpu/drawn.hpp"
-#include "statistics/gpu/flight.hpp"
 #include "statistics/gpu/natural_log.hpp"
 
 namespace lorentz::gpu {
-
-#define LORENTZ_EACH inline __attribute__((always_inline))
 
 LORENTZ_EACH std::array<double, 2> quarter_turn(std::uint64_t bits) {
   const bool odd = bits & 1, beyond = bits & 2;
@@ -236,5 +215,5 @@ LORENTZ_EACH void fly_drawn(const DrawnFlights& flights, DrawnTally& tally, Left
 #ifdef LORENTZ_ONE_KIND
 LORENTZ_ONE_KIND
 #else
-#include "statistics/gpu/kinds.inc"
+#include "src/engines/gpu/kinds.inc"
 #endif

@@ -13,7 +13,7 @@ using namespace lorentz::question;
 
 namespace {
 
-std::vector<std::string> names_with(bool Traits::*trait) {
+std::vector<std::string> names_with(auto Traits::*trait) {
   std::vector<std::string> names;
   for (const EngineInfo& engine : own_engines())
     if (engine.traits.*trait) names.push_back(engine.name);
@@ -32,13 +32,14 @@ TEST_CASE("The engines come first among the answerers, in their order", "[compar
 
 TEST_CASE("Answerers are told apart by their traits, of another program nothing is known",
           "[compare][engines]") {
-  CHECK(names_with(&Traits::is_exact) == Names{"certified", "certified-batch", "oracle", "walk"});
+  CHECK(names_with(&Traits::is_exact) == Names{"certified", "certified-batch", "gpu", "oracle", "walk"});
   CHECK(names_with(&Traits::knows_digits) == Names{"oracle"});
   CHECK(names_with(&Traits::leaves_undecided) == Names{"reduction", "batch"});
-  CHECK(names_with(&Traits::uses_reduction) == Names{"reduction", "certified", "batch", "certified-batch"});
+  CHECK(names_with(&Traits::uses_reduction) ==
+        Names{"reduction", "certified", "batch", "certified-batch", "gpu"});
   CHECK(names_with(&Traits::takes_limits) ==
-        Names{"reduction", "certified", "batch", "certified-batch", "oracle", "walk"});
-  CHECK(names_with(&Traits::in_bulk) == Names{"batch", "certified-batch"});
+        Names{"reduction", "certified", "batch", "certified-batch", "gpu", "oracle", "walk"});
+  CHECK(names_with(&Traits::together) == Names{"batch", "certified-batch", "gpu"});
   const Traits other = engine_named("cmd:./reduction").traits;
   CHECK_FALSE((other.is_exact || other.knows_digits || other.leaves_undecided || other.uses_reduction));
 }
@@ -46,6 +47,7 @@ TEST_CASE("Answerers are told apart by their traits, of another program nothing 
 TEST_CASE("Every engine in the table answers in a scene", "[compare][engines]") {
   const Scene scene = unit_scene(2, 0.25);
   for (const EngineInfo& engine : own_engines()) {
+    if (engine.traits.needs_card) continue;  // tests/gpu asks it
     INFO(engine.name);
     Reply reply;
     engine.in(scene).ask({{0.5, 0.5, 0}, {1, 1, 0}, {}}, {}, reply);

@@ -97,7 +97,7 @@ TEST_CASE("A single flight that says anything else than a batch is seen", "[fuzz
     const std::string expected = seen ? "he" : "hh";
     // In the second flight alone.
     for (const auto wrong_in : {Batch::Time::close, Batch::Time::rounded}) {
-      const question::Traits traits{.in_bulk = true};
+      const question::Traits traits{.together = 4096};
       const auto batch = [&](const Scene& in) {
         return question::batch_both_ways(
             in, traits, [&](const Batch& engine, const Query& query, double max_time, Batch::Time time) {

@@ -8,17 +8,25 @@
 #include <string>
 
 #define LORENTZ_EMULATED_DEVICE
+#include "src/engines/gpu/kernels.cpp"
+#undef LORENTZ_KIND
 #include "statistics/gpu/kernels.cpp"
 
 namespace {
 
-using Kernel = void (*)(const lorentz::gpu::DrawnFlights*, lorentz::gpu::DrawnTally*);
+using lorentz::gpu::CardColumns, lorentz::gpu::DrawnFlights, lorentz::gpu::DrawnTally;
+
+// A kernel of either family.
+struct Kernel {
+  void (*drawn)(const DrawnFlights*, DrawnTally*);
+  void (*columns)(const CardColumns*);
+};
 
 const std::map<std::string, Kernel>& kernels() {
   static const std::map<std::string, Kernel> all{
 #undef LORENTZ_KIND
-#define LORENTZ_KIND(name, ...) {#name, name},
-#include "statistics/gpu/kinds.inc"
+#define LORENTZ_KIND(name, ...) {#name, {name, nullptr}}, {"columns_" #name, {nullptr, columns_##name}},
+#include "src/engines/gpu/kinds.inc"
   };
   return all;
 }
@@ -73,7 +81,7 @@ int cuModuleUnload(void*) {
 int cuModuleGetFunction(void** function, void*, const char* name) {
   const auto found = kernels().find(name);
   if (found == kernels().end()) return kBad;
-  return *function = reinterpret_cast<void*>(found->second), kGood;
+  return *function = const_cast<Kernel*>(&found->second), kGood;
 }
 int cuOccupancyMaxActiveBlocksPerMultiprocessor(int* blocks, void*, int, std::size_t) {
   return *blocks = 2, kGood;
@@ -83,6 +91,9 @@ int cuMemAlloc_v2(std::uint64_t* address, std::size_t size) {
 }
 int cuMemFree_v2(std::uint64_t address) {
   return std::free(at<void>(address)), kGood;
+}
+int cuMemHostAlloc(void** memory, std::size_t size, unsigned) {
+  return *memory = std::malloc(size), kGood;
 }
 int cuMemcpyHtoD_v2(std::uint64_t to, const void* from, std::size_t size) {
   return std::memcpy(at<void>(to), from, size), kGood;
@@ -95,13 +106,20 @@ int cuMemsetD8_v2(std::uint64_t address, unsigned char value, std::size_t size) 
 }
 int cuLaunchKernel(void* function, unsigned blocks, unsigned, unsigned, unsigned threads, unsigned, unsigned,
                    unsigned, void*, void** arguments, void**) {
-  auto* const tally = at<lorentz::gpu::DrawnTally>(*static_cast<std::uint64_t*>(arguments[1]));
-  lorentz::device::place.threads = std::uint64_t{blocks} * threads;
-  for (lorentz::device::place.thread = 0; lorentz::device::place.thread < lorentz::device::place.threads;
-       ++lorentz::device::place.thread)
-    reinterpret_cast<Kernel>(function)(
-        at<lorentz::gpu::DrawnFlights>(*static_cast<std::uint64_t*>(arguments[0])), tally);
-  if (is("wrong")) tally->time.digits[33] ^= 1;
+  const auto argument = [&](int i) { return *static_cast<std::uint64_t*>(arguments[i]); };
+  const auto* const kernel = static_cast<Kernel*>(function);
+  auto& [thread, all] = lorentz::device::place;
+  all = std::uint64_t{blocks} * threads;
+  for (thread = 0; thread < all; ++thread)
+    if (kernel->drawn)
+      kernel->drawn(at<DrawnFlights>(argument(0)), at<DrawnTally>(argument(1)));
+    else
+      kernel->columns(at<CardColumns>(argument(0)));
+  if (!is("wrong")) return kGood;
+  if (kernel->drawn)
+    at<DrawnTally>(argument(1))->time.digits[33] ^= 1;
+  else
+    at<CardColumns>(argument(0))->cell[1][7] ^= 1;
   return kGood;
 }
 int cuGetErrorName(int, const char** name) {

@@ -36,6 +36,15 @@ def time_of_flight(program, scene, radius, count, engine, jobs):
     return statistics.median(times), max(times) - min(times)
 
 
+def columns(program, scene, radius, count):
+    """Nanoseconds a query by `gpu` and by one thread, from the processor's memory and back."""
+    done = subprocess.run([program, "compare", "--scene", scene, "--radius", str(radius), "--count", str(count), "--engine",
+                           "gpu,certified-batch", "--no-oracle", "--json"], capture_output=True, text=True, check=False)
+    if done.returncode:
+        sys.exit(done.stderr)
+    return [engine["ns_per_query"] for engine in json.loads(done.stdout)["engines"]]
+
+
 def main():
     options = argparse.ArgumentParser()
     options.add_argument("program")
@@ -60,6 +69,12 @@ def main():
         processor, _ = time_of_flight(options.program, scene, radius, count, "certified-batch", jobs)
         lines.append(f"| {scene} {radius:g} | {count:.1e}: {'the same' if here == there else 'DIFFERENT'} | "
                      f"{gpu:.3f} ({spread:.3f}) | {processor:.2f} | {processor / gpu:.0f} |")
+        print(lines[-1], flush=True)
+    lines += ["", "Queries in columns, from the processor's memory and back:", "",
+              "| scene, radius | card, ns a query | one thread, ns |", "|---|---|---|"]
+    for scene, radius in (("square", 1e-3), ("cubic", 0.1), ("cubic", 1e-6), ("fcc", 1e-3)):
+        gpu, processor = columns(options.program, scene, radius, max(int(3e6 * options.share), 100_000))
+        lines.append(f"| {scene} {radius:g} | {gpu:.1f} | {processor:.1f} |")
         print(lines[-1], flush=True)
     if options.page:
         before, _, after = options.page.read_text().split("<!-- table -->\n")

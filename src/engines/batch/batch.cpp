@@ -119,14 +119,7 @@ void Batch::Inside::fly_single(const QueryColumns& queries, std::size_t i, const
     flight = single.fly(query, max_time, time);
   else
     flight.outcome = Outcome::error;
-  flights.outcome[i] = flight.outcome;
-  if (!flights.stage.empty()) flights.stage[i] = flight.stage;
-  if (!flights.time_is_rounded.empty()) flights.time_is_rounded[i] = flight.time_is_rounded;
-  if (!flights.lattice.empty()) flights.lattice[i] = flight.lattice;
-  if (!flights.atom.empty()) flights.atom[i] = flight.atom;
-  for (int k = 0; k < 3; ++k)
-    if (!flights.cell[k].empty()) flights.cell[k][i] = flight.cell[k];
-  if (!flights.time.empty()) flights.time[i] = flight.time;
+  flights.set(i, flight);
 }
 
 std::size_t Batch::Inside::fly(const QueryColumns& queries, const FlightColumns& flights, Time time) const {

@@ -46,6 +46,15 @@ FlightColumns FlightColumns::part(std::size_t begin) const {
   return part;
 }
 
+void FlightColumns::set(std::size_t i, const Flight& flight) const {
+  const auto put = [i](const auto& column, auto value) {
+    if (!column.empty()) column[i] = value;
+  };
+  put(outcome, flight.outcome), put(stage, flight.stage), put(time_is_rounded, flight.time_is_rounded);
+  put(lattice, flight.lattice), put(atom, flight.atom), put(time, flight.time);
+  for (int k = 0; k < 3; ++k) put(cell[k], flight.cell[k]);
+}
+
 std::optional<std::string> flaw_of(const QueryColumns& queries, const FlightColumns& flights, int dimension) {
   const bool any_from =
       !queries.from_lattice.empty() || !queries.from_atom.empty() ||

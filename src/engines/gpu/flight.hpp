@@ -21,7 +21,7 @@
 namespace lorentz::device {
 
 // Each file needs those before it.
-#include "statistics/gpu/one_lane-inl.hpp"
+#include "src/engines/gpu/one_lane-inl.hpp"
 
 #include "src/engines/batch/lane_numbers-inl.hpp"
 

@@ -8,11 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "src/engines/gpu/kernel_texts.hpp"
+
 namespace lorentz::gpu {
 
 struct Functions;  // of the driver
 
-/// One card. Used by the thread that made it.
+/// One card. All functions from here on, but its constructor, throw std::runtime_error if the driver reports
+/// an error.
 class Card {
  public:
   /// Card `number`, modulo how many there are. Throws InputError, with a sentence, if there is no driver, or
@@ -22,17 +25,27 @@ class Card {
   const std::string& name() const { return name_; }
   unsigned multiprocessors() const { return multiprocessors_; }
 
+  /// Lets this thread use it, and what is made for it. The thread that made it need not call this.
+  void enter() const;
+
+  /// Memory here that kernels can read and write, until the program ends.
+  void* pinned(std::size_t size) const;
+
+  /// Copies from the card's memory, and to it.
+  void get(void* to, const void* from, std::size_t size) const;
+  void put(void* to, const void* from, std::size_t size) const;
+
  private:
   friend class Memory;
   friend class Kernel;
 
   const Functions* driver_;
+  void* context_ = nullptr;
   std::string name_;
   unsigned multiprocessors_ = 0;
 };
 
-/// Bytes in a card's memory. All functions here and below throw std::runtime_error if the driver reports an
-/// error.
+/// Bytes in a card's memory.
 class Memory {
  public:
   Memory(const Card& card, std::size_t size);
@@ -44,6 +57,10 @@ class Memory {
   void put(const void* from, std::size_t size);
   void take(void* to, std::size_t size, std::size_t begin = 0) const;
   std::uint64_t address() const { return address_; }
+  template <class T>
+  T* at() const {
+    return reinterpret_cast<T*>(address_);
+  }
 
  private:
   const Card& card_;
@@ -53,8 +70,8 @@ class Memory {
 /// A function that runs on the card, in as many threads as it has room for.
 class Kernel {
  public:
-  /// `text`: PTX, which the driver compiles.
-  Kernel(const Card& card, const char* text, const std::string& name);
+  /// The text of this kind is PTX, which the driver compiles. Throws InputError if there is none.
+  Kernel(const Card& card, const KernelTexts& texts, const std::string& kind, const std::string& name);
   ~Kernel();
   Kernel(const Kernel&) = delete;
   Kernel& operator=(const Kernel&) = delete;

@@ -132,3 +132,24 @@ class Counts {
 }  // namespace lorentz::device
 
 #endif
+
+#define LORENTZ_EACH inline __attribute__((always_inline))
+
+// The standard's functions that are not constexpr, before everything is for host and card.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>

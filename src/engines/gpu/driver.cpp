@@ -1,4 +1,4 @@
-#include "statistics/gpu/driver.hpp"
+#include "src/engines/gpu/driver.hpp"
 
 #include <dlfcn.h>
 
@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include <lorentz/errors.hpp>
-#include "statistics/gpu/device.hpp"
+#include "src/engines/gpu/device.hpp"
 
 namespace lorentz::gpu {
 
@@ -30,6 +30,7 @@ struct Functions {
   Function<int*, Handle, int, std::size_t> cuOccupancyMaxActiveBlocksPerMultiprocessor;
   Function<std::uint64_t*, std::size_t> cuMemAlloc_v2;
   Function<std::uint64_t> cuMemFree_v2;
+  Function<void**, std::size_t, unsigned> cuMemHostAlloc;
   Function<std::uint64_t, const void*, std::size_t> cuMemcpyHtoD_v2;
   Function<void*, std::uint64_t, std::size_t> cuMemcpyDtoH_v2;
   Function<std::uint64_t, unsigned char, std::size_t> cuMemsetD8_v2;
@@ -58,8 +59,7 @@ struct Functions {
     if (!library)
       throw InputError(
           "there is no libcuda.so.1 here: no driver of an NVIDIA graphics card is installed; certified-batch "
-          "gives the "
-          "same results without one");
+          "gives the same results without one");
     Functions all;
     const auto find = [library](auto& function, const char* name) {
       function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
@@ -73,7 +73,8 @@ struct Functions {
     LORENTZ_FIND(cuModuleUnload), LORENTZ_FIND(cuModuleGetFunction);
     LORENTZ_FIND(cuOccupancyMaxActiveBlocksPerMultiprocessor), LORENTZ_FIND(cuMemAlloc_v2);
     LORENTZ_FIND(cuMemFree_v2), LORENTZ_FIND(cuMemcpyHtoD_v2), LORENTZ_FIND(cuMemcpyDtoH_v2);
-    LORENTZ_FIND(cuMemsetD8_v2), LORENTZ_FIND(cuLaunchKernel), LORENTZ_FIND(cuGetErrorName);
+    LORENTZ_FIND(cuMemsetD8_v2), LORENTZ_FIND(cuMemHostAlloc), LORENTZ_FIND(cuLaunchKernel);
+    LORENTZ_FIND(cuGetErrorName);
 #undef LORENTZ_FIND
     return all;
   }
@@ -89,14 +90,31 @@ Card::Card(unsigned number) : driver_(&Functions::found()) {
         "the driver finds no graphics card here; certified-batch gives the same results without one");
   int device = 0, multiprocessors = 0;
   char name[128] = {};
-  void* context = nullptr;
   constexpr int kMultiprocessors = 16;  // CU_DEVICE_ATTRIBUTE_MULTIPROCESSOR_COUNT
   LORENTZ_CALL(*driver_, cuDeviceGet, &device, static_cast<int>(number % static_cast<unsigned>(count)));
   LORENTZ_CALL(*driver_, cuDeviceGetName, name, sizeof name - 1, device);
   LORENTZ_CALL(*driver_, cuDeviceGetAttribute, &multiprocessors, kMultiprocessors, device);
-  LORENTZ_CALL(*driver_, cuDevicePrimaryCtxRetain, &context, device);
-  LORENTZ_CALL(*driver_, cuCtxSetCurrent, context);
+  LORENTZ_CALL(*driver_, cuDevicePrimaryCtxRetain, &context_, device);
+  enter();
   name_ = name, multiprocessors_ = static_cast<unsigned>(multiprocessors);
+}
+
+void Card::enter() const {
+  LORENTZ_CALL(*driver_, cuCtxSetCurrent, context_);
+}
+
+void* Card::pinned(std::size_t size) const {
+  void* memory = nullptr;
+  LORENTZ_CALL(*driver_, cuMemHostAlloc, &memory, size, 0);
+  return memory;
+}
+
+void Card::get(void* to, const void* from, std::size_t size) const {
+  LORENTZ_CALL(*driver_, cuMemcpyDtoH_v2, to, reinterpret_cast<std::uint64_t>(from), size);
+}
+
+void Card::put(void* to, const void* from, std::size_t size) const {
+  LORENTZ_CALL(*driver_, cuMemcpyHtoD_v2, reinterpret_cast<std::uint64_t>(to), from, size);
 }
 
 Memory::Memory(const Card& card, std::size_t size) : card_(card) {
@@ -104,6 +122,7 @@ Memory::Memory(const Card& card, std::size_t size) : card_(card) {
 }
 
 Memory::~Memory() {
+  card_.enter();
   card_.driver_->cuMemFree_v2(address_);
 }
 
@@ -112,17 +131,23 @@ void Memory::clear(std::size_t size) {
 }
 
 void Memory::put(const void* from, std::size_t size) {
-  LORENTZ_CALL(*card_.driver_, cuMemcpyHtoD_v2, address_, from, size);
+  card_.put(at<void>(), from, size);
 }
 
 void Memory::take(void* to, std::size_t size, std::size_t begin) const {
-  LORENTZ_CALL(*card_.driver_, cuMemcpyDtoH_v2, to, address_ + begin, size);
+  card_.get(to, at<char>() + begin, size);
 }
 
-Kernel::Kernel(const Card& card, const char* text, const std::string& name) : card_(card) {
+Kernel::Kernel(const Card& card, const KernelTexts& texts, const std::string& kind, const std::string& name)
+    : card_(card) {
+  const auto text = texts.find(kind);
+  if (text == texts.end())
+    throw InputError(
+        "this build has no kernels for graphics cards: clang was not found when it was configured "
+        "(docs/gpu.md)");
   const Functions& driver = *card_.driver_;
   int blocks = 0;
-  LORENTZ_CALL(driver, cuModuleLoadData, &module_, text);
+  LORENTZ_CALL(driver, cuModuleLoadData, &module_, text->second);
   LORENTZ_CALL(driver, cuModuleGetFunction, &function_, module_, name.c_str());
   LORENTZ_CALL(driver, cuOccupancyMaxActiveBlocksPerMultiprocessor, &blocks, function_, device::kThreads, 0);
   blocks_ = static_cast<unsigned>(std::max(blocks, 1)) * card_.multiprocessors();
