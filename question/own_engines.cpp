@@ -179,6 +179,7 @@ std::vector<EngineInfo> table() {
   std::vector<EngineInfo> all{
       own("classical", {}, plain("classical"), hasty_classical),
       own("published", {}, published),
+      own("golse", {}, plain("golse")),
       own("reduction", fast, of_batch, staged_flights),
       own("certified", sure, certified),
       own("batch", in_bulk(fast), of_batch, batch_checked),

@@ -25,8 +25,8 @@ struct Ray;  // a flight in the form that engines take (engine_base.hpp)
 ///
 /// Units: lengths are in the scene's unit; times are such that x + t v is the particle's position.
 ///
-/// Which answers can be trusted depends on the engine: `classical` and `published` are the known algorithms,
-/// errors included; reduction.hpp says what `reduction` promises. The cost of each engine is in
+/// Which answers can be trusted depends on the engine: `classical`, `published` and `golse` are known
+/// algorithms, errors included; reduction.hpp says what `reduction` promises. The cost of each engine is in
 /// docs/speed.md.
 class Engine {
  public:
@@ -78,8 +78,8 @@ std::vector<std::string> engine_names();
 /// scene is invalid (flaw_of).
 std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene);
 
-/// Starts beyond this many cells from the origin are `unsupported` by `classical` and `published`, and
-/// `undecided` by `reduction`, because there a binary64 has no digits left for the position within a cell.
+/// Starts beyond this many cells from the origin are `unsupported` by the known algorithms, and `undecided`
+/// by `reduction`, because there a binary64 has no digits left for the position within a cell.
 inline constexpr double kMaxStart = 0x1p51;
 
 }  // namespace lorentz

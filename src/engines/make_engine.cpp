@@ -4,6 +4,7 @@
 #include "src/engines/base/unsupported.hpp"
 #include "src/engines/classical/cell_walk.hpp"
 #include "src/engines/classical/classical.hpp"
+#include "src/engines/golse.hpp"
 #include "src/engines/published/published.hpp"
 
 namespace lorentz {
@@ -42,6 +43,7 @@ struct EngineEntry {
 constexpr EngineEntry kEngines[] = {
     {"classical", true, beyond_classical, make_classical},
     {"published", true, Published::beyond, make<Published>},
+    {"golse", true, Golse::beyond, make<Golse>},
     {"reduction", false, Reduction::beyond, make<Reduction>},
 };
 

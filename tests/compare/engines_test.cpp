@@ -50,7 +50,7 @@ TEST_CASE("Every engine in the table answers in a scene", "[compare][engines]") 
     if (engine.traits.needs_card) continue;  // tests/gpu asks it
     INFO(engine.name);
     Reply reply;
-    engine.in(scene).ask({{0.5, 0.5, 0}, {1, 1, 0}, {}}, {}, reply);
+    engine.in(scene).ask({{0.5, 0.5, 0}, {1, 1, 0}, ObstacleId{}}, {}, reply);
     CHECK(reply.answer.outcome == Outcome::hit);
     CHECK(reply.answer.obstacle.cell == Cell{1, 1, 0});
   }
