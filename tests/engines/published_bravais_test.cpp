@@ -1,6 +1,7 @@
 // The published algorithm beyond the unit lattices: transformed, circumscribed, proposed, verified.
 #include <catch2/catch.hpp>
 
+#include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include "question/starts/free_starts.hpp"
 #include "src/engines/published/published.hpp"
@@ -47,6 +48,23 @@ Count hold_against_oracle(const Scene& scene, const std::vector<Query>& queries)
 
 Count drawn(const Scene& scene, std::uint64_t seed, std::size_t number) {
   return hold_against_oracle(scene, starts::free_starts(scene, starts::Kind::uniform, seed, number));
+}
+
+void add(Count& sum, const Count& count) {
+  sum.right += count.right, sum.wrong += count.wrong, sum.undecided += count.undecided;
+  sum.worst = std::max(sum.worst, count.worst);
+  sum.proposals.made += count.proposals.made;
+  sum.proposals.false_ellipse += count.proposals.false_ellipse;
+  sum.proposals.false_tricylinder += count.proposals.false_tricylinder;
+}
+
+// In any position; the circumscribed ball is at most of this radius.
+Atom ellipsoid(Draw& draw, int dimension, double radius) {
+  Atom atom{draw.vec(dimension, -1, 1), 0, semiaxes_of(draw, Style::generic, dimension)};
+  double square = 0;  // of the Frobenius norm, which is at least the first singular value
+  for (const Vec& axis : atom.semiaxes) square += dot(axis, axis);
+  for (Vec& axis : atom.semiaxes) axis = scaled(axis, radius / std::sqrt(square));
+  return atom;
 }
 
 // Flights that leave the ball at the origin, `from` that ball.
@@ -159,6 +177,7 @@ TEST_CASE("Published with several atoms is the earliest of each alone", "[engine
     for (int atoms = 0; atoms < 3; ++atoms)
       scene.lattices[0].atoms.push_back(
           {draw.vec(dimension, -1, 1), draw.between(0.01, dimension == 2 ? 0.3 : 0.2), {}});
+    if (draw.one_in(2)) scene.lattices[0].atoms.back() = ellipsoid(draw, dimension, 0.2);
     const Query query{draw.vec(dimension, -2, 2), draw.vec(dimension, -1, 1), {}};
     INFO(stream(scene, query));
     Answer expected = Answer::never();
@@ -254,7 +273,104 @@ TEST_CASE("What published does not do beyond the unit lattices, it says", "[engi
   CHECK_THAT(message(one_atom(2, {Vec{1e300, 0}, Vec{0, 1}}, 0.1), query), Contains("2^200"));
   CHECK_THAT(message(triangular(0.1), {{0x1p60, 0}, {1, 0.3}, {}}), Contains("too far"));
   CHECK_THAT(message(triangular(0.1), {{0, 0.3}, {1, 0}, {}}), Contains("octant"));
-  Scene scene = unit_scene(2, 0.1);
-  scene.lattices[0].atoms[0] = {{}, 0, {Vec{0.1, 0}, Vec{0, 0.2}}};
-  CHECK_THAT(message(scene, query), Contains("semiaxes"));
+  const auto ellipse = [](const Vec& a, const Vec& b) {
+    Scene scene = unit_scene(2, 0.1);
+    scene.lattices[0].atoms[0] = {{}, 0, {a, b}};
+    return scene;
+  };
+  CHECK(make_engine("published", ellipse({0.1, 0}, {0, 0.5}))->first_hit(query).outcome == Outcome::hit);
+  CHECK_THAT(message(ellipse({0.1, 0}, {0, 0.51}), query), Contains("circumscribed"));
+  CHECK_THAT(message(ellipse({0.3, 0.3}, {-0.4, 0.4}), query), Contains("circumscribed"));
+  CHECK_THAT(message(ellipse({0x1p-201, 0}, {0, 0.2}), query), Contains("semiaxes"));
+  CHECK_THAT(message(ellipse({0.125, 0x1p-190}, {0.125, 0x1p-190}), query), Contains("thicker"));
+}
+
+TEST_CASE("An ellipse in the square is a disc in the cell that is stretched back",
+          "[engines][published_bravais]") {
+  // By a power of two, so the search is the same; only the quadratic is in units of the radius.
+  Draw draw(98);
+  INFO("seed 98");
+  const Scene stretched = one_atom(2, {Vec{1, 0}, Vec{0, 4}}, 0.25);
+  Scene ellipse = unit_scene(2, 1);
+  ellipse.lattices[0].atoms[0] = {{}, 0, {Vec{0.25, 0}, Vec{0, 0.0625}}};
+  Proposals of_disc, of_ellipse;
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Query query{draw.vec(2, -2, 2), draw.vec(2, -1, 1), {}};
+    const Answer disc = Published(stretched).first_hit_counted(
+                     {{query.x[0], 4 * query.x[1]}, {query.v[0], 4 * query.v[1]}, {}}, kForEver, of_disc),
+                 given = Published(ellipse).first_hit_counted(query, kForEver, of_ellipse);
+    REQUIRE(given.outcome == disc.outcome);
+    REQUIRE(given.obstacle == disc.obstacle);
+    if (given.outcome != Outcome::hit) continue;
+    ++hits;
+    CHECK(*given.time == Approx(*disc.time).epsilon(1e-13));
+  }
+  CHECK(hits > 1800);
+  CHECK(of_ellipse.made == of_disc.made);
+  CHECK(of_ellipse.false_ellipse == of_disc.false_ellipse);
+  CHECK(of_ellipse.false_ellipse > 1000);
+}
+
+TEST_CASE("Published among ellipses and ellipsoids: of drawn flights hardly one is wrong",
+          "[engines][published_bravais]") {
+  INFO("seed 99");
+  for (const int dimension : {2, 3})
+    for (const double size : {0.45, 0.1, 0.02}) {
+      Draw draw(99);
+      Count sum;
+      for (int i = 0; i < 20; ++i) {
+        const bool unit = draw.one_in(2) || dimension == 3;
+        Scene scene = unit ? unit_scene(dimension, 0.1) : triangular(0.1);
+        scene.lattices[0].atoms[0] = ellipsoid(draw, dimension, size);
+        add(sum, drawn(scene, 99, 400));
+      }
+      INFO(dimension << "D, " << size << ": " << sum.right << " right, " << sum.wrong << " wrong");
+      CHECK(sum.right + sum.wrong == 8000);
+      CHECK(sum.wrong <= 4);                         // 1 seen at most, in 3D
+      CHECK(sum.worst < 1e-12);                      // 1.3e-14 seen
+      CHECK(sum.proposals.false_ellipse > 8000);     // 10 830 seen at least
+      CHECK(sum.proposals.false_ellipse < 200'000);  // 166 899 seen at most
+    }
+}
+
+TEST_CASE("Published skips obstacles on flights that leave an ellipse or ellipsoid",
+          "[engines][published_bravais]") {
+  INFO("seed 100");
+  for (const auto& [dimension, seen] : {std::pair{2, 380}, {3, 4157}}) {
+    Draw draw(100);
+    Count sum;
+    for (int i = 0; i < 20; ++i) {
+      Scene scene = unit_scene(dimension, 0.1);
+      scene.lattices[0].atoms[0] = ellipsoid(draw, dimension, 0.4);
+      add(sum, hold_against_oracle(scene, starts::free_starts(scene, starts::Kind::surface, 100, 1000)));
+    }
+    INFO(sum.wrong << " wrong, " << sum.right << " right; " << seen << " wrong seen");
+    CHECK(sum.wrong + sum.right == 20'000);
+    CHECK(sum.wrong > seen * 3 / 4);
+    CHECK(sum.wrong < seen * 5 / 4);
+    CHECK(sum.worst < 1e-11);  // 2.8e-13 seen
+  }
+}
+
+TEST_CASE("Published in crystals and superpositions of balls and ellipsoids",
+          "[engines][published_bravais]") {
+  INFO("seed 101");
+  for (const int dimension : {2, 3}) {
+    Draw draw(101);
+    Count sum;
+    for (int i = 0; i < 20; ++i) {
+      Scene scene = dimension == 2 ? triangular(0.1) : fcc(0.1);
+      scene.lattices.push_back(unit_scene(dimension, 0.05).lattices[0]);
+      for (Lattice& lattice : scene.lattices) {
+        lattice.atoms.push_back(ellipsoid(draw, dimension, 0.1));
+        lattice.atoms.push_back(ellipsoid(draw, dimension, 0.2));
+      }
+      add(sum, drawn(scene, 101, 200));
+    }
+    INFO(dimension << "D: " << sum.right << " right, " << sum.wrong << " wrong");
+    CHECK(sum.right + sum.wrong == 4000);
+    CHECK(sum.wrong <= 4);     // none seen in 2D, 1 in 3D
+    CHECK(sum.worst < 1e-12);  // 4.1e-14 seen
+  }
 }

@@ -21,9 +21,9 @@ struct Proposals {
 };
 
 /// In the unit square lattice the engine searches by convergents of the slope; in the unit cubic lattice by
-/// the 2D algorithm in the three coordinate planes. Other lattices of balls are transformed to these, each
-/// obstacle is put into a circumscribed ball, and every proposal of the search is verified. Several atoms are
-/// searched one by one, and the earliest hit counts.
+/// the 2D algorithm in the three coordinate planes. Other lattices, and those of ellipsoids, are
+/// transformed to these, each obstacle is put into a circumscribed ball, and every proposal of the search is
+/// verified. Several atoms are searched one by one, and the earliest hit counts.
 ///
 /// Directions along an axis (in 3D: with any zero component) of the transformed lattice are `unsupported`,
 /// because the algorithm has no octant for them. A search is `undecided` after kMaxPasses passes or 2^52

@@ -31,25 +31,36 @@ PublishedBravais::PublishedBravais(const Scene& scene, int l, int a)
     : dimension_(scene.dimension),
       lattice_(l),
       atom_(a),
-      radius_(scene.lattices[l].atoms[a].radius),
+      radius_(scene.lattices[l].atoms[a].is_ball() ? scene.lattices[l].atoms[a].radius : 1),
       position_(scene.lattices[l].atoms[a].position) {
   for (int i = 0; i < dimension_; ++i) vectors_[i] = scene.lattices[l].vectors[i];
   dual_ = dual_of(vectors_, dimension_);
+  std::array<Vec, 3> image = dual_;
+  if (const Atom& atom = scene.lattices[l].atoms[a]; !atom.is_ball()) {
+    const std::array<Vec, 3> axes = semiaxes_of(atom, dimension_);
+    shape_ = dual_of(axes, dimension_);
+    for (int i = 0; i < dimension_; ++i)
+      for (int k = 0; k < dimension_; ++k) image[i][k] = dot(dual_[i], axes[k]);
+  }
   circumscribed_ =
-      radius_ * (dimension_ == 2 ? first_singular_value<2>(dual_) : first_singular_value<3>(dual_));
+      radius_ * (dimension_ == 2 ? first_singular_value<2>(image) : first_singular_value<3>(image));
 }
 
 std::optional<std::string> PublishedBravais::beyond(const Scene& scene, int l, int a) {
-  if (!scene.lattices[l].atoms[a].is_ball()) return "does balls only, no semiaxes";
-  for (int i = 0; i < scene.dimension; ++i)
-    for (const double component : scene.lattices[l].vectors[i])
+  std::vector<Vec> vectors = scene.lattices[l].atoms[a].semiaxes;
+  for (int i = 0; i < scene.dimension; ++i) vectors.push_back(scene.lattices[l].vectors[i]);
+  for (const Vec& vector : vectors)
+    for (const double component : vector)
       if (component != 0 && !(std::fabs(component) > 0x1p-200 && std::fabs(component) < 0x1p200))
-        return "does lattice vectors with components between 2^-200 and 2^200 only";
+        return "does lattice vectors and semiaxes with components between 2^-200 and 2^200 only";
   const PublishedBravais bravais(scene, l, a);
   if (!(bravais.circumscribed_ <= 0.5))
-    return "does cells only in which the circumscribed radius, r times the first singular value of the "
-           "cell's inverse, is at most half the spacing, 1/2";
+    return "does cells only in which the circumscribed radius, the first singular value of the cell's "
+           "inverse times r or the semiaxes, is at most half the spacing, 1/2";
   if (!(bravais.circumscribed_ > 0x1p-200)) return "does radii above 2^-200 of the cell only";
+  for (const Vec& row : bravais.shape_)
+    if (!(std::fabs(row[0]) + std::fabs(row[1]) + std::fabs(row[2]) < 0x1p200))
+      return "does ellipsoids thicker than 2^-200 only";
   return std::nullopt;
 }
 
@@ -58,12 +69,13 @@ Vec PublishedBravais::transformed_place(const Vec& x) const {
   return coordinates(dual_, minus(x, position_));
 }
 
-// x relative to the centre of the obstacle in cell n, in the scene's coordinates.
+// x relative to the centre of the obstacle in cell n, in coordinates in which this is a ball of radius_: the
+// scene's for a ball, A^-1 of these for an ellipsoid.
 Vec PublishedBravais::relative(const Vec& x, const Vec& n) const {
   Vec arm = minus(x, position_);
   for (int i = 0; i < dimension_; ++i)
     for (int k = 0; k < dimension_; ++k) arm[k] -= n[i] * vectors_[i][k];
-  return arm;
+  return coordinates(shape_, arm);
 }
 
 bool PublishedBravais::leaves(const Ray& ray, Vec& n) const {
@@ -94,7 +106,7 @@ Answer PublishedBravais::flight_of(const Ray& ray, double limit, Proposals& prop
 }
 
 Answer PublishedBravais::flight_2d(const Ray& ray, double limit, Proposals& proposals) const {
-  const Vec v = coordinates(dual_, ray.v);
+  const Vec v = coordinates(dual_, ray.v), true_v = coordinates(shape_, ray.v);
   Vec x = transformed_place(ray.x), from{};
   const bool has_from = leaves(ray, from);
   Disc<double> last{from[0], from[1]};
@@ -113,8 +125,8 @@ Answer PublishedBravais::flight_2d(const Ray& ray, double limit, Proposals& prop
     const double near = elapsed - dot(arm, v) / dot(v, v);
     const Vec there{ray.x[0] + near * ray.v[0], ray.x[1] + near * ray.v[1], 0};
     const Vec true_arm = relative(there, centre);
-    const auto entry = entry_time(true_arm, ray.v, radius_);
-    const bool is_ahead = near > dot(true_arm, ray.v) / dot(ray.v, ray.v);
+    const auto entry = entry_time(true_arm, true_v, radius_);
+    const bool is_ahead = near > dot(true_arm, true_v) / dot(true_v, true_v);
     if (entry && is_ahead && !(has_from && centre == from))
       return Answer::hit(obstacle_of(centre), std::max(near + *entry, 0.0));
     ++proposals.false_ellipse;
@@ -142,7 +154,7 @@ Answer PublishedBravais::flight_3d(const Ray& ray, double limit, Proposals& prop
     const double now = elapsed / speed;
     Vec there{};
     for (int k = 0; k < 3; ++k) there[k] = ray.x[k] + now * ray.v[k];
-    const auto entry = entry_time(relative(there, n), ray.v, radius_);
+    const auto entry = entry_time(relative(there, n), coordinates(shape_, ray.v), radius_);
     if (!entry && meets_ball) ++proposals.false_ellipse;
     if (!entry || !(*entry >= 0) || (has_from && n == from)) return std::nullopt;
     return *entry * speed;

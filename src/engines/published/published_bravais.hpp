@@ -1,6 +1,6 @@
-// The published algorithm for one ball on any Bravais lattice. The lattice is transformed to the square or
-// cubic one. There each obstacle is an ellipse, and the search uses its circumscribed ball. Private to
-// published*.cpp.
+// The published algorithm for one ball or ellipsoid on any Bravais lattice. The lattice is transformed to the
+// square or cubic one. There each obstacle is an ellipse, and the search uses its circumscribed ball. Private
+// to published*.cpp.
 #pragma once
 
 #include "src/engines/published/published.hpp"
@@ -31,11 +31,13 @@ class PublishedBravais {
   ObstacleId obstacle_of(const Vec& n) const;
 
   int dimension_, lattice_, atom_;
-  double radius_;  // in the scene
+  double radius_;  // of the ball in the scene, or of the unit ball that A^-1 makes of the ellipsoid
   Vec position_;
-  std::array<Vec, 3> vectors_{};  // the columns of M_so
-  std::array<Vec, 3> dual_{};     // the rows of M_os, its inverse
-  double circumscribed_ = 0;      // radius times the first singular value of M_os
+  std::array<Vec, 3> shape_{Vec{1, 0, 0}, Vec{0, 1, 0},
+                            Vec{0, 0, 1}};  // the rows of A^-1, or of 1 for a ball
+  std::array<Vec, 3> vectors_{};            // the columns of M_so
+  std::array<Vec, 3> dual_{};               // the rows of M_os, its inverse
+  double circumscribed_ = 0;                // the first singular value of M_os A; for a ball A is its radius
 };
 
 }  // namespace lorentz
