@@ -38,7 +38,7 @@ struct Bench {
 std::vector<Question> questions_of(const Bench& bench, const Cell& like) {
   const NumberFormat format = bench.claim.precision;
   const auto place = std::make_shared<Place>(
-      rounded_scene(load_scene(like.scene, like.radius), format, like.scene), Truth::oracle, bench.claim);
+      rounded_scene(load_scene(like.scene, like.radius), format, like.scene), bench.claim);
   const starts::Kind kind = like.difficulty == "drawn" ? starts::Kind::uniform
                                                        : starts::kind_named(like.difficulty, "--difficulty");
   return question::questions_of(
@@ -194,7 +194,7 @@ MeasuredCells measure_cells(const ExaminationOptions& options, const std::vector
     counts.push_back(affordable(bench, questions, engine, result.failed));
   const std::size_t most = *std::max_element(counts.begin(), counts.end());
   questions.resize(most < kFewestQueries ? 0 : most);
-  answer_exactly(questions, Truth::oracle, bench.asking.listener);
+  answer_exactly(questions, bench.asking.listener);
   for (Question& question : questions) question.condition = condition_of(question);
   std::vector<std::size_t> racing;
   for (std::size_t i = 0; i < engines.size(); ++i) {

@@ -39,7 +39,7 @@ void add_tally(json::Members& object, const Tally& t) {
 std::string json_of(const ExaminationOptions& options, const ComparedQuestions& questions,
                     const std::list<LineupEntry>& all) {
   return json::line_of([&](json::Members& object) {
-    object.add("scene", questions.title(), "seed", options.seed, "judge", options.judge);
+    object.add("scene", questions.title(), "seed", options.seed, "judge", "oracle");
     report::add_claim(object, options.claim.claim());
     object.add(
         "not_asked", questions.not_asked(), "outside_domain", questions.outside_domain(), "engines",
@@ -80,11 +80,9 @@ std::string text_of(const ExaminationOptions& options, const ComparedQuestions& 
                     const std::list<LineupEntry>& all) {
   const bool drawn = !options.queries;
   std::string text = fmt::format(
-      "{}: {} {} queries{}{}{}\n{}{}\n{}", questions.title(), questions.count(), drawn ? "drawn" : "given",
-      drawn ? ", seed " + std::to_string(options.seed) : "",
-      options.judge == "oracle" ? "" : ", judged by " + options.judge,
-      report::words_of(options.claim.claim()), drawn ? fmt::format("drawn: {}\n", starts::kVariedWords) : "",
-      not_asked_of(questions), table_of(all));
+      "{}: {} {} queries{}{}\n{}{}\n{}", questions.title(), questions.count(), drawn ? "drawn" : "given",
+      drawn ? ", seed " + std::to_string(options.seed) : "", report::words_of(options.claim.claim()),
+      drawn ? fmt::format("drawn: {}\n", starts::kVariedWords) : "", not_asked_of(questions), table_of(all));
   for (const LineupEntry& one : all)
     text += fmt::format("\n{}\n{}{}", verdict_of(one.total()),
                         one.failures.empty() ? "" : "  The first failures:\n", fmt::join(one.failures, ""));
@@ -99,8 +97,7 @@ std::vector<Question> examine_all(const ExaminationOptions& options, ComparedQue
   std::vector<Question> first;
   lineup.begin(options.queries ? "given" : "drawn");
   for (AskedPart part; !(part.questions = questions.next(kTogether)).empty();) {
-    answer_exactly(part.questions, truth_named(options.judge, {}), terminal(),
-                   static_cast<int>(options.jobs));
+    answer_exactly(part.questions, terminal(), static_cast<int>(options.jobs));
     questions.drop_outside(part.questions);
     lineup.pass_over(questions.passed_over());
     lineup.ask(part);
@@ -114,7 +111,6 @@ std::vector<Question> examine_all(const ExaminationOptions& options, ComparedQue
 int run_compare(ExaminationOptions options) {
   if (options.engines.empty() && options.answers.empty()) options.engines = {"classical", "published"};
   const std::vector<EngineInfo> engines = options.named_engines();
-  truth_named(options.judge, engines);  // throws
   if (!options.queries && !options.answers.empty())
     throw InputError("--answers needs --queries: the queries that were answered");
   options.claim.ask(engines);
@@ -136,11 +132,11 @@ Command compare_command() {
       "compare",
       "Engines, and answers that other programs logged, against the exact "
       "oracle: right or wrong, error, speed.",
-      options->rows({"--engine",    "--answers",        "--scene",    "--radius",        "--queries",
-                     "--jobs",      "--count",          "--seed",     "--disagreements", "--ulps",
-                     "--precision", "--time-tolerance", "--domain",   "--starts-inside", "--judge",
-                     "--timeout",   "--json",           "--failures", "--times",         "--strict",
-                     "--baseline",  "--junit"}),
+      options->rows({"--engine",    "--answers",        "--scene",  "--radius",        "--queries",
+                     "--jobs",      "--count",          "--seed",   "--disagreements", "--ulps",
+                     "--precision", "--time-tolerance", "--domain", "--starts-inside", "--timeout",
+                     "--json",      "--failures",       "--times",  "--strict",        "--baseline",
+                     "--junit"}),
 
       "wrong: another obstacle or outcome than any error of k ulps in the inputs explains. wrong time: the "
       "right obstacle,\nbut the time is off by more than k times what such errors make of it "

@@ -46,7 +46,7 @@ ComparedQuestions::ComparedQuestions(const ExaminationOptions& options, Disagree
 }
 
 void ComparedQuestions::enter(const Scene& scene) {
-  place_ = std::make_shared<Place>(scene, question::Truth::oracle, claim_);
+  place_ = std::make_shared<Place>(scene, claim_);
   disagreements_.begin(place_);
   is_new_ = true;
 }

@@ -60,7 +60,7 @@ class DemoReport {
       : options_(options_for(disagreements)), lineup_(options_, options_.named_engines()) {}
 
   void add(const std::string& what, std::vector<Question> questions) {
-    answer_exactly(questions, Truth::oracle, terminal());
+    answer_exactly(questions, terminal());
     lineup_.begin(what);
     const AskedPart part{std::move(questions)};
     lineup_.ask(part);

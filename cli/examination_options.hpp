@@ -19,7 +19,6 @@ struct ExaminationOptions {
   std::optional<double> ulps, timeout, seconds;
   std::optional<std::uint64_t> first, questions;
   std::uint64_t count = 10'000, seed = starts::kDefaultSeed, jobs = 1, failures = 3;
-  std::string judge = "oracle";
   ClaimOptions claim;
   FailureFiles files;
   bool json = false, all = false, strict = false, times = false, quick = false;

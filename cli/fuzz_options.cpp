@@ -82,7 +82,6 @@ fuzz::Plan plan_of(FuzzOptions options, const question::EngineInfo& engine) {
   plan.keep = options.keep;
   plan.mutate = options.mutate;
   plan.reword = options.reword;
-  plan.truth = truth_named(options.judge, {engine});
   plan.sought.times = options.times;
   plan.sought.undecided = options.undecided
                               ? index_of_name(*options.undecided, {"no", "yes"}, "--undecided") == 1
@@ -109,10 +108,9 @@ fuzz::CampaignManifest manifest_of(const fuzz::Plan& plan, const std::string& en
   manifest.claim = plan.claim;
   // Part of the identity of a stored campaign: a different text would be a different campaign.
   manifest.options =
-      fmt::format("ulps {}, variants of 1 in {}, reworded 1 in {}, {} kept{}{}{}", plan.sought.ulps,
+      fmt::format("ulps {}, variants of 1 in {}, reworded 1 in {}, {} kept{}{}", plan.sought.ulps,
                   plan.mutate, plan.reword, plan.keep, plan.sought.times ? ", times" : "",
-                  plan.sought.undecided ? "" : ", without undecided",
-                  plan.truth == fuzz::Truth::certified ? ", judged by certified" : "");
+                  plan.sought.undecided ? "" : ", without undecided");
   if (plan.scope.scenes != fuzz::Scope::Scenes::any)
     manifest.options += ", scenes " + name_of_scenes(plan.scope.scenes);
   manifest.options += report::words_of(plan.claim);
@@ -143,8 +141,8 @@ std::vector<Option> rows_of(FuzzOptions& options) {
        {"--first", &options.to_first, "", "stops at the first finding"},
        {"--undecided", &options.undecided, "yes|no",
         "whether `undecided` is a finding (default: yes, but for reduction and batch)"}},
-      options.rows({"--engine", "--seed", "--jobs", "--judge", "--ulps", "--precision", "--time-tolerance",
-                    "--domain", "--starts-inside", "--timeout", "--times", "--json"}));
+      options.rows({"--engine", "--seed", "--jobs", "--ulps", "--precision", "--time-tolerance", "--domain",
+                    "--starts-inside", "--timeout", "--times", "--json"}));
 }
 
 }  // namespace lorentz::cli

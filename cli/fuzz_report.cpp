@@ -118,9 +118,8 @@ std::string FuzzReport::target_table() const {
 
 std::string FuzzReport::text() const {
   std::string out = fmt::format(
-      "{}, seed {}: cases, and variants of some, judged by {}{}\n\n{}\n{}{}", manifest.engine, manifest.seed,
-      manifest.options.find("judged by certified") != std::string::npos ? "certified" : "the oracle",
-      report::words_of(manifest.claim), target_table(), layers(*this), bounds(*this));
+      "{}, seed {}: cases, and variants of some, judged by the oracle{}\n\n{}\n{}{}", manifest.engine,
+      manifest.seed, report::words_of(manifest.claim), target_table(), layers(*this), bounds(*this));
   if (findings.empty()) return out + "no findings\n";
   out += table_of(causes_of(findings));
   if (is_stored) return out;

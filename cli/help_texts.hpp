@@ -14,7 +14,4 @@ inline constexpr const char* kEngineHelp =
 inline constexpr const char* kTimeoutHelp =
     "how long a cmd: or lib: engine may take for an answer (default: 60)";
 
-inline constexpr const char* kJudgeHelp =
-    "the engine whose answers count as exact: oracle, or certified, which is faster and uses reduction";
-
 }  // namespace lorentz::cli

@@ -39,7 +39,7 @@ std::vector<double> TimedExamination::warm_up() {
   constexpr double kFast = 0.05;
   std::vector<double> seconds;
   if (!order_.engine.runs_apart()) return seconds;
-  const auto place = std::make_shared<Place>(unit_scene(2, 0.25), question::Truth::oracle, order_.claim);
+  const auto place = std::make_shared<Place>(unit_scene(2, 0.25), order_.claim);
   const Query along{{0.5, 0, 0}, {1, 0, 0}, {}};
   const Question question{
       .place = place, .query = along, .exact = place->exact(along), .where = "the first question"};

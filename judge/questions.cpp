@@ -139,7 +139,7 @@ std::optional<Question> question_in(const std::shared_ptr<Place>& place, const Q
 }
 
 std::shared_ptr<Place> place_for(const Scene& scene, const Claim& claim) {
-  return std::make_shared<Place>(rounded(scene, claim.precision), question::Truth::oracle, claim);
+  return std::make_shared<Place>(rounded(scene, claim.precision), claim);
 }
 
 Source drawn(const std::vector<NamedPlace>& places, starts::Kind kind, std::uint64_t seed, std::size_t count,

@@ -36,9 +36,7 @@ Example simplest(const Finding& finding, TimedExamination& examination, double s
   const auto start = Clock::now();
   std::optional<Example> last;
   const fuzz::StillFails same = fuzz::in_places(
-      [&](const Scene& scene) {
-        return std::make_shared<Place>(scene, question::Truth::oracle, examination.order().claim);
-      },
+      [&](const Scene& scene) { return std::make_shared<Place>(scene, examination.order().claim); },
       [&](const std::shared_ptr<Place>& place, const Query& query) {
         const Answer exact = place->exact(query);
         last = example_of({.place = place,

@@ -67,7 +67,7 @@ class PyOracle {
     const Claim claim = claim_of(claim_line);
     auto [query, exact] = question(text);
     const Answer given = read_answer(given_text, scene_);
-    const question::Place place(scene_, question::Truth::oracle, claim);
+    const question::Place place(scene_, claim);
     if (exact.outcome == Outcome::inside) exact = place.exact(query);
     const oracle::Judge& judge = claim == Claim() ? place_->judge() : place.judge();
     const oracle::Judgement judgement = judge.judge(query, exact, given, ulps);

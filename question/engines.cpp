@@ -117,15 +117,6 @@ std::vector<std::string> names_of(const std::vector<EngineInfo>& engines) {
   return names;
 }
 
-Truth truth_named(const std::string& name, const std::vector<EngineInfo>& judged) {
-  if (index_of_name(name, {"oracle", "certified"}, "--judge") == 0) return Truth::oracle;
-  for (const EngineInfo& engine : judged)
-    if (engine.traits.uses_reduction)
-      throw InputError(fmt::format(
-          "--judge: certified rests on reduction, and cannot judge the engine {}; use oracle", engine.name));
-  return Truth::certified;
-}
-
 EngineInfo guest_engine(std::string name,
                         std::function<std::unique_ptr<Answerer>(const AnswererOptions&)> make) {
   if (own_engine(name) || is_somebody_elses(name))

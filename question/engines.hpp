@@ -71,16 +71,6 @@ std::vector<std::string> names_of(const std::vector<EngineInfo>& engines);
 EngineInfo guest_engine(std::string name,
                         std::function<std::unique_ptr<Answerer>(const AnswererOptions&)> make);
 
-/// The engine whose answers are the truth by which other engines are judged.
-enum class Truth {
-  oracle,    ///< the exact oracle: shares no arithmetic with any engine
-  certified  ///< the same answers, many times faster, if the fast engine's filters are right
-};
-
-/// The truth that `--judge NAME` selects. Throws InputError for an unknown name, and if a judged engine rests
-/// on the engine that would judge it.
-Truth truth_named(const std::string& name, const std::vector<EngineInfo>& judged);
-
 /// Adds the detail to a hit that has a time and an obstacle of the scene, if binary64 can compute it.
 void add_detail(const Query& query, const Scene& scene, Answer& answer);
 

@@ -119,40 +119,9 @@ void in_stretches(std::size_t count, std::size_t jobs,
   for (std::future<void>& other : others) other.get();
 }
 
-namespace {
-
-constexpr const char* kExactAnswers = "exact answers";
-
-// Asks in the order of places, so that each batch engine is prepared once.
-void answer_by_certified(std::span<Question> questions, const Listener& listener, int jobs) {
-  std::vector<Question*> order;
-  for (Question& question : questions) order.push_back(&question);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const Question* a, const Question* b) { return a->place < b->place; });
-  std::size_t told = 0;
-  AnswererOptions options;
-  options.jobs = jobs;
-  const auto certified = engine_named("certified-batch").answerer(options);
-  certified->on_reply([&](Reply& reply) {
-    Question& question = *order[told++];
-    question.exact = std::move(reply.answer);
-    const bool by_other_rule = question.place->claim().inside != StartInside::inside;
-    if (by_other_rule && question.exact.outcome == Outcome::inside)
-      question.exact = question.place->exact(question.query);
-    report(listener, kExactAnswers, told, order.size());
-  });
-  for (const Question* question : order) {
-    certified->set_scene(question->place->scene());
-    certified->ask(question->id, question->query);
-  }
-  certified->finish();
-}
-
-}  // namespace
-
-void answer_exactly(std::span<Question> questions, Truth truth, const Listener& listener, int jobs) {
-  if (truth == Truth::certified) return answer_by_certified(questions, listener, jobs);
-  for (const Question& question : questions) question.place->oracle();  // made here, too
+void answer_exactly(std::span<Question> questions, const Listener& listener, int jobs) {
+  for (const Question& question : questions)
+    question.place->oracle();  // made here, because threads may only read it
   std::mutex mutex;
   std::size_t done = 0;
   in_stretches(questions.size(), static_cast<std::size_t>(jobs),
@@ -160,7 +129,7 @@ void answer_exactly(std::span<Question> questions, Truth truth, const Listener& 
                  for (Question& question : questions.subspan(begin, end - begin)) {
                    question.exact = question.place->exact(question.query);
                    const std::lock_guard lock(mutex);
-                   report(listener, kExactAnswers, ++done, questions.size());
+                   report(listener, "exact answers", ++done, questions.size());
                  }
                });
 }

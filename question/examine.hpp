@@ -53,6 +53,6 @@ void in_stretches(std::size_t count, std::size_t jobs,
                   const std::function<void(std::size_t job, std::size_t begin, std::size_t end)>& act);
 
 /// Sets the exact answer of each question, on `jobs` threads.
-void answer_exactly(std::span<Question> questions, Truth truth, const Listener& listener = {}, int jobs = 1);
+void answer_exactly(std::span<Question> questions, const Listener& listener = {}, int jobs = 1);
 
 }  // namespace lorentz::question

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include <lorentz/certified.hpp>
 #include <lorentz/exchange.hpp>
 #include <lorentz/margin.hpp>
 #include <lorentz/oracle.hpp>
@@ -19,15 +18,14 @@
 
 namespace lorentz::question {
 
-/// A valid scene, and the engine whose answers are the truth in it. Oracle, judge and margins are made when
+/// A valid scene. Oracle, judge and margins are made when
 /// they are first needed, because many scenes never need one. One thread must make each; after that any
 /// number of threads may use it.
 class Place {
  public:
   /// Judge and margins count in ulps of the claim's precision.
-  explicit Place(Scene scene, Truth truth = Truth::oracle, const Claim& claim = {})
+  explicit Place(Scene scene, const Claim& claim = {})
       : scene_(std::move(scene)),
-        truth_(truth),
         claim_(claim),
         is_in_its_numbers_(consists_of(scene_, claim.precision)),
         is_in_its_domain_(claim.domain.has(scene_)) {}
@@ -60,8 +58,7 @@ class Place {
   /// The true answer to a valid query, by the claim's rule for starts inside.
   Answer exact(const Query& query, oracle::Request request = {}) const {
     request.start = claim_.inside;
-    return truth_ == Truth::oracle ? oracle().first_hit(query, request)
-                                   : made(certified_).first_hit(query, request);
+    return oracle().first_hit(query, request);
   }
 
   /// Records the result of a question in this scene.
@@ -94,11 +91,9 @@ class Place {
   }
 
   const Scene scene_;
-  const Truth truth_;
   const Claim claim_;
   const bool is_in_its_numbers_, is_in_its_domain_;
   mutable std::unique_ptr<oracle::Oracle> oracle_;
-  mutable std::unique_ptr<oracle::Certified> certified_;
   mutable std::unique_ptr<oracle::Judge> judge_;
   mutable std::unique_ptr<oracle::Margins> margins_;
   std::size_t asked_ = 0, unsupported_ = 0;

@@ -48,8 +48,7 @@ struct Plan {
   std::uint64_t keep = 3;     ///< findings of each sort and target that are kept and shrunk; all are counted
   std::uint64_t mutate = 32;  ///< a climb starts from one in `mutate` cases; 0: from none
   std::uint64_t reword =
-      1;  ///< one in `reword` cases, with its variants, is also asked in other words; 0: none
-  Truth truth = Truth::oracle;
+      1;             ///< one in `reword` cases, with its variants, is also asked in other words; 0: none
   Claim claim = {};  ///< of the engine: cases consist of its numbers, and answers are judged by it
 };
 

@@ -33,7 +33,6 @@ using question::Answerer;
 using question::Place;
 using question::Question;
 using question::Reply;
-using question::Truth;
 
 /// Makes the answerers that a campaign examines.
 question::MakeAnswerer answerer_maker(const question::EngineInfo& engine,

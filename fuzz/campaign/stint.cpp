@@ -25,7 +25,7 @@ constexpr double kShrinkWork = 1.5e7;
 constexpr std::uint64_t kWordings = 3, kCasesPerLimit = 4;
 
 std::shared_ptr<Place> place_in(const Scene& scene, const Plan& plan) {
-  return std::make_shared<Place>(scene, plan.truth, plan.claim);
+  return std::make_shared<Place>(scene, plan.claim);
 }
 
 Examiner examiner_in(const Scene& scene, Answerer& answerer, const Plan& plan) {

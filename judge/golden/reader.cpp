@@ -410,8 +410,7 @@ question::Source questions_of(Reader& reader, const Claim& claim) {
           place = std::shared_ptr<question::Place>()]() mutable -> std::optional<question::Question> {
     ReadRecord read;
     if (!reader.next(read)) return std::nullopt;
-    if (scene != reader.scene_number())
-      place = std::make_shared<question::Place>(reader.scene(), question::Truth::oracle, claim);
+    if (scene != reader.scene_number()) place = std::make_shared<question::Place>(reader.scene(), claim);
     scene = reader.scene_number();
     Record& record = read.record;
     if (claim.inside != StartInside::inside && record.expect.outcome == Outcome::inside && read.query)

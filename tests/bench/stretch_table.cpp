@@ -110,7 +110,7 @@ std::string row(const Family& family, double relative_radius, std::size_t count,
   const auto place = std::make_shared<question::Place>(scene);
   std::vector<question::Question> questions = question::questions_of(
       place, starts::free_starts(scene, starts::Kind::uniform, starts::kDefaultSeed, count));
-  question::answer_exactly(questions, question::Truth::oracle);
+  question::answer_exactly(questions);
   const auto engines = question::engines_named({"published", "reduction"});
   std::size_t wrong = 0;
   question::examine(

@@ -277,40 +277,6 @@ TEST_CASE("compare accuses no engine where it cannot judge", "[cli][compare_comm
             .status == 2);
 }
 
-TEST_CASE("compare --judge certified: the same verdicts, and none of what rests on reduction",
-          "[cli][compare_command]") {
-  const Folder folder;
-  const std::string arguments =
-      "compare --scene cubic --radius 0.1 --count 3000 --seed 5 --engine published --times";
-  const auto departures = [&](const std::string& judge) {
-    const std::string file = folder.file(judge);
-    const Run run = folder.lorentz(arguments + " --judge " + judge + " --disagreements " + file);
-    CHECK(run.status == 1);
-    CHECK(contains(run.out, ", judged by certified") == (judge == "certified"));
-    return folder.read(judge);
-  };
-  const std::string by_oracle = departures("oracle");
-  CHECK(contains(by_oracle, "\"wrong\""));
-  CHECK(departures("certified") == by_oracle);
-  const auto judge_of = [&](const std::string& more) {
-    const std::string json =
-        folder.lorentz("compare --count 3 --engine published --json --seed 5" + more).out;
-    const auto from = json.find("\"judge\":"), to = json.find(",\"precision\"");
-    return json.substr(from, to - from);
-  };
-  CHECK(judge_of("") == R"("judge":"oracle")");
-  CHECK(judge_of(" --judge certified") == R"("judge":"certified")");
-  const auto refused = [&](const std::string& more) {
-    const Run run = folder.lorentz("compare --count 3 --judge " + more);
-    CHECK(run.status == 2);
-    return run.err;
-  };
-  for (const char* engine : {"reduction", "certified", "batch", "certified-batch"})
-    CHECK(contains(refused("certified -e published," + std::string(engine)),
-                   "cannot judge the engine " + std::string(engine) + "; use oracle"));
-  CHECK(contains(refused("nobody"), "\"nobody\" is not one of oracle, certified"));
-}
-
 TEST_CASE("compare is repeatable, and --strict counts undecided answers", "[cli][compare_command]") {
   const Folder folder;
   const std::string arguments =
@@ -595,8 +561,7 @@ TEST_CASE("Logged answers keep up with more queries than are judged together", "
   const std::string queries = folder.lorentz("sample --count 20100 --radius 0.1").out;
   folder.write("q", queries);
   folder.write("a", folder.lorentz("first-hit -e reduction " + folder.file("q")).out);
-  const std::string what =
-      "compare --judge certified --queries " + folder.file("q") + " --answers mine=" + folder.file("a");
+  const std::string what = "compare --queries " + folder.file("q") + " --answers mine=" + folder.file("a");
   const Run whole = folder.lorentz(what);
   INFO(whole.out << whole.err);
   CHECK(whole.status == 0);

@@ -59,36 +59,6 @@ TEST_CASE("A tally's errors of times: the largest, the mean, and what a share of
   CHECK(question::quantile(tally.ulps, 1) == 10);
 }
 
-TEST_CASE("Exact answers are the same from the oracle and from certified, scenes mixed",
-          "[compare][examine]") {
-  constexpr std::uint64_t kSeed = 4711;
-  const auto catalogue = test::all_scenes();
-  std::vector<std::vector<Question>> by_place;
-  for (const char* name : {"square", "honeycomb", "cubic", "ellipsoids-mixed"}) {
-    const auto place = std::make_shared<Place>(catalogue.at(name));
-    std::vector<Query> queries = starts::free_starts(place->scene(), starts::Kind::grazing, kSeed, 100);
-    // Tangent to discs on both sides, along a lattice vector; and an obstacle left that no column can name.
-    queries.push_back({{0.25, 0.5, 0}, {1, 0, 0}, {}});
-    const Integer far = *Integer::from_decimal("100000000000000000000");
-    queries.push_back({queries[0].x, {1, 0.25, 0}, ObstacleId{0, 0, {far, 0, 0}}});
-    by_place.push_back(question::questions_of(place, queries));
-  }
-  std::vector<Question> questions;
-  for (std::size_t i = 0; i < by_place[0].size(); ++i)
-    for (const std::vector<Question>& some : by_place) questions.push_back(some[i]);
-  std::vector<Question> certified = questions;
-  question::answer_exactly(questions, question::Truth::oracle);
-  question::answer_exactly(certified, question::Truth::certified);
-  std::map<Outcome, int> met;
-  for (std::size_t i = 0; i < questions.size(); ++i) {
-    INFO(test::stream(questions[i].place->scene(), questions[i].query) << "seed " << kSeed);
-    ++met[questions[i].exact.outcome];
-    CHECK(test::same(questions[i].exact, certified[i].exact));
-  }
-  CHECK(met[Outcome::hit] > 380);
-  CHECK(met[Outcome::never] + met[Outcome::inside] > 0);
-}
-
 TEST_CASE("Where no judge is needed the judgement is the judge's", "[compare][examine]") {
   const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
   const Query outside{{0.5, 0.125}, {1, 0}, {}}, inside{{0.1, 0}, {1, 0}, {}}, never{{0.5, 0.5}, {1, 0}, {}};
@@ -103,8 +73,7 @@ TEST_CASE("Where no judge is needed the judgement is the judge's", "[compare][ex
       CHECK((one.verdict == two.verdict && one.ulps == two.ulps && one.departs == two.departs));
     }
   // By another rule `inside` is wrong, also where a logged truth says it.
-  const auto other = std::make_shared<Place>(unit_scene(2, 0.25), question::Truth::oracle,
-                                             Claim{.inside = StartInside::miss});
+  const auto other = std::make_shared<Place>(unit_scene(2, 0.25), Claim{.inside = StartInside::miss});
   const Answer logged = place->exact(inside);
   const Question asked{.place = other, .query = inside, .exact = logged};
   CHECK(question::judgement_of(asked, logged, 4).verdict == Verdict::wrong);
@@ -147,7 +116,7 @@ std::vector<Question> diagonals() {
     const std::vector<Query> queries(20, Query{{0.5, 0.5, z / 2}, {1, 1, z}, {}});
     for (Question& question : question::questions_of(place, queries)) questions.push_back(question);
   }
-  question::answer_exactly(questions, question::Truth::oracle);
+  question::answer_exactly(questions);
   return questions;
 }
 
@@ -271,7 +240,7 @@ TEST_CASE("Threads come to what one comes to, in the order of the questions", "[
       questions.push_back(std::move(question));
   }
   std::vector<Question> alone = questions;
-  question::answer_exactly(alone, question::Truth::oracle);
+  question::answer_exactly(alone);
   const question::EngineInfo engine = question::engine_named("published");
   const auto run = [&](std::size_t jobs) {
     question::Examination examination(engine, {}, 4, jobs);
@@ -286,7 +255,7 @@ TEST_CASE("Threads come to what one comes to, in the order of the questions", "[
   for (const int jobs : {2, 3, 64, 301}) {
     INFO(jobs);
     std::vector<Question> together = questions;
-    question::answer_exactly(together, question::Truth::oracle, {}, jobs);
+    question::answer_exactly(together, {}, jobs);
     for (std::size_t i = 0; i < questions.size(); ++i) CHECK(test::same(alone[i].exact, together[i].exact));
     CHECK(run(static_cast<std::size_t>(jobs)) == one);
   }

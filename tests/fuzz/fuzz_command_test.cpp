@@ -166,8 +166,7 @@ TEST_CASE("It says which layers decided, and who judged", "[fuzz][fuzz_command]"
   CHECK(number("double_double") > 0);
   CHECK(number("exact") == number("undecided"));
   CHECK(number("binary64") + number("double_double") + number("exact") == 300 - number("unsupported"));
-  const Run classical = folder.lorentz("fuzz -e classical -t large-radius --count 100 --judge certified");
-  CHECK(contains(classical.out, "judged by certified"));
+  const Run classical = folder.lorentz("fuzz -e classical -t large-radius --count 100");
   CHECK_FALSE(contains(classical.out, "decided in binary64"));
 }
 
@@ -475,9 +474,6 @@ TEST_CASE("Bad options are refused before any work, with what would do", "[fuzz]
   refused("--mutate -1", "--mutate: ");
   refused("--ulps 1e9", "--ulps: 1000000000 is above 1048576");
   refused("--undecided perhaps", "--undecided: \"perhaps\" is not one of no, yes");
-  refused("--judge nobody", "--judge: \"nobody\" is not one of oracle, certified");
-  refused("--judge certified -e reduction",
-          "certified rests on reduction, and cannot judge the engine reduction");
   refused("--timeout 0", "--timeout: must be above zero");
   refused("--scenes cubes", "--scenes: \"cubes\" is not one of unit, lattice, ball, any");
   refused("-t superpositions --scenes unit", "--target: superpositions has no such scenes as --scenes and");
