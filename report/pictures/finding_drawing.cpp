@@ -102,99 +102,93 @@ class Sheet {
   /// `given` and `exact` are in the original unit; `finding` has them in its own.
   Sheet(const FindingCase& finding, const Answer* given, const Answer& exact)
       : case_(finding), given_(given), exact_(exact) {}
-  std::string draw();
+
+  std::string draw() {
+    double y = 17;
+    add_answer(y, "exact", exact_, kExactInk, outline(kExactInk, 2.6));
+    if (given_) add_answer(y += 3, "given", *given_, kGivenInk, outline(kGivenInk, 1.8) + kGivenDashes);
+    add_text(y += 5, shortened(case_.words, 400), 82, " font-weight=\"bold\" font-size=\"12\"");
+    const double lower = std::max(y - kHeadEnds, 0.0);  // how much lower than with a short text
+    svg_.raw(fmt::format("<g transform=\"translate(0,{:.0f})\">\n", lower));
+    const bool has_inset = case_.issue != Issue::none;
+    const FlightPanel flight = draw_flight(svg_, case_, has_inset ? kFlightPanel : kWholePanel);
+    if (has_inset)
+      add_details(flight);
+    else if (!flight.notes.empty())
+      add_text(y = kHeight - 4, flight.notes[0], 100, " font-size=\"11\"");
+    svg_.close();
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
+        "style=\"max-width:100%;height:auto\" role=\"img\" aria-label=\"{2}\" "
+        "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\">\n"
+        "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" {3}/>\n{4}</svg>\n",
+        kWidth, kHeight + lower, xml_escaped(label()), paint(kPaper), svg_.body());
+  }
 
  private:
-  void add_answer(double& y, const char* who, const Answer& answer, Ink ink, const std::string& style);
-  void add_text(double& y, const std::string& text, std::size_t letters, const std::string& style);
-  void add_details(const FlightPanel& flight);
-  void add_inset(const FlightPanel& flight);
-  std::string label() const;
+  // Adds an answer's text, and a sample of its line in the picture. Cells may have very large numbers.
+  void add_answer(double& y, const char* who, const Answer& answer, Ink ink, const std::string& style) {
+    constexpr std::size_t kLetters = 86, kMost = 5 * kLetters;
+    const std::string words = fmt::format("{}: {}", who, words_of(case_, answer));
+    open_hint(svg_, words);
+    svg_.polyline({{12, y - 4}, {42, y - 4}}, style);
+    for (const std::string& line : wrapped(shortened(words, kMost), kLetters)) {
+      svg_.text({50, y}, shortened(line, kLetters), paint(ink) + " font-size=\"12\"");
+      y += kLine;
+    }
+    svg_.close();
+  }
+
+  void add_text(double& y, const std::string& text, std::size_t letters, const std::string& style) {
+    for (const std::string& line : wrapped(text, letters)) {
+      svg_.text({12, y}, shortened(line, letters), paint(kInk) + style);
+      y += kLine;
+    }
+  }
+
+  // Adds the parts below the flight.
+  void add_details(const FlightPanel& flight) {
+    const bool in_space = case_.scene.dimension == 3;
+    double y = kInsetPanel.top + 8;
+    const std::size_t letters = in_space ? 28 : 46;
+    add_text(y, case_.margin, letters, " font-size=\"11\"");
+    for (const std::string& note : flight.notes) add_text(y, note, letters, " font-size=\"11\"");
+    if (in_space) draw_side_view(svg_, case_, kSidePanel);
+    add_inset(flight);
+  }
+
+  // Adds the inset, and a square around the part that it shows.
+  void add_inset(const FlightPanel& flight) {
+    if (flight.at) {
+      const Point at = *flight.at;
+      const Panel seen{at.x - 6, at.y - 6, 12, 12};
+      frame(svg_, seen, outline(kInk, 1.2));
+      svg_.polyline({{seen.left, seen.bottom()}, {kInsetPanel.left, kInsetPanel.top}},
+                    outline(kFaintInk, 0.6));
+      svg_.polyline({{seen.right(), seen.bottom()}, {kInsetPanel.right(), kInsetPanel.top}},
+                    outline(kFaintInk, 0.6));
+    }
+    const double scale = draw_inset(svg_, case_, kInsetPanel);
+    const double before = flight.scale / case_.in_radii(1);
+    std::string words = fmt::format("magnified {} times", in_short(scale / before));
+    if (!case_.atom_of(case_.obstacle).is_ball())
+      words += case_.scene.dimension == 2 ? "; coordinates in which the ellipse is a disc"
+                                          : "; coordinates in which the ellipsoid is a ball";
+    svg_.text({kInsetPanel.right(), kInsetPanel.top - 5}, words,
+              paint(kInk, kPaper, 3) + " paint-order=\"stroke\" font-size=\"11\" text-anchor=\"end\"");
+  }
+
+  std::string label() const {
+    std::string label = "A flight. Exact: " + words_of(case_, exact_) + '.';
+    if (given_) label += " Given: " + words_of(case_, *given_) + '.';
+    return label + (case_.words.empty() ? "" : ' ' + case_.words + '.');
+  }
 
   const FindingCase& case_;
   const Answer* const given_;
   const Answer& exact_;
   Svg svg_;
 };
-
-// Adds an answer's text, and a sample of its line in the picture. Cells may have very large numbers.
-void Sheet::add_answer(double& y, const char* who, const Answer& answer, Ink ink, const std::string& style) {
-  constexpr std::size_t kLetters = 86, kMost = 5 * kLetters;
-  const std::string words = fmt::format("{}: {}", who, words_of(case_, answer));
-  open_hint(svg_, words);
-  svg_.polyline({{12, y - 4}, {42, y - 4}}, style);
-  for (const std::string& line : wrapped(shortened(words, kMost), kLetters)) {
-    svg_.text({50, y}, shortened(line, kLetters), paint(ink) + " font-size=\"12\"");
-    y += kLine;
-  }
-  svg_.close();
-}
-
-void Sheet::add_text(double& y, const std::string& text, std::size_t letters, const std::string& style) {
-  for (const std::string& line : wrapped(text, letters)) {
-    svg_.text({12, y}, shortened(line, letters), paint(kInk) + style);
-    y += kLine;
-  }
-}
-
-// Adds the parts below the flight.
-void Sheet::add_details(const FlightPanel& flight) {
-  const bool in_space = case_.scene.dimension == 3;
-  double y = kInsetPanel.top + 8;
-  const std::size_t letters = in_space ? 28 : 46;
-  add_text(y, case_.margin, letters, " font-size=\"11\"");
-  for (const std::string& note : flight.notes) add_text(y, note, letters, " font-size=\"11\"");
-  if (in_space) draw_side_view(svg_, case_, kSidePanel);
-  add_inset(flight);
-}
-
-// Adds the inset, and a square around the part that it shows.
-void Sheet::add_inset(const FlightPanel& flight) {
-  if (flight.at) {
-    const Point at = *flight.at;
-    const Panel seen{at.x - 6, at.y - 6, 12, 12};
-    frame(svg_, seen, outline(kInk, 1.2));
-    svg_.polyline({{seen.left, seen.bottom()}, {kInsetPanel.left, kInsetPanel.top}}, outline(kFaintInk, 0.6));
-    svg_.polyline({{seen.right(), seen.bottom()}, {kInsetPanel.right(), kInsetPanel.top}},
-                  outline(kFaintInk, 0.6));
-  }
-  const double scale = draw_inset(svg_, case_, kInsetPanel);
-  const double before = flight.scale / case_.in_radii(1);
-  std::string words = fmt::format("magnified {} times", in_short(scale / before));
-  if (!case_.atom_of(case_.obstacle).is_ball())
-    words += case_.scene.dimension == 2 ? "; coordinates in which the ellipse is a disc"
-                                        : "; coordinates in which the ellipsoid is a ball";
-  svg_.text({kInsetPanel.right(), kInsetPanel.top - 5}, words,
-            paint(kInk, kPaper, 3) + " paint-order=\"stroke\" font-size=\"11\" text-anchor=\"end\"");
-}
-
-std::string Sheet::label() const {
-  std::string label = "A flight. Exact: " + words_of(case_, exact_) + '.';
-  if (given_) label += " Given: " + words_of(case_, *given_) + '.';
-  return label + (case_.words.empty() ? "" : ' ' + case_.words + '.');
-}
-
-std::string Sheet::draw() {
-  double y = 17;
-  add_answer(y, "exact", exact_, kExactInk, outline(kExactInk, 2.6));
-  if (given_) add_answer(y += 3, "given", *given_, kGivenInk, outline(kGivenInk, 1.8) + kGivenDashes);
-  add_text(y += 5, shortened(case_.words, 400), 82, " font-weight=\"bold\" font-size=\"12\"");
-  const double lower = std::max(y - kHeadEnds, 0.0);  // how much lower than with a short text
-  svg_.raw(fmt::format("<g transform=\"translate(0,{:.0f})\">\n", lower));
-  const bool has_inset = case_.issue != Issue::none;
-  const FlightPanel flight = draw_flight(svg_, case_, has_inset ? kFlightPanel : kWholePanel);
-  if (has_inset)
-    add_details(flight);
-  else if (!flight.notes.empty())
-    add_text(y = kHeight - 4, flight.notes[0], 100, " font-size=\"11\"");
-  svg_.close();
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-      "style=\"max-width:100%;height:auto\" role=\"img\" aria-label=\"{2}\" "
-      "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\">\n"
-      "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" {3}/>\n{4}</svg>\n",
-      kWidth, kHeight + lower, xml_escaped(label()), paint(kPaper), svg_.body());
-}
 
 bool can_be_drawn(const Scene& scene, const Query& query, const Answer& exact) {
   if (flaw_of(scene) || flaw_of(query, scene)) return false;

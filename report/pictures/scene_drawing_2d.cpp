@@ -179,11 +179,59 @@ class Picture2D {
         legend_.cell = scene.lattices.size() > 1 ? "a cell of lattice 0" : "a primitive cell";
   }
 
-  Drawing draw();
+  Drawing draw() {
+    constexpr double kTallest = 1000;
+    legend_.notes = drawing_.remarks;
+    Legend about = legend_;  // with everything that may be added
+    about.hits = about.goes_on = !lines_.empty();
+    for (std::size_t i = 0; i < options_.ways.size(); ++i) about.ways.push_back(i);
+    // The picture is as large as the page allows, in its middle.
+    const Page page(scene_, options_, about, kTallest);
+    window_.scale = std::min(page.width / window_.box.width(), page.height / window_.box.height());
+    window_.left = kMargin + (page.width - window_.width()) / 2;
+    window_.top = page.top;
+    const Point low = window_({window_.box.low[0], window_.box.high[1], 0});
+    svg_.raw(
+        fmt::format("<clipPath id=\"window\"><rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" "
+                    "height=\"{:.2f}\"/></clipPath>\n",
+                    low.x, low.y, window_.width(), window_.height()));
+    svg_.open("clip-path=\"url(#window)\"");
+    add_contents();
+    svg_.close();
+    const double right = low.x + window_.width(), bottom = low.y + window_.height();
+    svg_.rectangle(low, {right, bottom}, "fill=\"none\" stroke=\"#aaaaaa\"");
+    if (enlarged_) legend_.notes.push_back("The obstacles are smaller than they are drawn.");
+    drawing_.svg = finished(svg_, scene_, options_, legend_, bottom);
+    return std::move(drawing_);
+  }
 
  private:
-  void choose_obstacles();
-  void add_contents();
+  void choose_obstacles() {
+    bool cut = false;
+    obstacles_ = obstacles_in(scene_, window_.box, cut);
+    const bool from_middle = lines_.empty() || options_.window;
+    thin_out(obstacles_, from_middle ? window_.box.centre() : lines_[0].from, drawing_.remarks);
+    if (cut) drawing_.remarks.push_back("some lattices are too fine for this picture and left out");
+    for (const Placed& hit : hits_of(scene_, lines_)) {
+      const Atom& atom = scene_.lattices[hit.lattice].atoms[hit.atom];
+      if (window_.box.contains(hit.centre, principal_semiaxes(atom, 2)[0])) hits_.push_back(hit);
+    }
+    for (const auto* some : {&obstacles_, &hits_})
+      for (const Placed& obstacle : *some) legend_.atoms.insert({obstacle.lattice, obstacle.atom});
+  }
+
+  void add_contents() {
+    if (scene_.lattices[0].missing == 0) add_grid(svg_, scene_, window_, corner_);
+    for (std::size_t i = 0; i < options_.ways.size(); ++i)
+      if (add_corridor(svg_, scene_, window_, options_.ways[i], way_colour(i))) legend_.ways.push_back(i);
+    for (const Placed& obstacle : obstacles_) add_disc(svg_, scene_, window_, obstacle, false, enlarged_);
+    for (const Placed& obstacle : hits_) add_disc(svg_, scene_, window_, obstacle, true, enlarged_);
+    const auto corners = corners_of(scene_, corner_);
+    if (!legend_.cell.empty())
+      svg_.polygon({window_(corners[0]), window_(corners[1]), window_(corners[2]), window_(corners[3])},
+                   "fill=\"none\" stroke=\"#222222\" stroke-width=\"1.6\" stroke-linejoin=\"round\"");
+    for (const DrawnLine& line : lines_) add_way(svg_, window_, line, legend_);
+  }
 
   const Scene& scene_;
   const DrawOptions& options_;
@@ -196,59 +244,6 @@ class Picture2D {
   Vec corner_{};
   bool enlarged_ = false;
 };
-
-void Picture2D::choose_obstacles() {
-  bool cut = false;
-  obstacles_ = obstacles_in(scene_, window_.box, cut);
-  const bool from_middle = lines_.empty() || options_.window;
-  thin_out(obstacles_, from_middle ? window_.box.centre() : lines_[0].from, drawing_.remarks);
-  if (cut) drawing_.remarks.push_back("some lattices are too fine for this picture and left out");
-  for (const Placed& hit : hits_of(scene_, lines_)) {
-    const Atom& atom = scene_.lattices[hit.lattice].atoms[hit.atom];
-    if (window_.box.contains(hit.centre, principal_semiaxes(atom, 2)[0])) hits_.push_back(hit);
-  }
-  for (const auto* some : {&obstacles_, &hits_})
-    for (const Placed& obstacle : *some) legend_.atoms.insert({obstacle.lattice, obstacle.atom});
-}
-
-void Picture2D::add_contents() {
-  if (scene_.lattices[0].missing == 0) add_grid(svg_, scene_, window_, corner_);
-  for (std::size_t i = 0; i < options_.ways.size(); ++i)
-    if (add_corridor(svg_, scene_, window_, options_.ways[i], way_colour(i))) legend_.ways.push_back(i);
-  for (const Placed& obstacle : obstacles_) add_disc(svg_, scene_, window_, obstacle, false, enlarged_);
-  for (const Placed& obstacle : hits_) add_disc(svg_, scene_, window_, obstacle, true, enlarged_);
-  const auto corners = corners_of(scene_, corner_);
-  if (!legend_.cell.empty())
-    svg_.polygon({window_(corners[0]), window_(corners[1]), window_(corners[2]), window_(corners[3])},
-                 "fill=\"none\" stroke=\"#222222\" stroke-width=\"1.6\" stroke-linejoin=\"round\"");
-  for (const DrawnLine& line : lines_) add_way(svg_, window_, line, legend_);
-}
-
-Drawing Picture2D::draw() {
-  constexpr double kTallest = 1000;
-  legend_.notes = drawing_.remarks;
-  Legend about = legend_;  // with everything that may be added
-  about.hits = about.goes_on = !lines_.empty();
-  for (std::size_t i = 0; i < options_.ways.size(); ++i) about.ways.push_back(i);
-  // The picture is as large as the page allows, in its middle.
-  const Page page(scene_, options_, about, kTallest);
-  window_.scale = std::min(page.width / window_.box.width(), page.height / window_.box.height());
-  window_.left = kMargin + (page.width - window_.width()) / 2;
-  window_.top = page.top;
-  const Point low = window_({window_.box.low[0], window_.box.high[1], 0});
-  svg_.raw(
-      fmt::format("<clipPath id=\"window\"><rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" "
-                  "height=\"{:.2f}\"/></clipPath>\n",
-                  low.x, low.y, window_.width(), window_.height()));
-  svg_.open("clip-path=\"url(#window)\"");
-  add_contents();
-  svg_.close();
-  const double right = low.x + window_.width(), bottom = low.y + window_.height();
-  svg_.rectangle(low, {right, bottom}, "fill=\"none\" stroke=\"#aaaaaa\"");
-  if (enlarged_) legend_.notes.push_back("The obstacles are smaller than they are drawn.");
-  drawing_.svg = finished(svg_, scene_, options_, legend_, bottom);
-  return std::move(drawing_);
-}
 
 }  // namespace
 
