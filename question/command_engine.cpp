@@ -14,7 +14,8 @@
 #include <set>
 
 #include <lorentz/exchange.hpp>
-#include "question/external_answerer.hpp"
+#include "question/complaints.hpp"
+#include "question/engines.hpp"
 #include "question/library_program.hpp"
 #include "question/process.hpp"
 #include "question/scene_engine.hpp"
@@ -32,6 +33,7 @@ constexpr double kBetweenLooks = 0.1;                 // seconds between calls o
 constexpr std::chrono::milliseconds kGrace{1000};     // to end, once its input or its output is closed
 constexpr std::chrono::milliseconds kLastGrace{250};  // the same if it is enough
 constexpr std::size_t kRecent = 64;
+constexpr int kMostFailuresInRow = 5;  // queries without an answer, after which it is given up
 
 std::string shown(std::string_view text) {
   // Quotes are not escaped here: that happens once, where the message becomes part of an answer.
@@ -59,14 +61,16 @@ std::uint64_t number_of(const Id& id) {
 // A library is asked by a program of ours, whose manner is known: it answers all that it has been asked, many
 // queries a call. The query at fault is one on which it fails as the first after a start. So after a failure
 // the next start gets the same queries, one a call.
-class CommandEngine final : public ExternalAnswerer {
+class CommandEngine final : public Answerer {
  public:
   /// Makes the program; `row_by_row`: of a library (library_program).
   using MakeProgram = std::function<Executable(bool row_by_row)>;
 
   CommandEngine(MakeProgram program, const std::string& kind, const std::string& name,
                 const AnswererOptions& options)
-      : ExternalAnswerer(kind, name, options),
+      : options_(options),
+        kind_(kind),
+        complaints_(kind + ':' + name, options.listener),
         program_(std::move(program)),
         is_library_(kind == "lib"),
         manner_(is_library_ ? Manner::line_by_line : Manner::unknown),
@@ -93,8 +97,19 @@ class CommandEngine final : public ExternalAnswerer {
 
   void finish() override {
     while (run_ || !open_.empty()) step(Wait::for_good);
-    finish_complaints();
+    complaints_.finish();
   }
+
+  bool failed() const override { return failed_; }
+  bool given_up() const override { return given_up_; }
+  bool is_hopeless() const override { return given_up_ && !ever_answered_; }
+  void try_again() override {
+    if (!given_up_ || is_hopeless()) return;
+    given_up_ = false;
+    failures_in_row_ = 0;
+  }
+  std::optional<OwnTime> own_time() const override { return own_time_; }
+  std::uint64_t batch_size() const override { return 256; }
 
   bool idle(int descriptor) override {
     if (open_.empty()) return false;
@@ -195,7 +210,7 @@ class CommandEngine final : public ExternalAnswerer {
     // The program may have ended by itself meanwhile; then the next query is not at fault.
     if (run_ && run_->outstanding == 0 && run_->given > 0) read();
     if (!run_ && open_.empty()) return;
-    if (is_enough()) return abandon();
+    if (options_.enough && options_.enough()) return abandon();
     if (!run_) start();
     const std::shared_ptr<Run> run = run_;  // keeps it alive if it ends below
     encode();
@@ -221,7 +236,7 @@ class CommandEngine final : public ExternalAnswerer {
                                               Seconds(Clock::now() - run_->started).count()));
     if (run_) end_of(*run_, owes ? kGrace * 0 : kLastGrace);
     run_.reset();
-    while (!open_.empty()) deliver_first(not_awaited());
+    while (!open_.empty()) deliver_first({error("was not waited for: the time was over"), Origin::not_asked});
   }
 
   // Writes queries as text, up to the number that may be given and the size of a piece.
@@ -338,8 +353,8 @@ class CommandEngine final : public ExternalAnswerer {
     constexpr std::size_t kMostKeys = 20;
     if (options_.strict) throw InputError("the key " + json_quoted(key) + " is not known");
     if (unknown_keys_.size() < kMostKeys && unknown_keys_.insert(key).second)
-      tell(fmt::format("writes the key {}, which no answer has; it is ignored (--strict: an error)",
-                       json_quoted(key)));
+      complaints_.tell(fmt::format(
+          "writes the key {}, which no answer has; it is ignored (--strict: an error)", json_quoted(key)));
   }
 
   void take_line(const LineReader::Line& line) {
@@ -394,7 +409,8 @@ class CommandEngine final : public ExternalAnswerer {
       --run.outstanding;
       pass_over(run, "gave no answer to this query before that to a later one");
     }
-    if (run.nameless) tell(fmt::format("says of the scene: {}", printable(run.nameless->message)));
+    if (run.nameless)
+      complaints_.tell(fmt::format("says of the scene: {}", printable(run.nameless->message)));
     run.nameless.reset();
     const bool is_fault = is_library_ && answer.outcome == Outcome::error && !answer.unsupported;
     const std::string flaw = is_fault ? answer.message : flaw_of_answer(answer, components);
@@ -459,11 +475,13 @@ class CommandEngine final : public ExternalAnswerer {
     }
     run.instead.clear();
     run.bad_bytes = 0;
-    note_answer();
+    failures_in_row_ = 0;
+    ever_answered_ = true;
     if (run.outstanding == 0 && !run.ending) manner_ = Manner::line_by_line;
     if (manner_ == Manner::line_by_line) run.greeting = false;
     const OpenQuery& asked = open_.front();
-    complete(answer, asked.query, *asked.scene, asked.max_time);
+    answer = limited(std::move(answer), asked.max_time);
+    if (options_.request.detail) add_detail(asked.query, *asked.scene, answer);
     deliver_first({std::move(answer), origin});
   }
 
@@ -503,9 +521,9 @@ class CommandEngine final : public ExternalAnswerer {
     if (!run->ending)
       complain(fmt::format("ended ({}) before it was told to", ending.text()));
     else if (ending.how == Ending::How::still_ran)
-      tell("did not end when its input did, and was killed");
+      complaints_.tell("did not end when its input did, and was killed");
     else if (!ending.is_good())
-      tell(fmt::format("ended with {} after its last answer", ending.text()));
+      complaints_.tell(fmt::format("ended with {} after its last answer", ending.text()));
     learn_from_run();
     run_.reset();
   }
@@ -548,7 +566,10 @@ class CommandEngine final : public ExternalAnswerer {
     pass_over(*run, what, origin);
     suspicion_.clear();
     if (limit_ != kNoLimit) limit_ = is_library_ ? kNoLimit : 1;
-    if (!note_failure()) return;
+    if (++failures_in_row_ < kMostFailuresInRow) return;
+    complaints_.tell_once(
+        fmt::format("is given up after {} failures in a row without an answer", kMostFailuresInRow));
+    given_up_ = true;
     given_up_in_ = recent_.back().scene;
     give_up();
   }
@@ -571,19 +592,40 @@ class CommandEngine final : public ExternalAnswerer {
   // gets one more start if the program ever answered.
   void give_up() {
     while (!open_.empty()) {
-      if (open_.front().scene != given_up_in_ && ever_answered_) return allow_one_more_start();
-      deliver_first(not_asked());
+      if (open_.front().scene != given_up_in_ && ever_answered_) {
+        given_up_ = false;
+        failures_in_row_ = kMostFailuresInRow - 1;
+        return;
+      }
+      deliver_first({error(fmt::format("was given up after {} failures in a row; this query was not asked",
+                                       kMostFailuresInRow)),
+                     Origin::not_asked});
     }
+  }
+
+  void complain(const std::string& what) {
+    failed_ = true;
+    complaints_.tell_once(what);
   }
 
   // Reports what went wrong, with a stream that reproduces it.
   void complain_of(const OpenQuery* asked, const std::string& what) {
     if (!asked) return complain(what);
+    failed_ = true;
     std::string line;
     append_line(line, asked->id, *asked);
-    complain(what, *asked->scene, line);
+    complaints_.tell_once(what, *asked->scene, line);
   }
 
+  // Given in place of an answer.
+  Answer error(const std::string& what) const { return Answer::error(kind_ + ' ' + what); }
+
+  const AnswererOptions options_;
+  const std::string kind_;
+  Complaints complaints_;
+  bool failed_ = false, ever_answered_ = false, given_up_ = false;
+  int failures_in_row_ = 0;
+  std::optional<OwnTime> own_time_;
   const MakeProgram program_;
   const bool is_library_;
   ExchangeReader reader_;
