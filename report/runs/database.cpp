@@ -74,8 +74,7 @@ std::vector<std::string> schema_of(const FileKind& kind) {
 Database::Database(const std::string& path, Access access, const FileKind& kind)
     : writes_(access == Access::write),
       is_file_(path != kMemory),
-      lock_(is_file_ && access != Access::read ? std::make_unique<LockFile>(path, writes_, kind.busy)
-                                               : nullptr),
+      lock_(is_file_ && writes_ ? std::make_unique<LockFile>(path, kind.busy) : nullptr),
       connection_(opened(path, is_file_, access)) {
   set_up(kind);
 }

@@ -11,9 +11,8 @@
 namespace lorentz::runs {
 
 enum class Access {
-  write,    ///< creates the file if it is missing; no other process may write
-  read,     ///< changes and creates no file; another process may write meanwhile
-  settled,  ///< the same, but no other process may be writing
+  write,  ///< creates the file if it is missing; no other process may write
+  read    ///< changes and creates no file; another process may write meanwhile
 };
 
 /// Files of one kind.

@@ -14,22 +14,20 @@
 
 namespace lorentz::runs {
 
-LockFile::LockFile(const std::string& file, bool writes, const std::string& busy)
-    : path_(std::filesystem::weakly_canonical(place_of(file)).string() + ".lock"), writes_(writes) {
+LockFile::LockFile(const std::string& file, const std::string& busy)
+    : path_(std::filesystem::weakly_canonical(place_of(file)).string() + ".lock") {
   do {
     close();
-    const int flags = (writes_ ? O_RDWR | O_CREAT : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW;
-    lock_ = ::open(path_.c_str(), flags, 0666);
-    if (lock_ == -1 && !writes_) return;
+    lock_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (lock_ == -1) throw write_error(path_, errno);
-    if (writes_ && !is_empty_file())
+    if (!is_empty_file())
       fail(path_ + ": is there and is not a lock of this program; move it away, or name another store");
-    if (::flock(lock_, (writes_ ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) fail(file + ": " + busy);
+    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) fail(file + ": " + busy);
   } while (!is_the_one_there());
 }
 
 LockFile::~LockFile() {
-  if (writes_) ::unlink(path_.c_str());
+  ::unlink(path_.c_str());
   close();
 }
 

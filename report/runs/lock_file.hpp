@@ -8,12 +8,11 @@ namespace lorentz::runs {
 /// FILE.lock, beside the file to which a path leads (links are followed). The process that writes the file
 /// holds it, and removes it at the end. The system releases it however the process ends. (A lock on the file
 /// itself would interfere with SQLite's own, and would stay with the old file if a new one takes its place.)
-/// A reader that only excludes writers creates no file: without a lock file there is no writer.
 class LockFile {
  public:
   /// Throws FileError if another process holds the lock (with the file's name and `busy`), or if FILE.lock
   /// exists and is not a lock, because it is not empty.
-  LockFile(const std::string& file, bool writes, const std::string& busy);
+  LockFile(const std::string& file, const std::string& busy);
   ~LockFile();
   LockFile(const LockFile&) = delete;
   LockFile& operator=(const LockFile&) = delete;
@@ -25,7 +24,6 @@ class LockFile {
   [[noreturn]] void fail(const std::string& what);
 
   const std::string path_;
-  const bool writes_;
   int lock_ = -1;
 };
 

@@ -257,14 +257,11 @@ TEST_CASE("A lock that is refused or given back leaves nothing open", "[cli][sto
   folder.write("notes.lock", "my notes\n");
   const std::ptrdiff_t before = open_files();
   for (int i = 0; i < 3; ++i) {
-    CHECK_NOTHROW(runs::LockFile(store, false, "busy"));  // no writer: it makes no file
-    CHECK_FALSE(fs::exists(store + ".lock"));
-    CHECK_THROWS_WITH(runs::LockFile(notes, true, "busy"),
+    CHECK_THROWS_WITH(runs::LockFile(notes, "busy"),
                       Catch::Contains("notes.lock: is there and is not a lock"));
-    CHECK_THROWS_WITH(runs::LockFile(folder.file("no/store"), true, "busy"), Catch::Contains("No such file"));
-    const runs::LockFile lock(store, true, "busy");
-    for (const bool writes : {false, true})
-      CHECK_THROWS_WITH(runs::LockFile(store, writes, "busy"), store + ": busy");
+    CHECK_THROWS_WITH(runs::LockFile(folder.file("no/store"), "busy"), Catch::Contains("No such file"));
+    const runs::LockFile lock(store, "busy");
+    CHECK_THROWS_WITH(runs::LockFile(store, "busy"), store + ": busy");
   }
   CHECK(open_files() == before);
   CHECK_FALSE(fs::exists(store + ".lock"));
@@ -277,7 +274,7 @@ TEST_CASE("A lock that another removes and makes anew in between is held by one 
   const auto work = [&] {
     for (int i = 0; i < 8000; ++i) {
       try {
-        const runs::LockFile lock(folder.file("store"), true, "busy");
+        const runs::LockFile lock(folder.file("store"), "busy");
         most = std::max(most.load(), ++holders);
         ++held;
         std::this_thread::yield();

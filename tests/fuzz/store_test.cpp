@@ -116,16 +116,14 @@ TEST_CASE("Two writers are refused, with what to do, also another process", "[fu
   const std::string path = folder.file("store");
   {
     const Store store(path, Store::Access::write);
-    for (const auto access : {Store::Access::write, Store::Access::settled})
-      CHECK(
-          contains(message_of([&] { Store other(path, access); }), "another process is running a campaign"));
+    CHECK(contains(message_of([&] { Store other(path, Store::Access::write); }),
+                   "another process is running a campaign"));
     const Run run = folder.lorentz("fuzz --count 1 --store " + path);
     CHECK(run.status == 3);
     CHECK(contains(run.err, path + ": another process is running a campaign on this store"));
     CHECK(folder.lorentz("fuzz show --store " + path).status == 0);
   }
   CHECK(folder.lorentz("fuzz -t grazing --count 1 --store " + path).status == 0);
-  const Store settled(path, Store::Access::settled);
   CHECK(names_in(folder) == std::set<std::string>{"err", "out", "store"});
 }
 
@@ -142,8 +140,7 @@ TEST_CASE("A store without a writer is one file, and stays as it is when it is r
   CHECK(names_in(folder) == std::set<std::string>{"store"});
   const std::string before = folder.read("store");
   CHECK(before.substr(18, 2) == "\1\1");  // SQLite: not to be written ahead
-  for (const auto access : {Store::Access::read, Store::Access::settled})
-    CHECK(Store(path, access).findings().size() == 1);
+  CHECK(Store(path, Store::Access::read).findings().size() == 1);
   CHECK(folder.read("store") == before);
   CHECK(names_in(folder) == std::set<std::string>{"store"});
 }
@@ -270,7 +267,7 @@ TEST_CASE("A store with other tables, views or triggers is refused, and nothing 
     change(copy, sql);
     INFO(sql);
     const std::string before = folder.read("copy");
-    for (const auto access : {Store::Access::write, Store::Access::read, Store::Access::settled})
+    for (const auto access : {Store::Access::write, Store::Access::read})
       CHECK(contains(message_of([&] { Store store(copy, access); }),
                      "copy: has tables, views or triggers that no"));
     CHECK(folder.read("copy") == before);
