@@ -95,28 +95,6 @@ std::string answer_text(const std::string& id, Answer answer, const Scene& scene
   return line;
 }
 
-bool is_plain(std::string_view text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
-}
-
-bool has_control_characters(std::string_view text) {
-  return std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; });
-}
-
-std::string flaw_of_text(const CaseText& text) {
-  for (const std::string* line : {&text.scene, &text.query, &text.given, &text.exact})
-    if (has_control_characters(*line)) return "a line with control characters";
-  if (!(text.departs >= 0) || !(text.margin.value_or(0) >= 0)) return "an error, or a margin, below zero";
-  try {
-    const ReadCase one = case_in(text);
-    if (!is_in(one.scene, one.exact) || (one.exact.outcome == Outcome::hit && !one.exact.time))
-      return "an exact answer that the scene excludes";
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 }  // namespace
 
 CaseText text_of(const std::string& id, const Scene& scene, const Query& query, const Examined& examined) {
@@ -139,24 +117,6 @@ ReadCase case_in(const CaseText& text) {
   one.given = read_answer(text.given);
   one.exact = read_answer(text.exact);
   return one;
-}
-
-bool is_in(const Scene& scene, const Answer& answer) {
-  if (answer.outcome != Outcome::hit && answer.outcome != Outcome::inside) return true;
-  const auto lattice = static_cast<std::size_t>(answer.obstacle.lattice),
-             atom = static_cast<std::size_t>(answer.obstacle.atom);
-  return lattice < scene.lattices.size() && atom < scene.lattices[lattice].atoms.size();
-}
-
-std::string flaw_of(const Finding& f) {
-  for (const std::string* text : {&f.target, &f.words, &f.kind, &f.sort, &f.cause})
-    if (!is_plain(*text)) return "a name that is not plain text";
-  if (rank_of(f.kind) == static_cast<int>(std::size(kInOrder))) return "a kind that no finding has";
-  if (f.shrinking > Shrinking::done) return "a state of shrinking that no finding has";
-  if (std::min({f.step, f.bits, f.tries}) < 0) return "a number below zero";
-  for (const CaseText* text : {&f.text, &f.shrunk})
-    if (const std::string flaw = flaw_of_text(*text); !flaw.empty()) return flaw;
-  return "";
 }
 
 int rank_of(std::string_view kind) {

@@ -70,13 +70,6 @@ struct ReadCase {
 /// Throws FileError if these are not lines that text_of() wrote.
 ReadCase case_in(const CaseText& text);
 
-/// Why a campaign does not keep the finding; empty if it does. A finding without a flaw has lines that
-/// case_in() reads, each of them JSON, and no control characters.
-std::string flaw_of(const Finding& finding);
-
-/// Does the scene have the obstacle that the answer names?
-bool is_in(const Scene& scene, const Answer& answer);
-
 /// The obvious properties of a case as it was met: kind, dimension, outcomes, `from`. Like "wrong, 2D, hit
 /// for hit, leaving".
 std::string sort_of(const Scene& scene, const Query& query, const Examined& examined);

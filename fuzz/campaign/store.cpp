@@ -1,8 +1,10 @@
 #include "fuzz/campaign/store.hpp"
 
-#include <numeric>
+#include <algorithm>
+#include <string>
 
 #include "fuzz/campaign/stint.hpp"
+#include "report/runs/piece_store.hpp"
 #include "src/exchange/json_piece.hpp"
 
 namespace lorentz::fuzz {
@@ -13,7 +15,7 @@ using runs::Statement;
 
 namespace {
 
-// Campaigns, tallies and findings are pieces of JSON (src/exchange/json_piece.hpp).
+// Campaigns, tallies and findings are pieces of JSON (src/exchange/json_piece.hpp) behind their checks.
 constexpr const char* kSchema = R"sql(
   CREATE TABLE campaign (id INTEGER PRIMARY KEY, manifest TEXT NOT NULL UNIQUE);
   CREATE TABLE tally (
@@ -28,7 +30,7 @@ constexpr const char* kSchema = R"sql(
 const runs::FileKind& kind() {
   static const runs::FileKind kind{
       "store of lorentz fuzz", 0x6c6f667a,  // "lofz"
-      6, kSchema,                           // format 5 had a column for each number
+      7, kSchema,                           // format 6 had no checks
       "another process is running a campaign on this store; wait for it, stop it, or use another store"};
   return kind;
 }
@@ -43,10 +45,23 @@ Store::Store(const std::string& path, Access access) : database_(path, access, k
 
 namespace {
 
+std::string check_in_front_of(std::string_view piece) {
+  return std::to_string(runs::check_of(piece));
+}
+
+// The value as a piece, with its check.
+template <class T>
+std::string checked(const T& value) {
+  const std::string piece = json::piece_of(value);
+  return check_in_front_of(piece) + piece;
+}
+
 // Reads the piece in the next column of a row.
 template <class T>
 T read_from(Statement& row, const std::string& what) {
-  const std::string piece = row.text();
+  const std::string text = row.text(), piece = text.substr(std::min(text.find('['), text.size()));
+  if (text != check_in_front_of(piece) + piece)
+    throw BadValue(what + "is damaged: it is not what its checksum was made of" + runs::kRemedy);
   T value;
   try {
     json::read_piece(piece, value);
@@ -72,40 +87,17 @@ std::int64_t Store::open_campaign(const CampaignManifest& manifest) {
   for (const Campaign& campaign : campaigns())
     if (campaign.manifest == manifest) return campaign.id;
   database_.begin();
-  Statement(database_.connection(), "INSERT INTO campaign VALUES (NULL, ?)")
-      .bind(json::piece_of(manifest))
-      .done();
+  Statement(database_.connection(), "INSERT INTO campaign VALUES (NULL, ?)").bind(checked(manifest)).done();
   const std::int64_t id = sqlite3_last_insert_rowid(database_.connection().handle());
   commit();
   return id;
 }
 
-namespace {
-
-// Do the counts fit together, as a campaign makes them?
-bool fits(const TargetTally& tally) {
-  const auto sum = [](const auto& numbers) {
-    return std::accumulate(numbers.begin(), numbers.end(), std::uint64_t{0});
-  };
-  constexpr std::uint64_t kMostCases = std::uint64_t{1} << 60;  // sums of all of them are below 2^63
-  for (const std::uint64_t number : {tally.cases, tally.variants, tally.reworded})
-    if (number > kMostCases) return false;
-  const std::uint64_t replies = tally.cases + tally.variants + tally.reworded;
-  return tally.counts.all() == replies && sum(tally.stages) <= replies && tally.margin > 0;
-}
-
-}  // namespace
-
 TargetTally Store::tally(std::int64_t campaign, std::string_view target) const {
   Statement row(database_.connection(), "SELECT tally FROM tally WHERE campaign = ? AND target = ?");
   row.bind(campaign).bind(target);
   if (!row.step()) return {};
-  const std::string its = path() + ": the counts of " + std::string(target) + ' ';
-  auto tally = read_from<TargetTally>(row, its);
-  if (!fits(tally))
-    throw FileError(its +
-                    "do not fit together: the store was changed; take a copy from before, or name another");
-  return tally;
+  return read_from<TargetTally>(row, path() + ": the counts of " + std::string(target) + ' ');
 }
 
 std::vector<Stored> Store::findings() const {
@@ -115,9 +107,6 @@ std::vector<Stored> Store::findings() const {
   while (row.step()) {
     const std::int64_t campaign = row.integer();
     all.push_back({campaign, read_from<Finding>(row, path() + ": a finding ")});
-    if (const std::string flaw = flaw_of(all.back().finding); !flaw.empty())
-      throw BadValue(path() + ": the finding " + all.back().label() + " has " + flaw +
-                     ": the store was changed; take a copy from before, or name another");
   }
   return all;
 }
@@ -127,7 +116,7 @@ void Store::put(std::int64_t campaign, std::string_view target, const TargetTall
   Statement(database_.connection(), "INSERT OR REPLACE INTO tally VALUES (?, ?, ?)")
       .bind(campaign)
       .bind(target)
-      .bind(json::piece_of(tally))
+      .bind(checked(tally))
       .done();
 }
 
@@ -139,7 +128,7 @@ void Store::put(std::int64_t campaign, const Finding& finding) {
       .bind(finding.index)
       .bind(finding.step)
       .bind(finding.words)
-      .bind(json::piece_of(finding))
+      .bind(checked(finding))
       .done();
 }
 

@@ -432,42 +432,6 @@ TEST_CASE("The cause of a finding says what is special about it, and nothing els
   for (const double end : {1e100, 1e-100}) CHECK(features(flat, {{0.5, 0.5}, {1, end}, {}}) == "");
 }
 
-TEST_CASE("A finding of a store is plain text, nothing in it below zero, its answer one of the scene",
-          "[fuzz][campaign]") {
-  const Scene scene = unit_scene(2, 0.25);
-  fuzz::Examined wrong;
-  wrong.kind = Kind::wrong;
-  wrong.given = Answer::never();
-  wrong.exact = Answer::hit(cases::obstacle({1, 0}), 0.25);
-  fuzz::Finding good;
-  good.target = "generic";
-  good.kind = "wrong";
-  good.text = good.shrunk = fuzz::text_of("generic/1", scene, {{0.5, 0}, {1, 0}, {}}, wrong);
-  CHECK(fuzz::flaw_of(good) == "");
-  for (fuzz::CaseText fuzz::Finding::*text : {&fuzz::Finding::text, &fuzz::Finding::shrunk}) {
-    fuzz::Finding one = good;
-    (one.*text).departs = 0;
-    (one.*text).margin = 0;
-    CHECK(fuzz::flaw_of(one) == "");
-    (one.*text).departs = -0x1p-1074;
-    CHECK(fuzz::flaw_of(one) != "");
-    one = good;
-    (one.*text).margin = -0x1p-1074;
-    CHECK(fuzz::flaw_of(one) != "");
-    for (std::string fuzz::CaseText::*line :
-         {&fuzz::CaseText::scene, &fuzz::CaseText::query, &fuzz::CaseText::given, &fuzz::CaseText::exact}) {
-      one = good;
-      one.*text.*line += '\t';
-      CHECK(fuzz::flaw_of(one) == "a line with control characters");
-    }
-  }
-  Answer nowhere = Answer::never();
-  nowhere.obstacle = {5, 7, {}};
-  CHECK(fuzz::is_in(scene, nowhere));
-  CHECK_FALSE(fuzz::is_in(scene, Answer::hit({0, 1, {}}, 1)));
-  CHECK_FALSE(fuzz::is_in(scene, Answer::inside({1, 0, {}})));
-}
-
 TEST_CASE("Shrinking ends when its work is more than the most, not when it is as much", "[fuzz][campaign]") {
   const auto asked = [](double work) {
     int count = 0;
