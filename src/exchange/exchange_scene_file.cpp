@@ -5,7 +5,6 @@
 
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_json.hpp"
-#include "src/exchange/exchange_toml.hpp"
 
 namespace lorentz {
 namespace {
@@ -41,7 +40,7 @@ void check_dotted_keys(const std::string& text) {
 SceneNode parse_toml(const std::string& text) {
   check_dotted_keys(text);
   try {
-    return node_from(toml::parse(with_hexadecimal_numbers(text)));
+    return node_from(toml::parse(text));
   } catch (const toml::parse_error& error) {
     throw InputError("line " + std::to_string(error.source().begin.line) +
                      ": not TOML: " + std::string(error.description()));

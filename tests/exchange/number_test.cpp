@@ -12,7 +12,6 @@
 #include <fstream>
 
 #include <lorentz/exchange.hpp>
-#include "src/exchange/exchange_toml.hpp"
 #include "tests/support/command_line.hpp"
 #include "tests/support/support.hpp"
 
@@ -123,7 +122,10 @@ class Numbers {
     REQUIRE(same(in_query(text), right));
     ++count_;
     (std::isinf(right) ? infinite_ : std::fabs(right) < 0x1p-1022 ? subnormal_ : normal_) += 1;
-    if (std::isinf(right)) return;
+    // toml++ refuses longer numbers and integers beyond 2^63, with std::from_chars also what is rounded to 0.
+    const bool is_real = text.find_first_of(".eE") != text.npos;
+    if (std::isinf(right) || right == 0 || text.size() > 120 || (!is_real && std::fabs(right) >= 0x1p63))
+      return;
     texts_.push_back(text);
     values_.push_back(right);
     if (texts_.size() == 1000) read_as_toml();
@@ -360,24 +362,14 @@ TEST_CASE("Numbers: texts that are not numbers", "[exchange][number]") {
   CHECK(nearest_hexadecimal("-0X1P-1") == -0.5);
 }
 
-TEST_CASE("Numbers of TOML: any number of digits, underscores, and what only looks like a number",
-          "[exchange][number]") {
-  CHECK(in_toml({"1e-400", "-1e-5000", "9223372036854775808", "+1_000.5", "0x10", "0b11", "1E+01"}) ==
-        std::vector<double>{0, 0, 0x1p63, 1000.5, 16, 3, 10});
-  CHECK(in_toml({"9007199254740993", "9007199254740992." + std::string(400, '9')}) ==
-        std::vector<double>{0x1p53, 0x1p53});
-  CHECK(with_hexadecimal_numbers("a = [1, 0.5] # 2\nb = \"3\"\n") ==
-        "a = [\"0x1p+0\", \"0x1p-1\"] # 2\nb = \"3\"\n");
-  for (const char* text : {R"('4' '''5''' """6 7""" "8\"9")", R"('''1''''' """2\"""3 """)", "'''1\n2'''",
-                           "1979-05-27 07:32:00.5", "a1 1a 1.2.3 1. .5 01 1__0 _1 1_ 0x1 inf nan", "'1",
-                           "\"\"\"1", "# 1", "\"\\"}) {
+TEST_CASE("Numbers of TOML: underscores, other bases, and what is refused", "[exchange][number]") {
+  CHECK(in_toml({"9007199254740993", "+1_000.5", "0x10", "0b11", "1E+01", "-0.0"}) ==
+        std::vector<double>{0x1p53, 1000.5, 16, 3, 10, 0});
+  for (const std::string text : {"1_", "-1e400", "9223372036854775808"}) {
     INFO(text);
-    CHECK(with_hexadecimal_numbers(text) == text);
+    CHECK_THROWS_WITH(in_toml({"1", text}), Catch::Contains("line 9: not TOML"));
   }
-  CHECK_THROWS_WITH(with_hexadecimal_numbers("a = 1\n\nb = -1e400\n"),
-                    "line 3: \"-1e400\" is beyond the range of binary64");
-  CHECK_THROWS_AS(with_hexadecimal_numbers("a = 1" + std::string(400, '0')), InputError);
-  CHECK_THROWS_WITH(in_toml({"1_"}), Catch::Contains("not TOML"));
+  CHECK_THROWS_AS(in_toml({"1." + std::string(400, '0')}), InputError);
 }
 
 TEST_CASE("Numbers of 20 digits, in queries and in answers that were logged with them",
