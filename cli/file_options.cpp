@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include <lorentz/errors.hpp>
-#include "report/files/beside.hpp"
 #include "report/files/scene_file.hpp"
+#include "report/files/whole_file.hpp"
 
 namespace lorentz::cli {
 namespace {

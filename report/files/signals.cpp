@@ -24,8 +24,8 @@ void write_line(std::string_view text) {
 }
 
 void take_leave(int number) {
-  for (auto slot = slots.rbegin(); slot != slots.rend(); ++slot)  // a folder's files before the folder
-    if (slot->named && unlink(slot->path) != 0) rmdir(slot->path);
+  for (const Slot& slot : slots)
+    if (slot.named) unlink(slot.path);
   if (number != SIGPIPE) {
     write_line(number == SIGINT    ? "lorentz: interrupted\n"
                : number == SIGTERM ? "lorentz: terminated\n"

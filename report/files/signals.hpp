@@ -11,8 +11,7 @@ namespace lorentz {
 /// an error like a full disk. Signals that the caller ignores stay ignored.
 void end_in_order();
 
-/// A file that would look whole but is not, or a folder of such files. It is removed if a signal ends the
-/// program while this object lives.
+/// A file that would look whole but is not. It is removed if a signal ends the program while this object lives.
 class Unfinished {
  public:
   explicit Unfinished(const std::string& path);

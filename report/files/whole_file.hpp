@@ -7,14 +7,18 @@
 #include <string>
 #include <string_view>
 
-#include "report/files/beside.hpp"
+#include "report/files/signals.hpp"
 
 namespace lorentz {
 
+/// The file that a path means: links are followed, whether or not their target is there. Throws FileError if
+/// they lead round in a circle.
+std::string place_of(const std::string& path);
+
 class WholeFile {
  public:
-  /// Opens a file beside `path`, or `path` itself if it is not a regular file (a device, a pipe). Throws
-  /// FileError.
+  /// Opens PATH.HEX.new, with sixteen random hexadecimal digits, or `path` itself if it is not a regular file (a
+  /// device, a pipe). Throws FileError.
   explicit WholeFile(const std::string& path);
   /// Leaves nothing behind without commit().
   ~WholeFile();
@@ -28,8 +32,10 @@ class WholeFile {
   void commit();
 
  private:
-  std::string path_, place_;      // as given; with links followed
-  std::optional<Beside> beside_;  // where it is written
+  void open_beside();
+
+  std::string path_, place_, beside_;  // as given; with links followed; where it is written until it is whole
+  std::optional<Unfinished> unfinished_;
   std::FILE* file_ = nullptr;
 };
 

@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include <lorentz/errors.hpp>
-#include "report/files/beside.hpp"
+#include "report/files/whole_file.hpp"
 #include "src/problem/write_error.hpp"
 
 namespace lorentz::runs {

@@ -113,49 +113,6 @@ TEST_CASE("A new file has the permissions of any new file, whatever its name's l
         static_cast<std::filesystem::perms>(0640));
 }
 
-TEST_CASE("What killed processes left is taken away by the next, and nothing else", "[cli][whole_file]") {
-  const Folder folder;
-  const std::string path = folder.write("f", "old,\n");
-  const pid_t child = ::fork();
-  if (child == 0) {
-    WholeFile file(path);
-    Beside store(path, true);
-    std::ofstream(store.path() + "/store") << "half";
-    ::raise(SIGKILL);
-  }
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  CHECK(WIFSIGNALED(status));
-  CHECK(entries(folder) == 3);
-  const std::vector<std::string> others{"f.new",
-                                        "f.1234.new",
-                                        "g.0123456789abcdef.new",
-                                        "f.0123456789abcdeg.new",
-                                        "f.0123456789abcdef.new.txt",
-                                        "f.0123456789ABCDEF.new"};
-  for (const std::string& name : others) folder.write(name, "mine\n");
-  std::filesystem::create_symlink(path, folder.file("f.00000000000000aa.new"));
-  {
-    const Beside alive(folder.file("h"));
-    // At a place that this process has not written to yet. (A process looks once.)
-    const std::string other = folder.write("h.00000000000000bb.new", "left by another\n");
-    const Run run =
-        folder.lorentz("sample --count 1 > " + folder.file("q") + "; " LORENTZ_PROGRAM " compare --queries " +
-                       folder.file("q") + " -e classical --disagreements " + folder.file("h"));
-    CHECK(run.status == 0);
-    CHECK_FALSE(std::filesystem::exists(other));
-    CHECK(std::filesystem::exists(alive.path()));
-  }
-  const Run run = folder.lorentz("flights --count 10 --csv " + path);
-  CHECK(run.status == 0);
-  for (const std::string& name : others) CHECK(folder.read(name) == "mine\n");
-  CHECK(std::filesystem::is_symlink(folder.file("f.00000000000000aa.new")));
-  std::size_t left = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder.file("")))
-    left += entry.path().filename().string().starts_with("f.");
-  CHECK(left == others.size());  // the link, and all but g's
-}
-
 TEST_CASE("Files of another kind are left as they are", "[cli][whole_file]") {
   const Folder folder;
   const std::string queries = folder.write("queries", "{\"x\":[0,0],\"v\":[1,0]}\n"),
