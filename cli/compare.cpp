@@ -1,11 +1,16 @@
 // lorentz compare: compares engines, and answers logged elsewhere, with the oracle.
+#include <unordered_set>
+
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"
-#include "cli/compare_questions.hpp"
+#include "cli/given_queries.hpp"
 #include "cli/lineup.hpp"
+#include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/terminal.hpp"
+#include "question/starts/varied_starts.hpp"
 #include "report/claim_words.hpp"
+#include "report/files/scene_file.hpp"
 #include "report/files/signals.hpp"
 #include "src/exchange/columns_csv.hpp"
 #include "src/exchange/columns_npy.hpp"
@@ -16,6 +21,137 @@ namespace lorentz::cli {
 using namespace question;
 
 namespace {
+
+// Each scene at each radius, rounded to the engine's precision.
+std::vector<Scene> scenes_named(const ExaminationOptions& options, NumberFormat precision) {
+  std::vector<std::string> names = options.scenes;
+  if (names.empty() && !options.queries) names = {"square"};
+  if (names.empty() && !options.radii.empty())
+    throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
+  std::vector<std::optional<std::string>> radii(options.radii.begin(), options.radii.end());
+  if (radii.empty()) radii.emplace_back();
+  std::vector<Scene> scenes;
+  for (const std::string& name : names)
+    for (const auto& radius : radii)
+      scenes.push_back(rounded_scene(
+          load_scene(name, positive_number(radius, "--radius"), options.unknown_keys()), precision, name));
+  if (options.queries && scenes.size() > 1) throw InputError("--scene: with --queries there is one at most");
+  return scenes;
+}
+
+// The questions that the options specify, part by part, without answers.
+class ComparedQuestions {
+ public:
+  // Throws InputError and FileError. The first scene is written at the beginning of the file of disagreements.
+  // Scenes of a stream are used unchanged.
+  ComparedQuestions(const ExaminationOptions& options, DisagreementFile& disagreements)
+      : options_(options),
+        claim_(options.claim.claim()),
+        disagreements_(disagreements),
+        named_(scenes_named(options, claim_.precision)) {
+    std::optional<Scene> first;
+    if (!named_.empty()) enter(*(first = named_[0]));
+    if (options.queries) given_.emplace(*options.queries, first, options.unknown_keys());
+  }
+
+  // The next questions, at most `most`; empty at the end.
+  std::vector<Question> next(std::size_t most) { return given_ ? read(most) : draw(most); }
+
+  bool had_bad_input() const { return bad_ids_ || (given_ && given_->had_bad_input()); }
+  std::size_t count() const { return count_; }
+  std::size_t not_asked() const { return not_asked_; }  // because their numbers have another precision
+  std::size_t outside_domain() const { return outside_domain_; }  // not asked, as the engine claims
+
+  // The scene's name, or the number of scenes if there are several.
+  std::string title() const {
+    if (scenes_ > 1) return fmt::format("{} scenes", scenes_);
+    const std::string name =
+        !options_.scenes.empty() ? options_.scenes[0] : options_.queries.value_or("square");
+    return options_.radii.empty()
+               ? name
+               : fmt::format("{} (radius {})", name, *positive_number(options_.radii[0], "--radius"));
+  }
+
+  // Takes out the questions that the engine is not asked because of their exact answers.
+  void drop_outside(std::vector<Question>& questions) {
+    const auto is_outside = [&](const Question& question) {
+      if (question.place->takes(question.query, question.exact)) return false;
+      pass_over(question, outside_domain_), --count_;
+      return true;
+    };
+    std::erase_if(questions, is_outside);
+  }
+
+  // The questions since the last call that were not asked. Logged answers to them must be skipped.
+  std::vector<Question> passed_over() { return std::exchange(passed_over_, {}); }
+
+  // Whether the queries are columns, which need a scene. Rows of answers are matched to them by number.
+  bool are_columns() const { return given_ && given_->are_columns(); }
+  Components components() const { return Components(place_->scene()); }
+
+ private:
+  void enter(const Scene& scene) {
+    place_ = std::make_shared<Place>(scene, claim_);
+    disagreements_.begin(place_);
+    is_new_ = true;
+  }
+
+  // Answers are matched by id, so the ids of queries must be unique.
+  void add(std::vector<Question>& questions, const Query& query, const Id& id, double max_time) {
+    if (!options_.answers.empty() && id != "null" && !ids_.insert(id).second) {
+      bad_ids_ = true;
+      say("the query id {} comes twice: answers cannot be matched to its queries", id);
+    }
+    const Question question{.place = place_, .query = query, .id = id, .max_time = max_time};
+    if (!place_->has_numbers_for(query)) return pass_over(question, not_asked_);
+    const bool is_limit_taken = claim_.domain.limits || !question.has_limit();
+    if (!is_limit_taken || !place_->takes(query)) return pass_over(question, outside_domain_);
+    scenes_ += std::exchange(is_new_, false);
+    ++count_;
+    questions.push_back(question);
+  }
+
+  void pass_over(const Question& question, std::size_t& count) {
+    ++count;
+    if (!options_.answers.empty()) passed_over_.push_back(question);
+  }
+
+  std::vector<Question> draw(std::size_t most) {
+    std::vector<Question> questions;
+    for (; scene_ < named_.size(); ++scene_, drawn_ = 0) {
+      if (drawn_ == 0 && scene_ > 0) enter(named_[scene_]);
+      if (drawn_ == 0) starts_.emplace(place_->scene(), options_.seed, claim_);
+      for (; drawn_ < options_.count && questions.size() < most; ++drawn_) {
+        const starts::VariedStart start = (*starts_)[drawn_];
+        add(questions, start.query, std::to_string(count_), start.max_time);
+      }
+      if (drawn_ < options_.count) break;
+    }
+    return questions;
+  }
+
+  std::vector<Question> read(std::size_t most) {
+    std::vector<Question> questions;
+    for (GivenQuery given; questions.size() < most && given_->next(given);) {
+      if (given.new_scene && !(place_ && place_->scene() == *given_->scene())) enter(*given_->scene());
+      if (given.query) add(questions, *given.query, given.id, given.max_time);
+    }
+    return questions;
+  }
+
+  const ExaminationOptions& options_;
+  const Claim claim_;
+  DisagreementFile& disagreements_;
+  std::vector<Scene> named_;                    // the scenes of --scene and --radius
+  std::size_t drawn_ = 0, scene_ = 0;           // queries of the current one of these; the next one
+  std::optional<starts::VariedStarts> starts_;  // in the current one
+  std::optional<GivenQueries> given_;           // or drawn
+  std::shared_ptr<Place> place_;
+  bool is_new_ = false, bad_ids_ = false;
+  std::vector<Question> passed_over_;
+  std::size_t not_asked_ = 0, outside_domain_ = 0, count_ = 0, scenes_ = 0;
+  std::unordered_set<Id> ids_;
+};
 
 // Median, 99 % quantile and largest value; null without values.
 auto spread_of(const std::vector<double>& values) {
