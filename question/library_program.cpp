@@ -8,7 +8,22 @@
 #include <cerrno>
 #include <string_view>
 
-#include "question/library_host/program_bytes.hpp"
+// The program lorentz_library_host, as bytes, so that it is available wherever this library is: in a program
+// or in Python. LORENTZ_LIBRARY_HOST is its file.
+asm(".section .rodata\n"
+    ".hidden lorentz_library_host_begin\n"
+    ".global lorentz_library_host_begin\n"
+    "lorentz_library_host_begin:\n"
+    ".incbin \"" LORENTZ_LIBRARY_HOST
+    "\"\n"
+    ".hidden lorentz_library_host_end\n"
+    ".global lorentz_library_host_end\n"
+    "lorentz_library_host_end:\n"
+    ".previous\n");
+
+extern "C" {
+extern const char lorentz_library_host_begin[], lorentz_library_host_end[];
+}
 
 namespace lorentz::question {
 namespace {
@@ -24,7 +39,7 @@ int host_descriptor(const std::string& engine) {
       throw cannot_start(engine);
     }
     close(low);
-    for (std::string_view bytes = library_host_program(); !bytes.empty();) {
+    for (std::string_view bytes(lorentz_library_host_begin, lorentz_library_host_end); !bytes.empty();) {
       const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
       if (count <= 0) throw cannot_start(engine);
       bytes.remove_prefix(static_cast<std::size_t>(count));
