@@ -29,54 +29,38 @@ struct FirstHitOptions {
 };
 
 // Puts the answers in the order of the lines, although answers to bad lines are known at once and answers to
-// queries arrive later. The first waiting line has its own member: an engine that answers at once never has a
-// second one, so that nothing is allocated.
+// queries arrive later.
 class AnswerOrder {
  public:
   explicit AnswerOrder(std::string& out) : out_(out) {}
 
-  void expect(const Id& id, const Components& components) {
-    if (waits_) {
-      others_.push_back({id, components, {}, false});
-      return;
-    }
-    first_.id = id;
-    first_.components = components;
-    waits_ = true;
-  }
+  void expect(const Id& id, const Components& components) { waiting_.push_back({id, components, {}}); }
   void answered(const Answer& answer) {
-    append_answer_line(out_, first_.id, answer, first_.components);
-    waits_ = false;
-    if (!others_.empty()) next();
+    append_answer_line(out_, waiting_.front().id, answer, waiting_.front().components);
+    waiting_.pop_front();
+    put_bad_lines();
   }
   void bad_line(const Id& id, const std::string& message) {
-    if (waits_)
-      others_.push_back({id, 0, message, true});
-    else
-      append_answer_line(out_, id, Answer::error(message), 0);
+    waiting_.push_back({id, 0, message});
+    put_bad_lines();
   }
-  std::size_t waiting() const { return others_.size(); }
+  std::size_t waiting() const { return waiting_.size(); }
 
  private:
   struct WaitingLine {
     Id id;
-    Components components = 0;
-    std::string message;  // for a bad line
-    bool is_bad = false;
+    Components components;
+    std::optional<std::string> message;  // of a bad line
   };
 
-  void next() {
-    for (; !others_.empty() && !waits_; others_.pop_front()) {
-      first_ = std::move(others_.front());
-      waits_ = !first_.is_bad;
-      if (first_.is_bad) append_answer_line(out_, first_.id, Answer::error(first_.message), 0);
-    }
+  // Those whose turn it is.
+  void put_bad_lines() {
+    for (; !waiting_.empty() && waiting_.front().message; waiting_.pop_front())
+      append_answer_line(out_, waiting_.front().id, Answer::error(*waiting_.front().message), 0);
   }
 
   std::string& out_;
-  WaitingLine first_;
-  bool waits_ = false;              // first_ waits for its answer
-  std::deque<WaitingLine> others_;  // behind it
+  std::deque<WaitingLine> waiting_;
 };
 
 Vec vector_in(const std::string& list, const char* option, int dimension) {
