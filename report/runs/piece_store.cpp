@@ -76,7 +76,7 @@ void PieceStore::check_all() {
   Statement row(database_.connection(), "SELECT number, text, \"check\" FROM piece ORDER BY number");
   const auto is_next = [&] {
     try {
-      if (row.count() != ++size_) return false;
+      if (row.integer() != static_cast<std::int64_t>(++size_)) return false;
       check_ = check_of(row.text(), check_);
       return row.text() == digits(check_);
     } catch (const BadValue&) {

@@ -5,7 +5,6 @@
 
 #include <concepts>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -101,18 +100,13 @@ class Statement {
     bound_ = 0;
   }
 
-  // The columns of a row, from the left. Throw BadValue for a value of another type or out of its range.
+  // The columns of a row, from the left. Throw BadValue for a value of another type.
   std::string text() {
     const int column = next(SQLITE_TEXT);
     const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(handle_, column));
     return bytes ? std::string(bytes, static_cast<std::size_t>(sqlite3_column_bytes(handle_, column))) : "";
   }
   std::int64_t integer() { return sqlite3_column_int64(handle_, next(SQLITE_INTEGER)); }
-  std::uint64_t count(std::uint64_t most = std::numeric_limits<std::int64_t>::max()) {
-    const std::int64_t n = sqlite3_column_int64(handle_, column_);
-    if (n < 0 || static_cast<std::uint64_t>(n) > most) refuse("is out of its range");
-    return static_cast<std::uint64_t>(integer());
-  }
 
  private:
   Statement& bound(int status) {
@@ -120,12 +114,9 @@ class Statement {
     return *this;
   }
   int next(int type) {
-    if (sqlite3_column_type(handle_, column_) != type) refuse("is of another type");
-    return column_++;
-  }
-  [[noreturn]] void refuse(const char* why) const {
-    throw BadValue(connection_.path() + ": its value of \"" + sqlite3_column_name(handle_, column_) + "\" " +
-                   why);
+    if (sqlite3_column_type(handle_, column_) == type) return column_++;
+    throw BadValue(connection_.path() + ": its value of \"" + sqlite3_column_name(handle_, column_) +
+                   "\" is of another type");
   }
   const Connection& connection_;
   sqlite3_stmt* handle_ = nullptr;
