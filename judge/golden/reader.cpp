@@ -181,7 +181,6 @@ void check_members(const std::set<std::string>& keys, const Answer& answer, bool
 
 struct Reader::Impl {
   explicit Impl(const std::string& path) : lines(path) {}
-  Impl(std::string_view text, std::string name) : lines(text, std::move(name)) {}
 
   LineReader lines;
   ExchangeReader exchange;
@@ -371,10 +370,6 @@ struct Reader::Impl {
 };
 
 Reader::Reader(const std::string& path) : impl_(std::make_unique<Impl>(path)) {
-  impl_->read_first_line();
-}
-Reader::Reader(std::string_view text, std::string name)
-    : impl_(std::make_unique<Impl>(text, std::move(name))) {
   impl_->read_first_line();
 }
 Reader::~Reader() = default;

@@ -24,8 +24,6 @@ class Reader {
  public:
   /// Opens a set and reads its header. Throws FileError, or InputError with the line.
   explicit Reader(const std::string& path);
-  /// The same for a set in memory, which messages call `name`.
-  Reader(std::string_view text, std::string name);
   ~Reader();
 
   const std::string& path() const;
