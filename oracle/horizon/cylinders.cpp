@@ -4,12 +4,129 @@
 #include <cmath>
 #include <set>
 
+#include <lorentz/geometry.hpp>
 #include "oracle/exact/exact_query.hpp"
+#include "oracle/exact/quadratic.hpp"
+#include "oracle/exact/shape.hpp"
 #include "oracle/exact/short_basis.hpp"
-#include "oracle/horizon/shadow_hole.hpp"
+#include "oracle/horizon/hole_centre.hpp"
+#include "oracle/horizon/shadow.hpp"
+#include "oracle/integers/dyadic.hpp"
 
 namespace lorentz::oracle {
 namespace {
+
+// ---- A scene of balls with equivalent shadows: a cylinder is open in both scenes or in neither
+
+// The obstacles as balls. Balls stay as they are. If the obstacles are ellipsoids of one shape A, all points
+// are mapped by |det A| A^-1.
+struct BallScene {
+  ObstacleLattice<3> lattice;
+  ZMatrix<3> map;                  // the identity for balls
+  std::vector<Obstacle<3>> given;  // the obstacles before the map, in the same order
+  std::string unsupported;
+};
+
+// The obstacles of all lattices, if these have the same vectors; otherwise sets `unsupported`.
+BallScene balls_of(const ChannelScene<3>& scene) {
+  BallScene result{scene.lattices[0], multiple_of_identity<3>(1), {}, {}};
+  ObstacleLattice<3>& lattice = result.lattice;
+  std::vector<Obstacle<3>>& obstacles = lattice.obstacles;
+  for (std::size_t l = 1; l < scene.lattices.size(); ++l) {
+    const auto& other = scene.lattices[l];
+    if (other.vectors != lattice.vectors) result.unsupported = "done for one lattice only, or equal ones";
+    obstacles.insert(obstacles.end(), other.obstacles.begin(), other.obstacles.end());
+  }
+  lattice.sort_obstacles();
+  result.given = obstacles;
+  const ZMatrix<3> axes = obstacles[0].axes, shape = shape_of<3>(axes);
+  if (std::ranges::all_of(obstacles, &Obstacle<3>::ball)) return result;
+  if (!std::ranges::all_of(obstacles, [&](const auto& one) { return shape_of<3>(one.axes) == shape; })) {
+    result.unsupported = "done for balls only, or ellipsoids of one shape and orientation";
+    return result;
+  }
+  result.map = adjugate(axes);
+  const Z det = dot(result.map[0], axes[0]);
+  for (auto& row : result.map) row = Z(sgn(det)) * row;
+  for (auto& u : lattice.vectors) u = result.map * u;
+  for (auto& one : obstacles) one = {result.map * one.position, multiple_of_identity<3>(abs(det)), true};
+  lattice.set_cofactors();
+  return result;
+}
+
+// ---- A hole in the shadow of the scene, and the line through it that is reported
+
+// A hole that exists has room, but not always within the bits of its point.
+HoleCentre room_in(const Shadow& shadow, const HolePoint& hole, std::size_t& work) {
+  constexpr unsigned long kMostBits = 1 << 14;
+  HoleCentre centre = centre_of(shadow, hole);
+  const auto none = [&] {
+    return sign_of(centre.clearance.a, centre.clearance.sign, centre.clearance.d) <= 0;
+  };
+  for (unsigned long bits = 4 * hole.bits; none() && bits <= kMostBits; bits *= 4) {
+    work += 100;
+    const bool one = shadow.discs.size() == 1;
+    centre = centre_of(shadow, *(one ? hole_of_largest(shadow, bits) : hole_of_all(shadow, work, bits)));
+  }
+  return centre;
+}
+
+// Maps a line from the scene of balls back to the scene, rounded. Offsets are in units of the largest ball's
+// radius or, if the balls are ellipsoids in the scene, are mapped by A. A^-1 lengthens nothing by more than
+// its norm.
+void place(Cylinder& cylinder, const BallScene& balls, const Obstacle<3>& obstacle, const HoleCentre& centre,
+           long exponent) {
+  const auto real = [&](const ZVec<3>& a) { return rounded<3>(a, 1, exponent); };
+  cylinder.point = real(obstacle.position);
+  for (std::size_t i = 0; i < 3; ++i)
+    cylinder.point = plus(cylinder.point, centre.offset[i], real(balls.given[0].axes[i]));
+  Quadratic radius = centre.clearance;
+  if (!obstacle.ball) {
+    Z norm2 = 0;  // of the map |det A| A^-1, squared
+    for (const ZVec<3>& row : balls.map) norm2 += dot(row, row);
+    radius.q *= ceil_sqrt(norm2);
+  }
+  radius.exponent = exponent;
+  cylinder.radius = round_to_binary64(radius);
+}
+
+bool is_inside(Shadow shadow, const BallScene& balls, const Vec& point, long exponent) {
+  CommonExponent common;
+  for (double component : point) {
+    if (!std::isfinite(component)) return false;
+    common.see(component);
+  }
+  const long fine = std::min(exponent, common.get());
+  const Z times = shifted_left(1, static_cast<unsigned long>(exponent - fine));
+  for (auto& b : shadow.basis) b.p = times * b.p;
+  for (Disc& disc : shadow.discs) disc = {times * disc.centre, times * disc.radius};
+  const ZVec<3> exact = scaled_vector<3>(point, fine);
+  return shadow.discs_around(cross(balls.map * exact, shadow.along), 0, true).empty();
+}
+
+// A hole among all balls of the lattice, if there is one; `shadow` must hold the largest ball. Adds to
+// `work` as hole_of_all does.
+std::optional<HolePoint> hole_of(Shadow& shadow, const ObstacleLattice<3>& lattice, std::size_t& work) {
+  std::optional<HolePoint> hole = hole_of_largest(shadow);
+  // If there are many balls, the first few nearly always cover everything already.
+  for (std::size_t count = 4; hole && shadow.discs.size() < lattice.obstacles.size(); count *= 4) {
+    shadow.see(lattice, std::min(count, lattice.obstacles.size()));
+    hole = hole_of_all(shadow, work);
+  }
+  return hole;
+}
+
+// A cylinder that fits into that hole: its point and radius, and whether the rounded point is inside.
+// Lengths in the shadow are multiplied by 2^-exponent.
+Cylinder cylinder_in(const HolePoint& hole, const Shadow& shadow, const BallScene& balls, long exponent,
+                     std::size_t& work) {
+  Cylinder cylinder;
+  place(cylinder, balls, balls.given[hole.disc], room_in(shadow, hole, work), exponent);
+  cylinder.inside = is_inside(shadow, balls, cylinder.point, exponent);
+  return cylinder;
+}
+
+// ---- The search
 
 constexpr std::size_t kMostPlanes = 20'000;
 constexpr double kMostInPlane = 5'000;  // directions
