@@ -39,6 +39,24 @@ TEST_CASE("bench measures, concludes, and writes its figures", "[cli][bench_comm
   CHECK(folder.lorentz("bench --scene square --radius 0.1 --count 32 --csv /nowhere/speed.csv").status == 3);
 }
 
+TEST_CASE("bench: errors in units of the condition are errors over it, not times it",
+          "[cli][bench_command]") {
+  const Folder folder;
+  const std::string cells = folder
+                                .lorentz(
+                                    "bench -e published --scene square --radius 0.01 --difficulty grazing "
+                                    "--count 200 --seed 3 --json")
+                                .out;
+  INFO("seed 3\n" << cells);
+  const auto largest = [&](const std::string& errors) {  // the next "max" after the key
+    const std::string key = "\"max\":";
+    return std::stod(cells.substr(cells.find(key, cells.find("\"" + errors + "\":{")) + key.size()));
+  };
+  REQUIRE(largest("ulps") > 100);  // grazing: the time is worse known by far than to an ulp
+  CHECK(largest("conditions") < largest("ulps") / 10);
+  CHECK(largest("conditions") > 0);
+}
+
 TEST_CASE("bench counts wrong times apart from wrong answers", "[cli][bench_command]") {
   const Folder folder;
   const Run run =
