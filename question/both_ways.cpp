@@ -1,7 +1,8 @@
-#include "question/both_ways.hpp"
-
+// A batch engine that is asked in two ways at once.
 #include <cstring>
 #include <memory>
+
+#include "question/scene_engine.hpp"
 
 namespace lorentz::question {
 namespace {

@@ -14,7 +14,7 @@
 #include <lorentz/scene.hpp>
 #include "question/answerer.hpp"
 #include "question/introduction.hpp"
-#include "question/own_answerer.hpp"
+#include "question/scene_engine.hpp"
 
 namespace lorentz::question {
 

@@ -1,8 +1,9 @@
-#include "question/own_answerer.hpp"
-
+// The engines of this program as answerers.
 #include <algorithm>
 #include <optional>
 #include <vector>
+
+#include "question/scene_engine.hpp"
 
 namespace lorentz::question {
 namespace {

@@ -7,7 +7,6 @@
 #include <lorentz/engine.hpp>
 #include <lorentz/geometry.hpp>
 #include <lorentz/walk.hpp>
-#include "question/both_ways.hpp"
 #include "question/engines.hpp"
 #include "question/precisions/precisions.hpp"
 #include "src/engines/gpu/gpu_batch.hpp"

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,7 +20,7 @@ struct Traits {
   bool is_exact = false;          ///< its answers rest on exact arithmetic
   bool knows_digits = false;      ///< gives digits of times beyond those of a binary64
   bool leaves_undecided = false;  ///< on purpose: `undecided` for a hard query is not a failure
-  bool uses_reduction = false;    ///< so `certified`, which rests on `reduction`, cannot judge it
+  bool uses_reduction = false;    ///< `reduction` decides all that it can
   bool takes_limits = false;      ///< compares the exact time of a hit with a limit
   std::size_t together = 0;       ///< slow with one query at a time: how many are best asked together; else 0
   bool needs_card = false;        ///< flies on a graphics card
@@ -79,5 +80,18 @@ class SceneEngine {
   Ask ask_;
   FlyTogether fly_together_;
 };
+
+/// Makes the engine for a valid scene.
+using MakeSceneEngine = std::function<SceneEngine(const Scene&)>;
+
+/// An answerer of an engine of this program. One in bulk gathers queries and flies them together; others answer at
+/// once.
+std::unique_ptr<Answerer> own_answerer(const Traits& traits, MakeSceneEngine make,
+                                       const AnswererOptions& options = {});
+
+/// The engine `batch` asked in two ways at once, as campaigns do: together, and each query also alone (or by the
+/// function given here). The two answers must be the same to the bit, or the reply is an error.
+using FlyAlone = std::function<Flight(const Batch&, const Query&, double max_time, Batch::Time)>;
+SceneEngine batch_both_ways(const Scene& scene, const Traits& traits, FlyAlone alone = {});
 
 }  // namespace lorentz::question

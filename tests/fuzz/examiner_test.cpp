@@ -8,7 +8,7 @@
 
 #include <lorentz/exchange.hpp>
 #include "fuzz/families/family.hpp"
-#include "question/both_ways.hpp"
+#include "question/scene_engine.hpp"
 #include "tests/fuzz/campaign_support.hpp"
 #include "tests/support/support.hpp"
 
