@@ -20,7 +20,7 @@ namespace {
 // What the engine answers to these queries, judged with the tolerance of 4 ulps.
 Tally judged(const std::string& engine, double r, const std::vector<Query>& queries) {
   std::vector<Question> questions = questions_of(std::make_shared<Place>(unit_scene(2, r)), queries);
-  answer_exactly(questions, Truth::oracle);
+  answer_exactly(questions);
   Tally tally;
   examine(all_of(questions), *engine_named(engine).answerer({}), oracle::kDefaultUlps,
           [&](const Judged& judged) { tally.count(judged.judgement); });
