@@ -1,4 +1,5 @@
 // lorentz compare: compares engines, and answers logged elsewhere, with the oracle.
+#include <limits>
 #include <unordered_set>
 
 #include <lorentz/exchange.hpp>
@@ -161,11 +162,11 @@ auto spread_of(const std::vector<double>& values) {
   return values.empty() ? std::nullopt : std::optional(spread);
 }
 
-void add_tally(json::Members& object, const Tally& t) {
+void add_tally(json::Members& object, const Tally& t, bool judged) {
   const auto if_timed = [&](double ulps) { return t.timed_hits > 0 ? std::optional(ulps) : std::nullopt; };
   const auto if_fast = [&](double ns) { return t.speed.ns_per_query > 0 ? std::optional(ns) : std::nullopt; };
   object.add("engine", t.name, "queries", t.queries);
-  add_counts(object, t.counts, Counted::examinations);
+  add_counts(object, t.counts, Counted::examinations, judged);
   object.add("max_ulp", if_timed(t.max_ulp()), "mean_ulp", if_timed(t.mean_ulp()), "ns_per_query",
              if_fast(t.speed.ns_per_query), "ns_median", if_fast(t.speed.ns_median), "engine_ns",
              t.speed.own_ns, "wrong_time_ulps", spread_of(t.wrong_ulps), "wrong_time_conditions",
@@ -174,12 +175,14 @@ void add_tally(json::Members& object, const Tally& t) {
 
 std::string json_of(const ExaminationOptions& options, const ComparedQuestions& questions,
                     const std::list<LineupEntry>& all) {
+  const auto judge = options.no_oracle ? std::nullopt : std::optional(std::string("oracle"));
   return json::line_of([&](json::Members& object) {
-    object.add("scene", questions.title(), "seed", options.seed, "judge", "oracle");
+    object.add("scene", questions.title(), "seed", options.seed, "judge", judge);
     report::add_claim(object, options.claim.claim());
-    object.add(
-        "not_asked", questions.not_asked(), "outside_domain", questions.outside_domain(), "engines",
-        json::objects(all, [](json::Members& one, const LineupEntry& its) { add_tally(one, its.total()); }));
+    object.add("not_asked", questions.not_asked(), "outside_domain", questions.outside_domain(), "engines",
+               json::objects(all, [&](json::Members& one, const LineupEntry& its) {
+                 add_tally(one, its.total(), judge.has_value());
+               }));
   });
 }
 
@@ -218,7 +221,9 @@ std::string text_of(const ExaminationOptions& options, const ComparedQuestions& 
   std::string text = fmt::format(
       "{}: {} {} queries{}{}\n{}{}\n{}", questions.title(), questions.count(), drawn ? "drawn" : "given",
       drawn ? ", seed " + std::to_string(options.seed) : "", report::words_of(options.claim.claim()),
-      drawn ? fmt::format("drawn: {}\n", starts::kVariedWords) : "", not_asked_of(questions), table_of(all));
+      drawn ? fmt::format("drawn: {}\n", starts::kVariedWords) : "", not_asked_of(questions),
+      options.no_oracle ? times_of(all) : table_of(all));
+  if (options.no_oracle) return text;
   for (const LineupEntry& one : all)
     text += fmt::format("\n{}\n{}{}", verdict_of(one.total()),
                         one.failures.empty() ? "" : "  The first failures:\n", fmt::join(one.failures, ""));
@@ -244,6 +249,14 @@ std::vector<Question> examine_all(const ExaminationOptions& options, ComparedQue
   return first;
 }
 
+// All questions, which are not judged.
+std::vector<Question> all_to_time(ComparedQuestions& questions, Lineup& lineup) {
+  std::vector<Question> all = questions.next(std::numeric_limits<std::size_t>::max());
+  lineup.begin("timed");
+  for (const LineupEntry& one : lineup.all()) one.row->tally.queries = all.size();
+  return all;
+}
+
 int run_compare(ExaminationOptions options) {
   if (options.engines.empty() && options.answers.empty()) options.engines = {"classical", "published"};
   const std::vector<EngineInfo> engines = options.named_engines();
@@ -254,7 +267,7 @@ int run_compare(ExaminationOptions options) {
   ComparedQuestions questions(options, lineup.disagreements());
   for (const std::string& argument : options.answers)
     add_logged(lineup, argument, questions, options.unknown_keys());
-  lineup.race(examine_all(options, questions, lineup));
+  lineup.race(options.no_oracle ? all_to_time(questions, lineup) : examine_all(options, questions, lineup));
   const int status = lineup.finish(questions.had_bad_input());
   print(options.json ? json_of(options, questions, lineup.all()) : text_of(options, questions, lineup.all()));
   return status;
@@ -268,11 +281,11 @@ Command compare_command() {
       "compare",
       "Engines, and answers that other programs logged, against the exact "
       "oracle: right or wrong, error, speed.",
-      options->rows({"--engine",    "--answers",        "--scene",  "--radius",        "--queries",
-                     "--jobs",      "--count",          "--seed",   "--disagreements", "--ulps",
-                     "--precision", "--time-tolerance", "--domain", "--starts-inside", "--timeout",
-                     "--json",      "--failures",       "--times",  "--strict",        "--baseline",
-                     "--junit"}),
+      options->rows({"--engine",    "--answers",        "--scene",    "--radius",        "--queries",
+                     "--jobs",      "--count",          "--seed",     "--disagreements", "--ulps",
+                     "--precision", "--time-tolerance", "--domain",   "--starts-inside", "--no-oracle",
+                     "--timeout",   "--json",           "--failures", "--times",         "--strict",
+                     "--baseline",  "--junit"}),
 
       "wrong: another obstacle or outcome than any error of k ulps in the inputs explains. wrong time: the "
       "right obstacle,\nbut the time is off by more than k times what such errors make of it "

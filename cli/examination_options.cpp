@@ -55,6 +55,7 @@ std::vector<Option> rows_of_engines(O& o) {
        "times are those of one thread",
        kPlain, "--questions"},
       {"--timeout", Positive{&o.timeout}, "SECONDS", kTimeoutHelp},
+      {"--no-oracle", &o.no_oracle, "", "only measures times, judges nothing", kPlain, "--answers"},
       {"--ulps", Tolerance{&o.ulps}, "K",
        "the tolerance k: answers that k ulps in every input would make right are ill-posed, not wrong; 0 "
        "forgives nothing (default: 4)"},

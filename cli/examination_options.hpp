@@ -21,7 +21,7 @@ struct ExaminationOptions {
   std::uint64_t count = 10'000, seed = starts::kDefaultSeed, jobs = 1, failures = 3;
   ClaimOptions claim;
   FailureFiles files;
-  bool json = false, all = false, strict = false, times = false, quick = false;
+  bool json = false, all = false, no_oracle = false, strict = false, times = false, quick = false;
 
   /// The rows of these names, in this order. The defaults in help are those that the members have now.
   std::vector<Option> rows(std::initializer_list<const char*> names);

@@ -215,6 +215,16 @@ std::string wrong_times_of(const Tally& t) {
 
 }  // namespace
 
+std::string times_of(const std::list<LineupEntry>& all) {
+  report::Table table({"engine", "queries", "ns/query", "ns median"});
+  for (const LineupEntry& one : all) {
+    const Tally t = one.total();
+    table.add({t.name, std::to_string(t.queries), nanoseconds(t.speed.ns_per_query),
+               nanoseconds(t.speed.ns_median)});
+  }
+  return table.text();
+}
+
 std::string table_of(const std::list<LineupEntry>& all) {
   report::Table table(titles_counted(Counted::examinations, {"engine", "queries"},
                                      {"max ulp", "mean ulp", "ns/query", "ns median"}));

@@ -74,6 +74,7 @@ class Lineup {
 
 /// A table with a row for each of those examined, and a sentence for each.
 std::string table_of(const std::list<LineupEntry>& all);
+std::string times_of(const std::list<LineupEntry>& all);  ///< a table of these alone
 std::string verdict_of(const question::Tally& tally);
 
 }  // namespace lorentz::cli

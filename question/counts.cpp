@@ -46,8 +46,9 @@ std::vector<CountName> names_counted(Counted by) {
   return names;
 }
 
-void add_counts(json::Members& object, const Counts& counts, Counted by) {
-  for (const CountName& name : names_counted(by)) object.add_named(name.key, counts[name.count]);
+void add_counts(json::Members& object, const Counts& counts, Counted by, bool judged) {
+  for (const CountName& name : names_counted(by))
+    object.add_named(name.key, judged ? std::optional(counts[name.count]) : std::nullopt);
 }
 
 namespace {

@@ -84,8 +84,8 @@ class Counts {
 /// The names of what is counted by these, in the order of reports.
 std::vector<CountName> names_counted(Counted by);
 
-/// Members of these names.
-void add_counts(json::Members& object, const Counts& counts, Counted by);
+/// Members of these names; null if nothing was judged.
+void add_counts(json::Members& object, const Counts& counts, Counted by, bool judged = true);
 
 /// The columns of a table between others: titles, and cells, each as `text` has it.
 std::vector<std::string> titles_counted(Counted by, std::vector<std::string> before,

@@ -354,6 +354,16 @@ TEST_CASE("What another program writes reaches no terminal as it is, and is neve
   CHECK(judged.status == 1);  // its only answer is an error
 }
 
+TEST_CASE("compare --no-oracle takes times and judges nothing", "[cli][compare_command]") {
+  const Folder folder;
+  const Run timed = folder.lorentz("compare --no-oracle --json --count 20 --engine classical");
+  INFO(timed.out << timed.err);
+  CHECK(timed.status == 0);
+  CHECK(contains(timed.out, R"("judge":null)"));
+  CHECK(contains(timed.out, R"("queries":20,"agree":null)"));
+  CHECK_FALSE(contains(folder.lorentz("compare --no-oracle --count 20 -e classical").out, "agree"));
+}
+
 TEST_CASE("compare draws in each scene at each radius, and takes a baseline and a report of JUnit",
           "[cli][compare_command]") {
   const Folder folder;
