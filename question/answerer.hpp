@@ -55,7 +55,6 @@ enum class Origin {
 struct Reply {
   Answer answer = {};
   Origin origin = Origin::engine;
-  std::optional<double> work = {};  ///< in the engine's own count of steps, if it counts
   std::optional<Stage> stage = {};  ///< which stage of its ladder decided, if it has one
 
   bool was_asked() const { return origin != Origin::not_asked; }

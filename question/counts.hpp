@@ -26,8 +26,7 @@ enum class Count : std::size_t {
   wrong_time,      ///< of those that agree: the time is beyond its tolerance
   other_quantity,  ///< of the wrong times: no rounding explains them
   nonsense,        ///< an invalid question that was answered as if it were valid; it counts as nothing else
-  too_slow,        ///< an external engine was silent for longer than it may be; it counts as nothing else
-  slow             ///< of those that agree or are ill-posed: with much more work than a drawn flight
+  too_slow         ///< an external engine was silent for longer than it may be; it counts as nothing else
 };
 
 /// Who counts what.
@@ -51,7 +50,6 @@ inline constexpr std::array kCountNames{
     CountName{Count::wrong_time, "wrong_time", "wrong time", "wrong times", 7},
     CountName{Count::other_quantity, "other_quantity", "of another quantity", {}, 3 + 16},
     CountName{Count::undecided, "undecided", "undecided"},
-    CountName{Count::slow, "slow", "slow", {}, 4},
     CountName{Count::unsupported, "unsupported", "unsupported", {}, 7},
     CountName{Count::error, "error", "error", "errors", 7},
     CountName{Count::missing, "missing", "missing", {}, 1 + 2},

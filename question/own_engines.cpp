@@ -10,7 +10,6 @@
 #include "question/engines.hpp"
 #include "question/precisions/precisions.hpp"
 #include "src/engines/gpu/gpu_batch.hpp"
-#include "src/engines/published/published.hpp"
 
 namespace lorentz::question {
 
@@ -32,20 +31,6 @@ namespace {
 SceneEngine of_engine(const Scene& scene, const Traits& traits, std::shared_ptr<const Engine> engine) {
   return {scene, traits, [engine, scene](const Query& query, const oracle::Request& request, Reply& reply) {
             engine->first_hit(query, limit_of(request), reply.answer);
-            if (request.detail) add_detail(query, scene, reply.answer);
-          }};
-}
-
-// The published algorithm reports the number of its passes as the work of an answer.
-SceneEngine published(const Scene& scene, const Traits& traits) {
-  const std::shared_ptr<const Engine> engine = make_engine("published", scene);
-  const auto* const counting = dynamic_cast<const Published*>(engine.get());
-  if (!counting) return of_engine(scene, traits, engine);
-  return {scene, traits,
-          [engine, counting, scene](const Query& query, const oracle::Request& request, Reply& reply) {
-            Proposals proposals;
-            reply.answer = counting->first_hit_counted(query, limit_of(request), proposals);
-            reply.work = static_cast<double>(proposals.passes);
             if (request.detail) add_detail(query, scene, reply.answer);
           }};
 }
@@ -177,7 +162,7 @@ std::vector<EngineInfo> table() {
   };
   std::vector<EngineInfo> all{
       own("classical", {}, plain("classical"), hasty_classical),
-      own("published", {}, published),
+      own("published", {}, plain("published")),
       own("golse", {}, plain("golse")),
       own("reduction", fast, of_batch, staged_flights),
       own("certified", sure, certified),

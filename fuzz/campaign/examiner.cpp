@@ -1,8 +1,5 @@
 #include "fuzz/campaign/examiner.hpp"
 
-#include <algorithm>
-
-#include "question/cases/drawn_flights.hpp"
 #include "question/examine.hpp"
 #include "src/problem/same_answer.hpp"
 
@@ -49,7 +46,7 @@ bool is_tie(const oracle::Judge& judge, const Query& query, const Answer& exact,
 bool Sought::is_finding(Kind kind) const {
   if (kind == Kind::wrong_time) return times;
   if (kind == Kind::undecided) return undecided;
-  return kind == Kind::wrong || kind == Kind::slow || kind == Kind::error;
+  return kind == Kind::wrong || kind == Kind::error;
 }
 
 // The exact answer to the question in its own words. Nothing if it contradicts the answer that was carried
@@ -83,7 +80,7 @@ Examined Examiner::judge(const Question& question, Reply& reply, bool is_carried
 }
 
 Examined Examiner::judge_exact(const Question& question, Reply& reply) {
-  // By Verdict. Right answers may still be slow, or their times wrong.
+  // By Verdict. The times of right answers may still be wrong.
   constexpr Kind kKindOf[] = {Kind::agree,       Kind::agree, Kind::wrong, Kind::undecided,
                               Kind::unsupported, Kind::error, Kind::error};
   static_assert(std::size(kKindOf) == static_cast<std::size_t>(oracle::Verdict::missing) + 1);
@@ -92,37 +89,12 @@ Examined Examiner::judge_exact(const Question& question, Reply& reply) {
   const bool says = reply.answer.outcome != Outcome::undecided && reply.answer.outcome != Outcome::error;
   Examined one;
   one.departs = judgement.departs;
-  one.work = reply.work;
   one.stage = reply.stage;
   one.exact = says && question.has_limit() && is_later(question) ? Answer::later() : question.exact;
   one.given = std::move(reply.answer);
   one.kind = kKindOf[static_cast<int>(judgement.verdict)];
-  if (one.kind == Kind::agree)
-    one.kind = one.work && is_slow(*one.work) ? Kind::slow
-               : judgement.wrong_time         ? Kind::wrong_time
-                                              : Kind::agree;
+  if (one.kind == Kind::agree && judgement.wrong_time) one.kind = Kind::wrong_time;
   return one;
-}
-
-// The median depends on the scene alone, so that it does not matter what else is examined. It is computed
-// only if there is much work.
-bool Examiner::is_slow(double work) {
-  if (work < kLeastWork) return false;
-  if (!slow_from_) {
-    std::vector<Question> drawn;
-    for (int i = 0; i < kDrawnFlights; ++i) {
-      Random random(0, "drawn flights", static_cast<std::uint64_t>(i));
-      const Vec x = point_in_cell(random, scene()), v = random.direction(scene().dimension);
-      drawn.push_back({.place = place_, .query = {x, v, {}}});
-    }
-    std::vector<double> works;
-    for (const Reply& reply : replies_to(question::all_of(drawn), answerer_))
-      if (reply.work) works.push_back(*reply.work);
-    if (works.size() < kDrawnFlights) works.resize(kDrawnFlights, works.empty() ? work : works.back());
-    std::nth_element(works.begin(), works.begin() + kDrawnFlights / 2, works.end());
-    slow_from_ = kSlowFactor * works[kDrawnFlights / 2];
-  }
-  return work > *slow_from_;
 }
 
 }  // namespace lorentz::fuzz

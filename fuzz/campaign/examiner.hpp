@@ -12,14 +12,8 @@
 
 namespace lorentz::fuzz {
 
-/// The judgement of a reply: one of agree (also ill-posed), wrong, wrong_time, undecided, slow, unsupported, error (also
-/// missing).
+/// The judgement of a reply: one of agree (also ill-posed), wrong, wrong_time, undecided, unsupported, error (also missing).
 using Kind = question::Count;
-
-/// An answer is slow if it takes more than kSlowFactor times the median work of kDrawnFlights drawn flights
-/// in the scene, and at least kLeastWork.
-inline constexpr double kSlowFactor = 100, kLeastWork = 500;
-inline constexpr int kDrawnFlights = 33;
 
 /// Which kinds are findings.
 struct Sought {
@@ -51,7 +45,6 @@ struct Examined {
   Kind kind = Kind::agree;
   Answer given, exact;
   double departs = 0;  ///< as in oracle::Judgement
-  std::optional<double> work = {};
   std::optional<Stage> stage = {};
 };
 
@@ -74,12 +67,10 @@ class Examiner {
  private:
   std::optional<Answer> settled(const Question& question) const;
   Examined judge_exact(const Question& question, Reply& reply);
-  bool is_slow(double work);
 
   Answerer& answerer_;
   std::shared_ptr<Place> place_;
   double ulps_;
-  std::optional<double> slow_from_ = {};
 };
 
 }  // namespace lorentz::fuzz

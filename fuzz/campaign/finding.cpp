@@ -14,7 +14,7 @@ namespace {
 constexpr double kFar = 1e6, kExtreme = 1e100;
 
 // The kinds of findings in the order of rank_of().
-constexpr Kind kInOrder[] = {Kind::wrong, Kind::wrong_time, Kind::error, Kind::undecided, Kind::slow};
+constexpr Kind kInOrder[] = {Kind::wrong, Kind::wrong_time, Kind::error, Kind::undecided};
 
 std::string outcomes_of(const Examined& examined) {
   return std::string(name_of(examined.given.outcome)) + " for " +

@@ -54,7 +54,7 @@ struct Finding {
   }
 };
 
-/// Kinds in the order in which they matter: `wrong` first, then wrong time, error, undecided, slow. They are
+/// Kinds in the order in which they matter: `wrong` first, then wrong time, error, undecided. They are
 /// shrunk and listed in this order.
 int rank_of(std::string_view kind);
 

@@ -18,9 +18,6 @@ using namespace cases;
 
 namespace {
 
-// Work (in the engine's own count) that shrinking one case may cost: a few seconds of `published`.
-constexpr double kShrinkWork = 1.5e7;
-
 // Each scene is asked about in kWordings other wordings, one question in kCasesPerLimit with a time limit.
 constexpr std::uint64_t kWordings = 3, kCasesPerLimit = 4;
 
@@ -246,23 +243,22 @@ Finding StintRunner::finding_of(const Target& target, const Case& one, const std
 }
 
 // Shrinks a case that fails: it must go on failing in the same kind and with the same two outcomes. Ends if
-// that takes too much work, or if the answerer fails.
+// the answerer fails.
 Shrunk StintRunner::shrink_case(const ReadCase& found, const Examined& like, LimitAt limit,
                                 const std::function<bool()>& is_late) {
   std::optional<Examiner> examiner;
-  double work = 0, flight = -1;
+  double flight = -1;
   const StillFails fails = in_places([this](const Scene& scene) { return place_in(scene, plan_); },
                                      [&](const std::shared_ptr<Place>& place, const Query& query) {
                                        if (!examiner || examiner->place() != place)
                                          examiner.emplace(*answerer_, place, plan_.sought.ulps);
                                        const Examined one = examiner->examine(query, limit);
-                                       work += one.work.value_or(0);
                                        flight = one.exact.time ? *one.exact.time * length(query.v) : -1;
                                        return one.kind == like.kind &&
                                               one.given.outcome == like.given.outcome &&
                                               one.exact.outcome == like.exact.outcome;
                                      });
-  const auto is_up = [&] { return stop_ || work > kShrinkWork || answerer_->failed() || is_late(); };
+  const auto is_up = [&] { return stop_ || answerer_->failed() || is_late(); };
   return fuzz::shrink(found.scene, found.query, fails, [&] { return flight; }, {kShrinkTries, is_up});
 }
 

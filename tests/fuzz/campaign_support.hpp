@@ -10,26 +10,21 @@
 
 namespace lorentz::test {
 
-/// Says what it is told to, and how much work that was.
+/// Says what it is told to.
 class ToldAnswerer final : public question::Answerer {
  public:
   using Says = std::function<Answer(const question::Place&, const Query&)>;
-  using Works = std::function<std::optional<double>(const Query&)>;
-  explicit ToldAnswerer(Says says, Works works = {}) : says_(std::move(says)), works_(std::move(works)) {}
-  void ask(const Id&, const Query& query) override {
-    Answer answer = says_(*place_, query);
-    deliver({.answer = std::move(answer), .work = works_ ? works_(query) : std::nullopt});
-  }
+  explicit ToldAnswerer(Says says) : says_(std::move(says)) {}
+  void ask(const Id&, const Query& query) override { deliver({.answer = says_(*place_, query)}); }
 
  private:
   void enter(const Scene& scene) override { place_.emplace(scene); }
   const Says says_;
-  const Works works_;
   std::optional<question::Place> place_;
 };
 
-inline question::MakeAnswerer told(const ToldAnswerer::Says& says, const ToldAnswerer::Works& works = {}) {
-  return [=](const auto&) { return std::make_unique<ToldAnswerer>(says, works); };
+inline question::MakeAnswerer told(const ToldAnswerer::Says& says) {
+  return [=](const auto&) { return std::make_unique<ToldAnswerer>(says); };
 }
 
 /// Right, but for flights that leave an obstacle of cell 0 with v_1 > 1/2: these it takes a cell too far.

@@ -114,37 +114,6 @@ TEST_CASE("A single flight that says anything else than a batch is seen", "[fuzz
     CHECK(said(*fuzz::answerer_maker(question::engine_named(engine))({}), scene, queries, 0.125) == "ll");
 }
 
-namespace {
-
-// The kind of a right answer with work `its`. The questions after the first take the work `drawn`, in turn.
-Kind kind_of_work(double its, std::vector<std::optional<double>> drawn) {
-  std::size_t asked = 0;
-  ToldAnswerer answerer([](const question::Place& place, const Query& query) { return place.exact(query); },
-                        [&](const Query&) {
-                          const std::size_t before = asked++;
-                          return before == 0 ? std::optional(its) : drawn[(before - 1) % drawn.size()];
-                        });
-  const auto place = std::make_shared<question::Place>(unit_scene(2, 0.25));
-  return fuzz::Examiner(answerer, place, 4).examine({{0.5, 0}, {1, 0}, {}}).kind;
-}
-
-}  // namespace
-
-TEST_CASE("Slow is more than a hundred times the median of drawn flights, of those whose work is known",
-          "[fuzz][examiner]") {
-  CHECK(kind_of_work(1000, {10}) == Kind::agree);
-  CHECK(kind_of_work(1001, {10}) == Kind::slow);
-  CHECK(kind_of_work(499, {1}) == Kind::agree);
-  CHECK(kind_of_work(500, {1}) == Kind::slow);
-  CHECK(kind_of_work(1001, {10, 1e6}) == Kind::slow);  // of 33 most are 10
-  CHECK(kind_of_work(1001, {1e6, 10}) == Kind::agree);
-  // An engine that counts in every other answer, and one that counts in none of the drawn flights.
-  CHECK(kind_of_work(1000, {10, {}}) == Kind::agree);
-  CHECK(kind_of_work(1001, {10, {}}) == Kind::slow);
-  CHECK(kind_of_work(1001, {{}, 10}) == Kind::slow);
-  CHECK(kind_of_work(1e9, {std::nullopt}) == Kind::agree);
-}
-
 TEST_CASE("With a limit at, below or above the time an answer is right or wrong, never ill-posed",
           "[fuzz][examiner]") {
   const Scene scene = unit_scene(2, 0.25);

@@ -70,9 +70,6 @@ TEST_CASE("The published algorithm's faults shrink to numbers that can be read",
   SECTION("endless channel, at the price of its cap for each try") {
     check(shrink_published(unit_scene(2, 1.0 / 81), {{0, 0.878597}, {2, 1}, {}}, Kind::undecided, 40));
   }
-  SECTION("a slow drift") {
-    check(shrink_published(unit_scene(2, 1e-5), {{0, 0.3}, {1, 2.5e-5}, {}}, Kind::slow, 400));
-  }
 }
 
 TEST_CASE("What does not matter goes: lattices, atoms, ellipsoids, `from`, far cells", "[fuzz][shrink]") {

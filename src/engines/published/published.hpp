@@ -17,7 +17,6 @@ struct Proposals {
   long long made = 0;           ///< discs; spheres that the three planes agree on
   long long false_ellipse = 0;  ///< of these: the flight meets the circumscribed ball, but not the obstacle
   long long false_tricylinder = 0;  ///< 3D, of these: the line misses even the circumscribed ball
-  long long passes = 0;             ///< the work: convergents taken in all searches, plus searches
 };
 
 /// In the unit square lattice the engine searches by convergents of the slope; in the unit cubic lattice by

@@ -115,9 +115,7 @@ Answer PublishedBravais::flight_2d(const Ray& ray, double limit, Proposals& prop
   long passes = Published::kMaxTotalPasses;
   for (long round = 0; round < Published::kMaxRounds && elapsed <= limit; ++round) {
     if (!(std::fabs(x[0]) < kMaxStart && std::fabs(x[1]) < kMaxStart)) return Answer::undecided();
-    const long before = passes;
     const auto result = first_disc<double>({x[0], x[1]}, {v[0], v[1]}, circumscribed_, leaving, passes);
-    proposals.passes += before - passes + 1;
     if (auto answer = answer_for(result.found)) return *answer;
     ++proposals.made;
     // The classical quadratic in the scene, from the place that is closest to the circumscribed disc.
@@ -161,7 +159,7 @@ Answer PublishedBravais::flight_3d(const Ray& ray, double limit, Proposals& prop
   };
   const auto result =
       first_sphere<double>(transformed_place(ray.x), v, circumscribed_, has_from ? &from : nullptr,
-                           {Published::kMaxTotalPasses, true, proposals.passes}, limit * speed, is_hit);
+                           {Published::kMaxTotalPasses, true}, limit * speed, is_hit);
   if (result.none) return *result.none;
   return Answer::hit(obstacle_of(result.centre), result.distance / speed);
 }

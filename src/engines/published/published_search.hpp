@@ -221,12 +221,10 @@ T advance_to_farthest(const Disc<T> (&disc)[3], const Triple<T>& x, const Triple
   return farthest - T(0.1) * r;
 }
 
-// The largest number of passes, for each search in a plane or for all of them together, and the number of
-// passes taken.
+// The largest number of passes, for each search in a plane or for all of them together.
 struct Passes {
   long most;
   bool is_total;
-  long long& taken;
 };
 
 // The sphere that a 3D search ends with, and the distance to the hit; or the answer if there is no hit.
@@ -258,10 +256,8 @@ SpaceResult<T> first_sphere(Triple<T> x, const Triple<T>& v, const T& r, const T
       if (!(fabs(x[i]) < farthest && fabs(x[k]) < farthest)) return {Answer::undecided()};
       const Disc<T> leaving = from ? Disc<T>{(*from)[i], (*from)[k]} : Disc<T>{};
       if (!passes.is_total) passes_left = passes.most;
-      const long before = passes_left;
       const PlaneResult<T> result =
           first_disc<T>({x[i], x[k]}, {v[i], v[k]}, r, from && round == 0 ? &leaving : nullptr, passes_left);
-      passes.taken += before - passes_left + 1;
       if (auto answer = answer_for(result.found)) return {answer};
       disc[plane] = result.disc;
     }

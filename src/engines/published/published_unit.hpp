@@ -47,7 +47,6 @@ Answer published_2d(const ColumnLine<T>& line, const T& r, const Triple<T>* from
     result = first_disc<T>({x[0] + there * v[0], x[1] + there * v[1]}, direction, r, &leaving, passes);
     if (result.found == Proposed::disc && result.disc == leaving) return Answer::undecided();
   }
-  proposals.passes += Published::kMaxPasses - passes + 1;
   if (auto answer = answer_for(result.found)) return *answer;
   ++proposals.made;
   return hit_on<T>({result.disc[0], result.disc[1], T(0)}, line, r);
@@ -64,8 +63,8 @@ Answer published_3d(const ColumnLine<T>& line, const T& r, const Triple<T>* from
     if (time && !(*time >= 0 && !(from && *from == centre))) time.reset();
     return time;
   };
-  const SpaceResult<T> result = first_sphere<T>(
-      line.x, v, r, from, {Published::kMaxPasses, false, proposals.passes}, T(kNoLimit), is_hit);
+  const SpaceResult<T> result =
+      first_sphere<T>(line.x, v, r, from, {Published::kMaxPasses, false}, T(kNoLimit), is_hit);
   if (result.none) return *result.none;
   return Answer::hit(obstacle_of(result.centre), NumberType<T>::binary64(result.distance / speed));
 }
