@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <stdexcept>
-#include <tuple>
 
 #include <lorentz/exchange.hpp>
 #include "report/claim_words.hpp"
@@ -20,14 +17,6 @@ using question::Count;
 
 namespace {
 
-constexpr double kSmall = 0.01;
-
-// The t that Student's t with `degrees` degrees of freedom exceeds in absolute value with probability 5 %.
-double student_t(double degrees) {
-  const double x = beta_quantile(degrees / 2, 0.5, 0.05);  // degrees / (degrees + t^2)
-  return std::sqrt(degrees * (1 - x) / x);
-}
-
 std::string radius_of(const Cell& cell) {
   if (!cell.radius) return "own";
   std::string text;
@@ -38,48 +27,6 @@ std::string radius_of(const Cell& cell) {
 bool same_queries(const Cell& a, const Cell& b) {
   return a.scene == b.scene && a.radius == b.radius && a.difficulty == b.difficulty;
 }
-
-}  // namespace
-
-std::optional<PowerFit> power_fit(const std::vector<std::pair<double, double>>& points) {
-  const auto n = static_cast<double>(points.size());
-  double mean_x = 0, mean_y = 0;
-  for (const auto& [x, y] : points) {
-    if (!(x > 0 && y > 0 && std::isfinite(x) && std::isfinite(y)))
-      throw std::invalid_argument("power_fit: numbers above zero");
-    mean_x += std::log(x) / n, mean_y += std::log(y) / n;
-  }
-  double xx = 0, xy = 0, yy = 0;
-  for (const auto& [x, y] : points) {
-    const double a = std::log(x) - mean_x, b = std::log(y) - mean_y;
-    xx += a * a, xy += a * b, yy += b * b;
-  }
-  const auto [smallest, largest] = std::minmax_element(points.begin(), points.end());
-  if (points.size() < 3 || smallest->first == largest->first) return std::nullopt;
-  PowerFit fit;
-  fit.exponent = xy / xx;
-  const double rest = std::max(yy - xy * xy / xx, 0.0);  // what the line does not explain
-  const double error = student_t(n - 2) * std::sqrt(rest / (n - 2) / xx);
-  fit.low = fit.exponent - error, fit.high = fit.exponent + error;
-  fit.from = smallest->first, fit.to = largest->first;
-  return fit;
-}
-
-std::vector<PowerFit> bench_fits(const std::vector<Cell>& cells) {
-  std::map<std::tuple<std::string, std::string, std::string>, std::vector<std::pair<double, double>>> points;
-  for (const Cell& cell : cells)
-    if (!cell.skipped && cell.radius && *cell.radius <= kSmall && cell.speed && cell.speed->ns_median > 0)
-      points[{cell.scene, cell.engine, cell.difficulty}].emplace_back(*cell.radius, cell.speed->ns_median);
-  std::vector<PowerFit> fits;
-  for (const auto& [key, values] : points)
-    if (const auto fit = power_fit(values)) {
-      fits.push_back(*fit);
-      std::tie(fits.back().scene, fits.back().engine, fits.back().difficulty) = key;
-    }
-  return fits;
-}
-
-namespace {
 
 std::string table_of(const std::vector<Cell>& cells) {
   Table table({"queries", "engine", "number", "ns", "quartiles", "undecided", "ill-posed", "wrong",
@@ -104,16 +51,6 @@ std::string table_of(const std::vector<Cell>& cells) {
                fmt::format("{:.3g}", cell.ulps.p99), fmt::format("{:.3g}", cell.ulps.max)});
   }
   return table.text();
-}
-
-std::string fits_text(const std::vector<PowerFit>& fits) {
-  if (fits.empty()) return "";
-  Table table({"ns as r to the power", "engine", "power", "95 %", "r from", "r to"});
-  for (const PowerFit& fit : fits)
-    table.add({fmt::format("{}, {}", fit.scene, fit.difficulty), fit.engine,
-               fmt::format("{:.3f}", fit.exponent), fmt::format("{:.3f} to {:.3f}", fit.low, fit.high),
-               fmt::format("{:.3g}", fit.from), fmt::format("{:.3g}", fit.to)});
-  return table.text() + '\n';
 }
 
 // The results of one engine over all cells of the table.
@@ -195,8 +132,7 @@ std::string bench_text(const std::vector<Cell>& cells, const std::vector<std::st
   std::string text =
       table_of(cells) +
       "\nns: median over blocks of 16 queries (of a batch engine 1024) of a block's mean, and its "
-      "quartiles; ulp: error of the time of right hits.\n\n" +
-      fits_text(bench_fits(cells));
+      "quartiles; ulp: error of the time of right hits.\n\n";
   for (const std::string& engine : engines) {
     Summary summary;
     for (const Cell& cell : cells)
@@ -233,15 +169,9 @@ std::string bench_csv(const std::vector<Cell>& cells) {
 
 std::string bench_json(const std::vector<Cell>& cells, const std::string& manifest, const Claim& claim) {
   constexpr const char* kNewLine = "\n";
-  const auto fits = bench_fits(cells);
-  const auto fit = [](json::Members& one, const PowerFit& its) {
-    one.add("scene", its.scene, "engine", its.engine, "difficulty", its.difficulty, "exponent", its.exponent,
-            "low", its.low, "high", its.high, "from", its.from, "to", its.to);
-  };
   return json::line_of([&](json::Members& page) {
     page.add("format", 1, "kind", "bench", "title", "Speed against error", "manifest", json::Raw{manifest});
-    page.add("cells", json::array(cells, json::append<Cell>, kNewLine), "fits",
-             json::objects(fits, fit, kNewLine));
+    page.add("cells", json::array(cells, json::append<Cell>, kNewLine));
     add_claim(page, claim);
   });
 }

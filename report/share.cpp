@@ -9,16 +9,12 @@
 
 namespace lorentz::report {
 
-double beta_quantile(double a, double b, double p) {
-  return boost::math::ibeta_inv(a, b, p);
-}
-
 // P(k or more of n | share p) = I_p(k, n - k + 1), the incomplete beta function.
 Share share_of(std::size_t count, std::size_t total) {
   constexpr double kEachTail = 0.025;
   if (count > total) throw std::invalid_argument("share_of: more than all");
   const auto k = static_cast<double>(count), others = static_cast<double>(total - count);
-  return {count, count == 0 ? 0 : beta_quantile(k, others + 1, kEachTail),
+  return {count, count == 0 ? 0 : boost::math::ibeta_inv(k, others + 1, kEachTail),
           count == total ? 1 : boost::math::ibetac_inv(k + 1, others, kEachTail)};
 }
 

@@ -20,9 +20,6 @@ struct Share {
 /// `total`.
 Share share_of(std::size_t count, std::size_t total);
 
-/// The x in [0, 1] with I_x(a, b) = p, the incomplete beta function, for a and b above 0.
-double beta_quantile(double a, double b, double p);
-
 /// The upper bound, at 95 %, of a share if no event was seen in `total` independent trials. About 3 / total;
 /// 1 without trials.
 double bound_of_none(std::size_t total);

@@ -1,4 +1,4 @@
-// Histograms, fits, and cells as text.
+// Histograms, and cells as text.
 #include "report/cell.hpp"
 
 #include <catch2/catch.hpp>
@@ -34,50 +34,6 @@ TEST_CASE("Histograms count errors by their binary exponent", "[report][histogra
   CHECK(histogram_of({0, 0}).counts.empty());
   CHECK_THROWS_AS(histogram_of({-1}), std::invalid_argument);
   CHECK_THROWS_AS(histogram_of({INFINITY}), std::invalid_argument);
-}
-
-TEST_CASE("Power laws are fitted in logarithms, with Student's interval", "[report][power_fit]") {
-  std::vector<std::pair<double, double>> exact, rough;
-  for (const double r : {1e-2, 1e-3, 1e-4, 1e-5}) exact.emplace_back(r, 7 * std::pow(r, -0.25));
-  const PowerFit fit = power_fit(exact).value();
-  CHECK(fit.exponent == Approx(-0.25));
-  CHECK(fit.high - fit.low == Approx(0).margin(1e-6));
-  CHECK((fit.from == 1e-5 && fit.to == 1e-2));
-  // y = 0, 1, 1, 3 over x = 0, 1, 2, 3, as logarithms: the slope is 4.5 / 5, its standard error the root of
-  // 0.7 / 2 / 5, and Student's t of two degrees of freedom 4.302653.
-  for (const auto& [x, y] : {std::pair{0, 0}, {1, 1}, {2, 1}, {3, 3}})
-    rough.emplace_back(std::exp(x), std::exp(y));
-  const PowerFit other = power_fit(rough).value();
-  CHECK(other.exponent == Approx(0.9));
-  CHECK(other.low == Approx(0.9 - 4.302652730 * 0.2645751311));
-  CHECK(other.high == Approx(0.9 + 4.302652730 * 0.2645751311));
-  CHECK_FALSE(power_fit({{1, 1}, {2, 2}}));
-  CHECK_FALSE(power_fit({{1, 1}, {1, 2}, {1, 3}}));
-  for (const double bad : {0.0, -1.0, double(INFINITY), double(NAN)}) {
-    CHECK_THROWS_AS(power_fit({{1, 1}, {2, 2}, {3, bad}}), std::invalid_argument);
-    CHECK_THROWS_AS(power_fit({{1, 1}, {2, 2}, {bad, 3}}), std::invalid_argument);
-  }
-  CHECK_THROWS_AS(power_fit({{1, 1}, {2, 0}, {3, 1}}), std::invalid_argument);
-}
-
-TEST_CASE("Power laws: intervals hold the exponent 95 times in 100", "[report][power_fit][coverage]") {
-  constexpr int kSamples = 4000;
-  for (const int points : {3, 4, 8}) {
-    int inside = 0;
-    for (int sample = 0; sample < kSamples; ++sample) {
-      lorentz::cases::Random random(20261123, "power laws", sample);
-      std::vector<std::pair<double, double>> rough;
-      for (int i = 0; i < points; ++i) {
-        double normal = -6;  // Irwin and Hall's
-        for (int k = 0; k < 12; ++k) normal += random.uniform();
-        rough.emplace_back(std::pow(10, -i), std::pow(10, 0.25 * i) * std::exp(0.1 * normal));
-      }
-      const PowerFit fit = power_fit(rough).value();
-      inside += fit.low <= -0.25 && -0.25 <= fit.high;
-    }
-    INFO(points << " points: " << inside << " of " << kSamples);
-    CHECK(std::abs(inside - 3800) < 4 * 13.8);
-  }
 }
 
 TEST_CASE("Calls are counted by decade and verdict", "[report][calls]") {

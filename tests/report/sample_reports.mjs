@@ -316,18 +316,6 @@ function bench() {
     title: "lorentz bench: five engines",
     manifest: { ...MANIFEST, command: "lorentz bench --html bench.html" },
     cells,
-    fits: [
-      {
-        scene: "square",
-        engine: "float",
-        difficulty: "drawn",
-        exponent: -0.0512,
-        low: -0.0611,
-        high: -0.0413,
-        from: 1e-5,
-        to: 0.01,
-      },
-    ],
     findings: [
       finding(
         1,

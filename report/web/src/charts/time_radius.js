@@ -25,26 +25,19 @@ const signed = (value) => value.toFixed(3).replace("-", "−");
 const interval = (fit) => (fit.low === null ? "" : ` (95 %: ${signed(fit.low)} to ${signed(fit.high)})`);
 const fitText = (fit) => (fit ? `r^${signed(fit.exponent)}${interval(fit)}` : "no fit: one radius");
 
-// The report's own fit, if it has one for this engine, over the radii that it gives.
-function fitOf(members, reported) {
-  if (!reported) return powerLaw(members.map((p) => [p.x, p.y]));
-  const fitted = members.filter((p) => p.x >= reported.from && p.x <= reported.to);
-  const mean = (of) => fitted.reduce((sum, p) => sum + Math.log(of(p)), 0) / fitted.length;
-  return { ...reported, factor: Math.exp(mean((p) => p.y) - reported.exponent * mean((p) => p.x)) };
-}
+// At larger radii the obstacles, not the space between them, determine the time: they count only if fewer than three
+// are small.
+const SMALL = 0.01;
 
-function fitsOf(points, reported) {
+function fitsOf(points) {
   return [...Map.groupBy(points, (p) => p.cell.engine)].map(([engine, members]) => {
-    const own = reported.find(
-      (f) =>
-        f.engine === engine &&
-        members.every(({ cell }) => cell.scene === f.scene && cell.difficulty === f.difficulty),
-    );
-    const radii = members.map((p) => p.x);
+    const small = members.filter((p) => p.x <= SMALL);
+    const fitted = new Set(small.map((p) => p.x)).size < 3 ? members : small;
+    const radii = fitted.map((p) => p.x);
     return {
       engine,
-      fit: fitOf(members, own),
-      ends: own ? [own.from, own.to] : [Math.min(...radii), Math.max(...radii)],
+      fit: powerLaw(fitted.map((p) => [p.x, p.y])),
+      ends: [Math.min(...radii), Math.max(...radii)],
     };
   });
 }
@@ -72,7 +65,7 @@ export function timeRadius(report, looks) {
         high: cost.high(cell) ?? null,
       }));
     if (!points.length) return null;
-    const fits = fitsOf(points, report.fits ?? []),
+    const fits = fitsOf(points),
       look = (p) => looks.get(p.cell.engine);
     const svg = plot({
       width,
