@@ -324,7 +324,8 @@ TEST_CASE("Columns: what the options ask for, and invalid files", "[cli][columns
   says("--format npy --scene square --detail " + npy, 2, "--detail: only streams in JSON");
   says("--format npy --scene square -e cmd:true " + npy, 2, "not with cmd: engines and libraries");
   says("--format npy --scene square -e nobody " + npy, 2, "no engine is called");
-  says("--format csv --scene square --jobs 2 " + csv, 2, "--jobs: only the engines batch and");
+  says("--format csv --scene square --jobs 2 " + csv, 2,
+       "--jobs: only the engines batch, certified-batch and gpu");
   says("--format csv --scene square -e batch --jobs 0 " + csv, 2, "--jobs: \"0\" is not a whole number");
   says("--format csv --scene square " + npy, 2, "--format npy");
   says("--format npy --scene square " + csv, 2, "is no .npy file");

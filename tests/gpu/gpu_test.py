@@ -124,7 +124,7 @@ class Columns(unittest.TestCase):
             self.assertRegex(run(f"golden check {name} --engine gpu").stdout, " all +640 +640 +-", name)
 
     def test_rows_that_a_card_leaves(self):
-        """Far cells, limits of all kinds, obstacles that are not there, and rows that are no queries."""
+        """Far cells, limits of all kinds, obstacles that are not there, and rows with flaws."""
         rows = [f'{{"x":[{x},0.25],"v":[{v},1],"from":{{"cell":[{cell},0]}},"max_time":{limit}}}'
                 for x, cell in ((0.5, 1), (3e9, 3_000_000_000), (1e15, 10**15), (-4e18, -4 * 10**18), (0.5, 10**25))
                 for v in (0.3, 1e-300, 1e300, 0) for limit in (1e-3, 5, 1e300)]

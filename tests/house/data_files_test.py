@@ -16,28 +16,27 @@ class Files(unittest.TestCase):
     def same(self, text, name):
         self.assertEqual(text, (DATA / name).read_text())
 
-    def test_the_paper(self):
-        with tempfile.TemporaryDirectory() as folder:
-            made("paper/first_discs.py", LORENTZ, folder)
-            for name in "first-discs.csv", "first-discs.svg":
-                self.same((pathlib.Path(folder) / name).read_text(), f"paper/{name}")
-        times = [DATA / "paper" / f"times-{dimension}d.csv" for dimension in (2, 3)]
-        self.same(made("paper/exponents.py", *times), "paper/exponents.csv")
-        self.same(made("paper/per_cell.py", *times), "paper/times-per-cell.csv")
-
     def test_times_by_hand(self):
-        """Only drawn flights that were timed. Through (0, 0), (-1, 1), (-2, 1) in decades the slope is -1/2, give or take 12^-1/2."""
-        rows = ["scene,engine,radius,difficulty,queries,path_mean,ns_mean"]
-        rows += [f"square,a,{radius},drawn,7,2,{ns}" for radius, ns in ((0.01, 10), (1, 1), (0.1, 10), (0.001, ""))]
-        rows += ["square,a,1,hard,7,2,99", "square,b,1,drawn,7,4,1", "square,b,0.1,drawn,7,4,10"]
+        """What data/paper says of times: two seeds, of which one is twice as slow; powers 1 and 1/2, which meet at 0.01."""
+        rows = ["scene,radius,engine,seed,flights,ns_mean,ns_median,path_mean"]
+        for seed, factor in ((1, 1), (2, 2)):
+            for radius in (0.1, 0.01, 0.001):
+                rows += [f"square,{radius},classical,{seed},9,{factor / radius},1,{1 / radius}",
+                         f"square,{radius},published,{seed},9,{factor * 10 / radius**0.5},1,{1 / radius}"]
+        sys.path.insert(0, str(DATA / "paper"))
+        import reading
         with tempfile.TemporaryDirectory() as folder:
-            times = pathlib.Path(folder) / "times.csv"
-            times.write_text("\n".join(rows) + "\n")
-            self.assertEqual(made("paper/exponents.py", times).splitlines()[1:],
-                             ["square,a,-0.500,0.289,0.01,1,1.0,10.0", "square,b,-1.000,0.000,0.1,1,1.0,10.0"])
-            self.assertEqual(made("paper/per_cell.py", times).splitlines()[1:],
-                             ["square,a,0.01,7,2,5,3.927", "square,a,1,7,2,0.5,0.3927", "square,a,0.1,7,2,5,3.927",
-                              "square,b,1,7,4,0.25,0.1963", "square,b,0.1,7,4,2.5,1.963"])
+            (pathlib.Path(folder) / "times-2d.csv").write_text("\n".join(rows) + "\n")
+            reading.HERE, reading.SEEDS = pathlib.Path(folder), (1, 2)
+            for engine, power in ("classical", -1), ("published", -0.5):
+                for found in reading.exponents(2, engine):
+                    self.assertAlmostEqual(found, power)
+            for radius in reading.crossings(2):
+                self.assertAlmostEqual(radius, 0.01)
+            for radius, ns in reading.per_cell(2, "classical"):
+                self.assertAlmostEqual(ns, 1.5 / (4 / 3.141592653589793))
+            middle, half = reading.interval([1, 2, 3, 4, 5])
+            self.assertAlmostEqual((middle, round(half, 3)), (3, 1.963))
 
     def test_the_directions(self):
         self.same(made("examples/paper-89-directions.py"), "examples/paper-89-directions.queries.ndjson")

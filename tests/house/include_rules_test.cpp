@@ -186,7 +186,8 @@ const std::vector<Room> kHouse{
     {"tests/bench",
      {"src/problem", "src/exchange", "src/engines/base", "src/engines/reduction", "src/engines/batch",
       "src/trajectory/batch", "oracle", "oracle/certified", "oracle/certified_batch"},
-     {"src/engines/published", "fuzz/families", "question/starts", "question", "fuzz/campaign"},
+     {"src/engines/published", "question/cases", "fuzz/families", "question/starts", "question",
+      "fuzz/campaign"},
      {"fmt/", "benchmark/ first_hit_benchmark.cpp"}},
 };
 

@@ -77,7 +77,7 @@ class Staging {
 }  // namespace
 
 // The driver compiles a kernel once, and no destructor waits for a driver that has ended.
-struct Kind {
+struct CardKernel {
   const Card card;
   const Kernel kernel;
   Memory columns, left;
@@ -85,19 +85,19 @@ struct Kind {
   bool is_compared = false;
   std::mutex mutex;
 
-  Kind(const std::string& name, unsigned number)
+  CardKernel(const std::string& name, unsigned number)
       : card(number),
         kernel(card, column_kernels(), name, "columns_" + name),
         columns(card, sizeof(CardColumns)),
         left(card, (kThere + 1) * sizeof(std::uint64_t)),
         staging{Staging(card), Staging(card)} {}
 
-  static Kind& named(const std::string& name, unsigned number) {
+  static CardKernel& named(const std::string& name, unsigned number) {
     static auto& mutex = *new std::mutex;
-    static auto& all = *new std::map<std::pair<std::string, unsigned>, std::unique_ptr<Kind>>;
+    static auto& all = *new std::map<std::pair<std::string, unsigned>, std::unique_ptr<CardKernel>>;
     const std::lock_guard lock(mutex);
-    std::unique_ptr<Kind>& kind = all[{name, number}];
-    if (!kind) kind = std::make_unique<Kind>(name, number);
+    std::unique_ptr<CardKernel>& kind = all[{name, number}];
+    if (!kind) kind = std::make_unique<CardKernel>(name, number);
     return *kind;
   }
 
@@ -138,7 +138,7 @@ PreparedScene prepared(const Scene& scene) {
 
 GpuBatch::GpuBatch(const Scene& scene, const Batch& here, unsigned number)
     : prepared_(prepared(scene)),
-      kind_(Kind::named(kind_of(prepared_), number)),
+      kind_(CardKernel::named(kind_of(prepared_), number)),
       atoms_((kind_.card.enter(), kind_.card), prepared_.atoms.size() * sizeof(Bravais)) {
   atoms_.put(prepared_.atoms.data(), prepared_.atoms.size() * sizeof(Bravais));
   static std::mutex mutex;

@@ -23,7 +23,7 @@ PreparedScene prepared(const Scene& scene);
 /// The kind of such a scene, by its name in kinds.inc.
 std::string kind_of(const PreparedScene& scene);
 
-struct Kind;  // a kernel, and the memory of its launches
+struct CardKernel;  // a kernel, and the memory of its launches
 
 /// Flies with rounded times. The results are those of Batch::fly, to the bit, but for the rows that are left:
 /// those that lanes do not decide, and those whose time is not known to be correctly rounded. Any number of
@@ -54,7 +54,7 @@ class GpuBatch {
   CardColumns in_scene(CardColumns columns) const;
 
   PreparedScene prepared_;
-  Kind& kind_;
+  CardKernel& kind_;
   Memory atoms_;
 };
 

@@ -12,7 +12,7 @@ namespace lorentz::device {
 
 // A row's limit, and the obstacle that it leaves.
 template <int D, bool kUnit, bool kBall, class Atoms>
-struct Row {
+struct AskedRow {
   const gpu::CardColumns& columns;
   std::uint64_t i;
 
@@ -80,7 +80,7 @@ LORENTZ_EACH void tell(const gpu::CardColumns& columns, std::uint64_t i, const F
 template <int D, bool kUnit, bool kBall, bool kOneAtom>
 LORENTZ_EACH void fly_columns(const gpu::CardColumns& columns) {
   using Scene = Atoms<kOneAtom>;
-  using Asked = Row<D, kUnit, kBall, Scene>;
+  using Asked = AskedRow<D, kUnit, kBall, Scene>;
   const Scene atoms{columns.atoms, columns.atom_count, columns.unit, columns.inverse_unit};
   for (std::uint64_t i = columns.first + thread(); i < columns.first + columns.count; i += threads()) {
     double x[D], v[D];

@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+"""The experiments of Kraemer, Kryukov and Sanders (2016) again: the files of this folder, and the tables of docs/paper.md.
+
+    make.py BUILD            makes everything (a quarter of an hour; BUILD is the folder of the program)
+    make.py BUILD --long     flies the many flights of docs/free_paths.md (an hour)
+    make.py BUILD --check    makes what is the same on every machine once more (a minute), and says what differs: counts,
+                             shares, exponents, p-values, pictures, tables. Status 1 if something does. Times are not
+                             measured again.
+"""
+import csv
+import io
+import itertools
+import json
+import math
+import statistics
+import subprocess
+import sys
+from pathlib import Path
+
+from pictures import pictures
+from reading import ENGINES, HERE, LATTICES, SCENES, SEEDS
+from tables import PAGE, PATHS, PATHS_TABLES, page
+
+BUILD = Path(sys.argv[1])
+
+
+def printed(*words, given=None):
+    return subprocess.run([str(word) for word in words], input=given, capture_output=True, text=True, check=True).stdout
+
+
+def table_of(rows):
+    """The rows as CSV."""
+    out = io.StringIO()
+    writer = csv.DictWriter(out, rows[0], lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return out.getvalue()
+
+
+# ---- Data: file names, and what is in them.
+
+def flights():
+    for scene in SCENES:
+        yield from flown(scene, scene, "1e8")
+
+
+def many_flights():
+    for number, scene in LATTICES.items():
+        yield from flown(f"lattices-{number}", scene, "1e10" if number < 3 else "3e9")
+
+
+def flown(name, scene, count):
+    bins = HERE / f"{name}.part"
+    report = json.loads(printed(BUILD / "lorentz", "flights", "--scene", scene, "--radius", "1e-4", "--count", count, "--jobs", 2,
+                                "--json", "--csv", bins))
+    report.pop("seconds")
+    report["scene"] = name
+    yield f"{name}.json", json.dumps(report, separators=(",", ":")) + "\n"
+    yield f"{name}.csv", bins.read_text()
+    bins.unlink()
+
+
+def false_collisions():
+    yield "false-collisions.csv", printed(BUILD / "false_collisions", 50000)
+
+
+def first_discs():
+    """Of neighbouring directions with the same first disc one row: r = 0.1, from (0, 0.445), 90 000 directions."""
+    asked = ["x1,x2,v1,v2"]
+    for i in range(90_000):
+        angle = math.radians((i + 0.5) / 1000)
+        asked.append(f"0,0.445,{math.cos(angle)!r},{math.sin(angle)!r}")
+    told = csv.DictReader(io.StringIO(printed(BUILD / "lorentz", "first-hit", "--scene", "square", "--radius", "0.1", "--engine",
+                                              "certified-batch", "--format", "csv", given="\n".join(asked) + "\n")))
+    cells = [(row["cell1"], row["cell2"]) if row["outcome"] == "hit" else ("", "") for row in told]
+    rows, begin = [], 0
+    for (one, two), run in itertools.groupby(cells):
+        end = begin + len(list(run))
+        distance = math.dist((int(one), int(two)), (0, 0.445)) if one else math.inf
+        rows.append({"from_degrees": f"{begin / 1000:g}", "to_degrees": f"{end / 1000:g}", "cell1": one, "cell2": two,
+                     "distance": f"{distance:.6g}", "share": f"{(end - begin) / len(cells):.6f}"})
+        begin = end
+    yield "first-discs.csv", table_of(rows)
+
+
+def sections():
+    """What a line meets first of all cubic lattice points: the section of their three cylinders, seen along it."""
+    yield "sections.csv", printed(BUILD / "false_collisions", "sections", 200000)
+
+
+def flights_of(scene, radius):
+    """How many are timed for each seed: as many as take some seconds."""
+    if scene == "square" or radius >= 0.02:
+        return 20_000
+    return 10_000 if radius >= 0.01 else 4_000
+
+
+def times():
+    """Mean and median times of the same flights, one engine after the other, for each of five seeds."""
+    for dimension, scene in ((2, "square"), (3, "cubic")):
+        rows = []
+        for radius in (0.4, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001):
+            engines = ENGINES if scene == "square" or radius >= 0.005 else ENGINES[1:]
+            for seed in SEEDS:
+                rows += timed(scene, radius, engines, seed)
+        yield f"times-{dimension}d.csv", table_of(rows)
+
+
+def timed(scene, radius, engines, seed):
+    asked = printed(BUILD / "lorentz", "sample", "--scene", scene, "--radius", radius, "--count", flights_of(scene, radius),
+                    "--seed", seed)
+    told = printed(BUILD / "lorentz", "first-hit", "--engine", "certified-batch", given=asked).splitlines()
+    path = statistics.mean(float(json.loads(line)["time"]) for line in told)
+    found = json.loads(printed(BUILD / "lorentz", "compare", "--queries", "-", "--engine", ",".join(engines), "--no-oracle",
+                               "--json", given=asked))
+    return [{"scene": scene, "radius": radius, "engine": engine["engine"], "seed": seed, "flights": engine["queries"],
+             "ns_mean": f"{engine['ns_per_query']:.4g}", "ns_median": f"{engine['ns_median']:.4g}", "path_mean": f"{path:.6g}"}
+            for engine in found["engines"]]
+
+
+SAME_EVERYWHERE = (flights, false_collisions, first_discs, sections, pictures)
+
+
+def pages():
+    return (PAGE, page()), (PATHS, page(PATHS_TABLES, PATHS))
+
+
+def check():
+    differ = []
+    for make in SAME_EVERYWHERE:
+        for name, there in make():
+            if (HERE / name).read_text() != there:
+                differ.append(f"data/paper/{name}")
+    differ += [f"docs/{file.name}" for file, told in pages() if file.read_text() != told]
+    print("\n".join(f"{name}: is not what comes out now" for name in differ) or "the same counts, tables and pictures")
+    return 1 if differ else 0
+
+
+def main():
+    if sys.argv[2:] == ["--check"]:
+        return check()
+    makers = (flights, false_collisions, first_discs, sections, times)
+    for make in (*((many_flights,) if sys.argv[2:] == ["--long"] else makers), pictures):
+        for name, there in make():
+            (HERE / name).write_text(there)
+            print(f"data/paper/{name}", flush=True)
+    for file, told in pages():
+        file.write_text(told)
+    return 0
+
+
+sys.exit(main())
