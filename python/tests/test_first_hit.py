@@ -47,7 +47,7 @@ def test_arrays_say_what_the_oracle_says_one_by_one(name, radius):
 
 
 def test_every_engine_of_the_program_answers():
-    for engine in set(lorentz.engines()) - {"gpu"}:
+    for engine in set(lorentz.engines()) - {"gpu", "golse"}:  # a card is needed, and a disc that is left
         answers = lorentz.first_hit("square", EXAMPLE_X[:1], EXAMPLE_V[:1], 0.1, engine=engine)
         assert answers.cell.tolist() == [[27, 1]], engine
 

@@ -98,7 +98,7 @@ def test_reasons_of_answers_reach_the_judge():
         return {name: getattr(answers, name) for name in ("outcome", "lattice", "atom", "cell", "time", "reasons")}
 
     def published(scene, x, v, start_from):  # which does no ellipses
-        return arrays(scene, x, v, start_from, engine="published")
+        return arrays(scene, x, v, start_from, engine="published-float")
 
     def names(scene, x, v, start_from):
         given = columns(scene, x, v, start_from)
