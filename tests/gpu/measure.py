@@ -1,8 +1,8 @@
 """Flights on this machine's graphics card: the same results as on its processor, and how long they take.
 
-measure.py PROGRAM [--share S] [--page FILE]: writes the table into FILE, between its lines "<!-- table -->". S: the share
-of the flights that are flown (1). Times of a flight are differences of two runs, so what a run takes to begin is not in
-them. Status 1 if a result differs.
+measure.py PROGRAM [--share S] [--long] [--page FILE]: writes the tables into FILE, between its lines "<!-- table -->". S: the
+share of the flights that are flown (1). --long flies 10^12 flights, too (two minutes). Times of a flight are differences of
+two runs, so what a run takes to begin is not in them. Status 1 if a result differs.
 """
 import argparse
 import json
@@ -49,6 +49,7 @@ def main():
     options = argparse.ArgumentParser()
     options.add_argument("program")
     options.add_argument("--share", type=float, default=1)
+    options.add_argument("--long", action="store_true")
     options.add_argument("--page", type=Path)
     options = options.parse_args()
     jobs = len(os.sched_getaffinity(0))
@@ -75,6 +76,12 @@ def main():
     for scene, radius in (("square", 1e-3), ("cubic", 0.1), ("cubic", 1e-6), ("fcc", 1e-3)):
         gpu, processor = columns(options.program, scene, radius, max(int(3e6 * options.share), 100_000))
         lines.append(f"| {scene} {radius:g} | {gpu:.1f} | {processor:.1f} |")
+        print(lines[-1], flush=True)
+    if options.long:
+        count = max(1e12 * options.share, 100_000)
+        seconds, found = flights(options.program, "square", 1e-4, count, "gpu", jobs)
+        lines += ["", f"{count:.0e} flights at square 1e-4: {seconds:.0f} s, mean of ln t {found['mean_log']:.6f}, p-value of the "
+                  f"limit law {found['theory'][0]['p_value']:.2g}."]
         print(lines[-1], flush=True)
     if options.page:
         before, _, after = options.page.read_text().split("<!-- table -->\n")
