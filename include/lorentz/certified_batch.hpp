@@ -34,6 +34,8 @@ class CertifiedBatch {
   /// Throws InputError if the scene is invalid (flaw_of) or has dependent vectors (dependence_in).
   explicit CertifiedBatch(const Scene& scene);
   ~CertifiedBatch();
+  CertifiedBatch(CertifiedBatch&&) noexcept;
+  CertifiedBatch& operator=(CertifiedBatch&&) noexcept;
 
   /// Flies on graphics card `number`, modulo how many there are; the threads fly what it leaves. Throws
   /// InputError, besides, if there is no card or driver, the build has no kernels, or they do not do the scene

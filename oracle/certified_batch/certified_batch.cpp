@@ -17,6 +17,8 @@ CertifiedBatch::CertifiedBatch(const Scene& scene, unsigned number) : CertifiedB
 }
 
 CertifiedBatch::~CertifiedBatch() = default;
+CertifiedBatch::CertifiedBatch(CertifiedBatch&&) noexcept = default;
+CertifiedBatch& CertifiedBatch::operator=(CertifiedBatch&&) noexcept = default;
 
 namespace {
 
@@ -62,7 +64,10 @@ std::vector<std::pair<std::size_t, std::string>> CertifiedBatch::first_hits_ther
     const auto [query, max_time] = card_->query_there(queries, steps, i);
     Request request;
     if (max_time != HUGE_VAL) request.max_time = max_time;
-    certified_.first_hit(query, request, answer);
+    if (max_time > 0)
+      certified_.first_hit(query, request, answer);
+    else
+      answer = Answer::error("max_time must be above zero");
     Flight flight;
     flight.outcome = answer.outcome, flight.time = answer.time.value_or(0);
     const bool is_named = flight.outcome == Outcome::hit || flight.outcome == Outcome::inside;
