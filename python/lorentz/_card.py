@@ -66,8 +66,9 @@ def first_hit(engine: Any, dimension: int, x: Any, v: Any, max_time: Any, start_
     count, places = _place(x, "x", dimension)
     _, velocities = _place(v, "v", dimension, count)
     limits = None if max_time is None else _place(max_time, "max_time", None, count)[1][0]
-    if start_from is not None and not (isinstance(start_from, CardAnswers) and len(start_from) == count):
-        raise Error(f"start_from: needs the answers of {count} queries that the card gave, or None")
+    if start_from is not None and not (isinstance(start_from, CardAnswers) and len(start_from) == count
+                                       and start_from._native.dimension == dimension):
+        raise Error(f"start_from: needs the answers of {count} queries in {dimension} dimensions that the card gave, or None")
     answers = CardAnswers(engine.first_hits(dimension, count, places, velocities, limits,
                                             None if start_from is None else start_from._native))
     if on_error == "raise" and answers._native.errors:
@@ -85,6 +86,8 @@ def _place(array: Any, name: str, dimension: int | None, count: int | None = Non
     wanted = (rows if count is None else count,) + (() if dimension is None else (dimension,))
     if its["typestr"] != "<f8" or tuple(its["shape"]) != wanted:
         raise Error(f"{name}: is an array {tuple(its['shape'])} of {its['typestr']}, needs {wanted} of <f8 (binary64)")
+    if its.get("mask") is not None:
+        raise Error(f"{name}: is a masked array; fill it first")
     steps = its.get("strides") or (8 * (dimension or 1), 8)
     if dimension is None and rows > 1 and steps[0] != 8:
         raise Error(f"{name}: needs numbers one behind the other")

@@ -72,6 +72,12 @@ refused("needs (3, 2) of <f8", Array(x.astype("f4")), Array(v))
 refused("which the engine gpu takes", Array(x), Array(v), engine="batch")
 refused("start_from", Array(x), Array(v), start_from=(0, 0, (0, 0)))
 refused("max_time: is not in the card's memory", Array(x), Array(v), max_time=3.0)
+refused("row 2: max_time must be above zero", Array(x), Array(v), max_time=Array(np.array([1.0, np.inf, 0.0])))
+in_space = lorentz.first_hit("cubic", Array(np.full((3, 3), 0.5)), Array(np.ones((3, 3))), 0.1, engine="gpu")
+refused("in 2 dimensions", Array(x), Array(v), start_from=in_space)
+masked = Array(x)
+masked.__cuda_array_interface__["mask"] = Array(x)
+refused("masked", masked, Array(v))
 print("done")
 '''
 

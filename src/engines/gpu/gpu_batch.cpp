@@ -263,7 +263,7 @@ QueryTable next_starts(const QueryTable& starts, const FlightTable& flights, int
     std::reverse(query.v.begin(), query.v.begin() + dimension);
     query.from.emplace(
         ObstacleId{flight.lattice, flight.atom, {flight.cell[0], flight.cell[1], flight.cell[2]}});
-    table.push_back(query, i % 2 ? flight.time : HUGE_VAL);
+    table.push_back(query, i % 2 && flight.time > 0 ? flight.time : HUGE_VAL);
   }
   return table;
 }

@@ -18,7 +18,7 @@ struct AskedRow {
 
   // False for what lanes do not check, and cells that are far away.
   LORENTZ_EACH bool is_plain(const Atoms& atoms) const {
-    if (columns.max_time && columns.max_time[i] != columns.max_time[i]) return false;
+    if (columns.max_time && !(columns.max_time[i] > 0)) return false;
     if (!columns.from_lattice || columns.from_lattice[i] < 0) return true;
     for (int k = 0; k < D; ++k) {
       const std::int64_t cell = columns.from_cell[k][i];
