@@ -15,6 +15,7 @@ import math
 import statistics
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 from pictures import pictures
@@ -50,14 +51,15 @@ def many_flights():
 
 
 def flown(name, scene, count):
-    bins = HERE / f"{name}.part"
-    report = json.loads(printed(BUILD / "lorentz", "flights", "--scene", scene, "--radius", "1e-4", "--count", count, "--jobs", 2,
-                                "--json", "--csv", bins))
+    with tempfile.TemporaryDirectory() as folder:
+        bins = Path(folder) / "bins.csv"
+        report = json.loads(printed(BUILD / "lorentz", "flights", "--scene", scene, "--radius", "1e-4", "--count", count, "--jobs",
+                                    2, "--json", "--csv", bins))
+        table = bins.read_text()
     report.pop("seconds")
     report["scene"] = name
     yield f"{name}.json", json.dumps(report, separators=(",", ":")) + "\n"
-    yield f"{name}.csv", bins.read_text()
-    bins.unlink()
+    yield f"{name}.csv", table
 
 
 def false_collisions():
@@ -65,7 +67,7 @@ def false_collisions():
 
 
 def first_discs():
-    """Of neighbouring directions with the same first disc one row: r = 0.1, from (0, 0.445), 90 000 directions."""
+    """The first disc in 90 000 directions from (0, 0.445), r = 0.1: one row for neighbouring directions with the same disc."""
     asked = ["x1,x2,v1,v2"]
     for i in range(90_000):
         angle = math.radians((i + 0.5) / 1000)

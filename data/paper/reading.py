@@ -52,7 +52,7 @@ def crossings(dimension):
     radii = radii_of(found, "classical")
     for i in range(len(SEEDS)):
         ratios = [math.log(found["classical", r][i] / found["published", r][i]) for r in radii]
-        below = max((k for k in range(len(radii)) if ratios[k] > 0), default=0)
+        below = max(k for k in range(len(radii)) if ratios[k] > 0)
         if below == len(radii) - 1:
             yield radii[-1]
             continue
@@ -67,7 +67,7 @@ def interval(numbers):
 
 
 def per_cell(dimension, engine):
-    """Of each radius: the mean time over the mean path and over the cells that a path crosses, 4 / pi or 3 / 2 to a unit."""
+    """The mean time in a cell, for each radius. A path crosses 4 / pi cells (2D) or 3 / 2 (3D) for each unit of its length."""
     found, paths = means(dimension)
     cells = 4 / math.pi if dimension == 2 else 1.5
     return [(r, statistics.mean(found[engine, r]) / (paths[r] * cells)) for r in radii_of(found, engine)]
