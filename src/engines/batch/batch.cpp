@@ -21,9 +21,6 @@ StretchKernels kernels_named(std::string_view instructions) {
   throw UnsupportedError("this processor has no vector instructions " + std::string(instructions));
 }
 
-// Beyond this exponent lengths are scaled in several steps, which lanes do not do.
-constexpr int kMaxLaneExponent = 400;
-
 }  // namespace
 
 struct Batch::Inside {

@@ -13,6 +13,9 @@ namespace lorentz {
 /// kStretch queries fit the first-level cache. Lanes take at most kMaxLanes at a time.
 inline constexpr std::size_t kStretch = 128, kMaxLanes = 16;
 
+/// Beyond this exponent lengths are scaled in several steps, which lanes do not do.
+inline constexpr int kMaxLaneExponent = 400;
+
 /// What a kernel reads and writes: columns of length `count`, rounded up to whole vectors. They are the
 /// caller's own or those of a StretchBuffer.
 struct Stretch {

@@ -8,11 +8,10 @@
 #include <stdexcept>
 
 #include <lorentz/errors.hpp>
+#include "src/engines/batch/stretch.hpp"
 
 namespace lorentz::gpu {
 namespace {
-
-constexpr int kMostExponent = 400;  // as in src/engines/batch
 
 // Rows that are copied together, and those that a launch flies where they are.
 constexpr std::size_t kTogether = std::size_t{1} << 17, kThere = std::size_t{1} << 20;
@@ -111,7 +110,7 @@ std::string beyond(const PreparedScene& scene) {
   if (!scene.beyond.empty()) return scene.beyond;
   if (scene.least_rank < scene.atoms[0].dimension) return "does no lattices of fewer vectors than dimensions";
   if (scene.strides) return "does no obstacles that overlap their own translates";
-  if (std::abs(scene.exponent) > kMostExponent) return "does no lengths so far from 1";
+  if (std::abs(scene.exponent) > kMaxLaneExponent) return "does no lengths so far from 1";
   for (const Bravais& atom : scene.atoms)
     for (const auto& row : atom.inverse)
       for (const std::int64_t entry : row)
