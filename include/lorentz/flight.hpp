@@ -28,6 +28,8 @@ struct Flight {
   int lattice = 0, atom = 0;
   std::array<std::int64_t, 3> cell{};  ///< set for `hit` and `inside`
   double time = 0;                     ///< set for `hit`, in units in which x + time v is the collision point
+
+  friend bool operator==(const Flight&, const Flight&) = default;
 };
 
 }  // namespace lorentz

@@ -267,11 +267,6 @@ QueryTable next_starts(const QueryTable& starts, const FlightTable& flights, int
   return table;
 }
 
-bool is_same(const Flight& a, const Flight& b) {
-  return a.outcome == b.outcome && a.stage == b.stage && a.time_is_rounded == b.time_is_rounded &&
-         a.lattice == b.lattice && a.atom == b.atom && a.cell == b.cell && a.time == b.time;
-}
-
 }  // namespace
 
 // Flies drawn and hard starts here and there, and what follows: what the driver makes of a kernel was in no
@@ -290,7 +285,7 @@ void GpuBatch::compare(const Batch& here) const {
       if (next < left.size() && left[next] == i)
         ++next;
       else
-        wrong += !is_same(flight, its[i]);
+        wrong += flight != its[i];
     }
     if (left.size() > left_here) wrong += left.size() - left_here;
     if (wrong > 0)
