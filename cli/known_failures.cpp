@@ -9,21 +9,13 @@
 
 #include <lorentz/errors.hpp>
 #include "cli/output.hpp"
+#include "report/pictures/svg.hpp"
 
 namespace lorentz::cli {
-namespace {
 
-std::string in_xml(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '&'                                           ? "&amp;"
-           : c == '<'                                         ? "&lt;"
-           : c == '>'                                         ? "&gt;"
-           : c == '"'                                         ? "&quot;"
-           : static_cast<unsigned char>(c) < ' ' && c != '\n' ? "?"
-                                                              : std::string(1, c);
-  return out;
-}
+using pictures::xml_escaped;
+
+namespace {
 
 std::string baseline_text(const std::map<RecordKey, std::string>& failures) {
   std::string text = "# Known failures: the set, the record's id, the verdict.\n";
@@ -125,7 +117,7 @@ FailureLedger::FailureLedger(const FailureFiles& files)
   if (std::filesystem::exists(*files.baseline, error))
     known_ = records_in(text_of_file(*files.baseline), *files.baseline);
   else
-    makes_baseline_ = true, baseline_file_.emplace(files.baseline);
+    baseline_file_.emplace(files.baseline);
 }
 
 bool FailureLedger::take(const std::string& set, const std::string& id,
@@ -139,7 +131,7 @@ bool FailureLedger::take(const std::string& set, const std::string& id,
   }
   number_of_new_ += is_new;
   if (is_new && known_) new_.push_back(fmt::format("new: {} {} {}", record.first, record.second, *failure));
-  if (failure && makes_baseline_) failures_.emplace(record, *failure);
+  if (failure && baseline_file_) failures_.emplace(record, *failure);
   if (makes_junit_) add_case(record, is_new ? failure : std::nullopt);
   return is_new;
 }
@@ -178,17 +170,18 @@ void FailureLedger::finish(const std::string& engine) {
 void FailureLedger::add_case(const RecordKey& record, const std::optional<std::string>& failure) {
   Suite& suite = suites_[record.first];
   ++suite.cases, suite.failures += failure.has_value();
+  suite.text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", xml_escaped(record.first),
+                            xml_escaped(record.second));
   suite.text +=
-      fmt::format("    <testcase classname=\"{}\" name=\"{}\"", in_xml(record.first), in_xml(record.second));
-  suite.text += failure ? fmt::format("><failure message=\"{}\"/></testcase>\n", in_xml(*failure)) : "/>\n";
+      failure ? fmt::format("><failure message=\"{}\"/></testcase>\n", xml_escaped(*failure)) : "/>\n";
 }
 
 std::string FailureLedger::junit_text(const std::string& engine) const {
-  std::string text =
-      fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"{}\">\n", in_xml(engine));
+  std::string text = fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"{}\">\n",
+                                 xml_escaped(engine));
   for (const auto& [name, suite] : suites_)
     text += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n{}  </testsuite>\n",
-                        in_xml(name), suite.cases, suite.failures, suite.text);
+                        xml_escaped(name), suite.cases, suite.failures, suite.text);
   return text + "</testsuites>\n";
 }
 

@@ -42,7 +42,7 @@ class FailureLedger {
   explicit FailureLedger(const FailureFiles& files);
 
   /// True if a file is about each question; otherwise ids have no effect.
-  bool needs_ids() const { return known_ || makes_junit_ || makes_baseline_; }
+  bool needs_ids() const { return known_ || makes_junit_ || baseline_file_; }
 
   /// Records a question that was asked, and returns whether its failure is new. A known failure that did not
   /// happen is stale. Blanks in the set's name become hyphens.
@@ -66,7 +66,6 @@ class FailureLedger {
   std::string junit_text(const std::string& engine) const;
 
   const bool makes_junit_;
-  bool makes_baseline_ = false;
   std::optional<std::set<RecordKey>> known_;
   std::set<RecordKey> asked_;  // of the known ones
   std::vector<RecordKey> stale_;

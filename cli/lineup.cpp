@@ -204,13 +204,12 @@ std::string nanoseconds(double ns) {
 
 // ": off by 3 ulps (median), 7 (99 %), 9 (largest);", and the same in units of the condition.
 std::string wrong_times_of(const Tally& t) {
-  const auto at = [](const std::vector<double>& errors, double share) { return quantile(errors, share); };
   return fmt::format(
       "\n  {} of right obstacles: off by {:.3g} ulps (median), {:.3g} (99 %), {:.3g} (largest);\n"
       "  {:.3g}, {:.3g}, {:.3g} times what an ulp in each input makes of them",
-      counted_text(t.counts, {Count::wrong_time}), at(t.wrong_ulps, 0.5), at(t.wrong_ulps, 0.99),
-      at(t.wrong_ulps, 1), at(t.wrong_conditions, 0.5), at(t.wrong_conditions, 0.99),
-      at(t.wrong_conditions, 1));
+      counted_text(t.counts, {Count::wrong_time}), quantile(t.wrong_ulps, 0.5), quantile(t.wrong_ulps, 0.99),
+      quantile(t.wrong_ulps, 1), quantile(t.wrong_conditions, 0.5), quantile(t.wrong_conditions, 0.99),
+      quantile(t.wrong_conditions, 1));
 }
 
 }  // namespace

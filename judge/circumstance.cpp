@@ -42,14 +42,6 @@ double largest_number(const Question& question) {
   return largest;
 }
 
-// The only obstacle of a scene; nothing if there are several.
-std::optional<ObstacleId> lone_obstacle(const Scene& scene) {
-  const Lattice& first = scene.lattices[0];
-  const bool is_lone =
-      scene.lattices.size() == 1 && first.atoms.size() == 1 && first.rank(scene.dimension) == 0;
-  return is_lone ? std::optional(ObstacleId{}) : std::nullopt;
-}
-
 // Sets what is about the obstacle in question. Its radius, for an ellipsoid, is the smallest semiaxis.
 void measure_from(const Question& question, const ObstacleId& obstacle, Features& its) {
   const Scene& scene = question.place->scene();
@@ -126,8 +118,7 @@ Features features_of(const Question& question, const std::optional<ObstacleId>& 
   its.radius = smallest_radius(scene) / unit;
   its.start = length(query.x) / unit;
   its.cell = largest_number(question);
-  if (const auto obstacle = in_question ? in_question : lone_obstacle(scene))
-    measure_from(question, *obstacle, its);
+  if (in_question || is_one_obstacle(scene)) measure_from(question, in_question.value_or(ObstacleId{}), its);
   if (question.exact.outcome != Outcome::hit) return its;
   its.time = question.exact.time.value_or(Features::kNone);
   const double flown = its.time * its.speed;

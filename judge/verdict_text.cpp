@@ -273,8 +273,8 @@ question::Tally JudgeReport::total() const {
 }
 
 std::size_t JudgeReport::rows_given_up() const {
-  return static_cast<std::size_t>(std::count_if(
-      rows.begin(), rows.end(), [](const ExaminedRow& row) { return row.scenes_given_up > 0; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(rows, [](const ExaminedRow& row) { return row.scenes_given_up > 0; }));
 }
 
 std::size_t JudgeReport::rows_too_slow() const {

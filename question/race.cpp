@@ -102,8 +102,7 @@ Round run_round(const std::deque<ColumnsThere>& all, const std::string& name, co
       const QueryColumns queries = there.queries.columns().part(begin, end - begin);
       const auto start = SteadyClock::now();
       there.engine.fly(queries, flights);
-      const double ns = ns_since(start);
-      return ns;
+      return ns_since(start);
     });
   report(listener, name, round.asked, round.asked);
   return round;

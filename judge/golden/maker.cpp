@@ -30,11 +30,6 @@ bool is_same(const oracle::ExcusedAnswer& a, const oracle::ExcusedAnswer& b) {
   return a.ulps == b.ulps && a.answer.outcome == b.answer.outcome && a.answer.obstacle == b.answer.obstacle;
 }
 
-bool is_one_obstacle(const Scene& scene) {
-  return scene.lattices.size() == 1 && scene.lattices[0].atoms.size() == 1 &&
-         scene.lattices[0].rank(scene.dimension) == 0;
-}
-
 // A record must have exactly the parts that belong to its outcome.
 std::optional<std::string> flaw_of_form(const Record& record) {
   const Outcome outcome = record.expect.outcome;
