@@ -17,17 +17,6 @@ using namespace question;
 
 namespace {
 
-std::vector<Question> questions_of(std::string_view kind, const Scene& scene,
-                                   const std::vector<Query>& queries, std::size_t first = 0) {
-  const auto place = std::make_shared<Place>(scene);
-  std::vector<Question> questions;
-  for (const Query& query : queries)
-    questions.push_back({.place = place,
-                         .query = query,
-                         .id = json_quoted(fmt::format("{}/{}", kind, first + questions.size()))});
-  return questions;
-}
-
 // The example of Kraemer, Kryukov and Sanders: r = 0.1, x = (0, 0.445), directions from 1 to 89 degrees.
 std::vector<Question> paper_example() {
   std::vector<Query> queries;
@@ -35,31 +24,66 @@ std::vector<Question> paper_example() {
     const double angle = degrees * std::numbers::pi / 180;
     queries.push_back({{0, 0.445, 0}, {std::cos(angle), std::sin(angle), 0}, {}});
   }
-  return questions_of("paper", unit_scene(2, 0.1), queries, 1);
+  return questions_of(std::make_shared<Place>(unit_scene(2, 0.1)), queries);
 }
 
-std::vector<Question> drawn(const std::string& name, starts::Kind kind, int dimension, double radius,
-                            std::size_t count) {
+std::vector<Question> drawn(starts::Kind kind, int dimension, double radius, std::size_t count) {
   const Scene scene = unit_scene(dimension, radius);
-  return questions_of(fmt::format("{}-{}d/{}", name, dimension, radius), scene,
+  return questions_of(std::make_shared<Place>(scene),
                       starts::free_starts(scene, kind, starts::kDefaultSeed, count));
 }
 
-constexpr const char* kPublished = "published";
-
-ExaminationOptions options_for(const std::optional<std::string>& disagreements) {
+ExaminationOptions options_of_demo() {
   ExaminationOptions options;
-  options.engines = {"classical", kPublished, "oracle"};
-  options.disagreements = disagreements;
+  options.engines = {"classical", "published", "reduction", "certified", "certified-batch", "oracle"};
   return options;
 }
 
+std::string microseconds(double ns) {
+  return fmt::format("{:.{}f}", ns / 1000, ns < 1e5 ? 2 : 0);
+}
+
+// Queries of a mean time.
+struct Time {
+  double ns = 0, queries = 0;
+
+  std::string mean() const { return microseconds(ns / queries); }
+};
+
+// Each answer is in one of the columns from "right" to "undecided".
+report::Table table(std::vector<std::string> columns, const std::vector<std::string>& times) {
+  for (const char* column :
+       {"engine", "right", "wrong time", "ill-posed", "wrong obstacle", "undecided", "mean error, ulps"})
+    columns.push_back(column);
+  columns.insert(columns.end(), times.begin(), times.end());
+  return report::Table(std::move(columns));
+}
+
+std::vector<std::string> row(std::vector<std::string> cells, const Tally& t,
+                             const std::vector<std::string>& times) {
+  for (const std::size_t number : {t[Count::agree] - t[Count::wrong_time], t[Count::wrong_time],
+                                   t[Count::ill_posed], t[Count::wrong], t[Count::undecided]})
+    cells.push_back(std::to_string(number));
+  cells.push_back(t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-");
+  cells.insert(cells.end(), times.begin(), times.end());
+  return cells;
+}
+
+constexpr const char* kWords = R"(
+right: obstacle and time. wrong time: of the right obstacle, off by more than 4 times what an ulp in each input
+makes of it. ill-posed: another obstacle, but errors of 4 ulps in the inputs would explain it. Why the published
+algorithm is wrong: docs/published.md. `lorentz demo --all` has a row for each kind of flights. To go on:
+  lorentz judge --engine published         judges an engine, in two minutes; yours: docs/judging_yours.md
+  lorentz first-hit --scene square --radius 0.1 --x 0,0.445 --v 1,0.0175                one exact answer
+  lorentz trajectory --scene square --radius 1/5 --x 1/2,1/3 --v 1,golden --collisions 15 -e reduction --svg path.svg
+                                           a certified path, and where binary64 leaves it, drawn
+)";
+
 class DemoReport {
  public:
-  explicit DemoReport(const std::optional<std::string>& disagreements)
-      : options_(options_for(disagreements)), lineup_(options_, options_.named_engines()) {}
+  DemoReport() : options_(options_of_demo()), lineup_(options_, options_.named_engines()) {}
 
-  void add(const std::string& what, std::vector<Question> questions) {
+  void add(const std::string& what, int dimension, std::vector<Question> questions) {
     answer_exactly(questions, terminal());
     lineup_.begin(what);
     const AskedPart part{std::move(questions)};
@@ -67,66 +91,59 @@ class DemoReport {
     lineup_.race(part.questions);
     for (const LineupEntry& one : lineup_.all()) {
       const Tally& t = one.row->tally;
+      const std::string& engine = one.examination.name();
       const bool is_first = &one == &lineup_.all().front();
-      const auto error = [&](double ulps) { return t.timed_hits ? fmt::format("{:.3g}", ulps) : "-"; };
-      std::vector<std::string> row{is_first ? what : "", is_first ? std::to_string(t.queries) : "",
-                                   one.examination.name()};
-      for (const Count count : kShown) row.push_back(std::to_string(t[count]));
-      for (const std::string& cell :
-           {error(t.mean_ulp()), error(t.max_ulp()), fmt::format("{:.2f}", one.speed.ns_per_query / 1000)})
-        row.push_back(cell);
-      table_.add(row);
+      const auto queries = static_cast<double>(t.queries);
+      flights_.add(row({is_first ? what : "", is_first ? std::to_string(t.queries) : "", engine}, t,
+                       {microseconds(one.speed.ns_per_query)}));
+      for (Time* time : {&times_[engine][dimension], &times_[engine][0]})
+        time->ns += one.speed.ns_per_query * queries, time->queries += queries;
     }
   }
 
-  void show() {
+  void show(bool all) {
     lineup_.finish();
-    std::size_t departing = 0;
-    Tally published;
-    for (const LineupEntry& one : lineup_.all()) {
-      const Tally t = one.total();
-      departing += t.counts.sum({Count::wrong, Count::ill_posed});
-      if (t.name == kPublished) published = t;
-    }
-    print(table_.text());
     print(fmt::format(
-        "\nright, wrong, undecided: the obstacle that each engine says is hit first, against the exact "
-        "oracle; ill-posed:\nanother one, but errors of 4 ulps in the inputs would explain it.\n"
-        "wrong time: of those right, the times that are off by more than 4 times what an ulp in each input "
-        "makes of them.\nerror: of the time of the hits it got right, in units in the last place (ulp) of a "
-        "binary64.\nThe published algorithm was wrong {} times in {}; docs/published.md says why. To check "
-        "it:\nlorentz demo --disagreements FILE writes the {} wrong or ill-posed answers for any program to "
-        "run again.\n",
-        published[Count::wrong], published.counts.answers(), departing));
+        "Of {} first hits the published algorithm gets {}, the exact oracle {}, certified-batch {}.\n\n",
+        lineup_.all().front().total().queries, wrong_of("published"), wrong_of("oracle"),
+        wrong_of("certified-batch")));
+    if (all) print(flights_.text() + '\n');
+    report::Table engines = table({}, {"2D, us each", "3D, us each"});
+    for (const LineupEntry& one : lineup_.all()) {
+      auto& times = times_[one.examination.name()];
+      engines.add(row({one.examination.name()}, one.total(), {times[2].mean(), times[3].mean()}));
+    }
+    print(engines.text() + kWords);
   }
 
  private:
-  // As the table's header has them; "right" is what agrees.
-  static constexpr Count kShown[] = {Count::agree, Count::ill_posed, Count::wrong, Count::wrong_time,
-                                     Count::undecided};
+  // "53 wrong (0.91 us each)"
+  std::string wrong_of(const std::string& engine) {
+    const auto one = std::ranges::find(lineup_.all(), engine,
+                                       [](const LineupEntry& its) { return its.examination.name(); });
+    const std::size_t wrong = one->total()[Count::wrong];
+    return fmt::format("{} ({} us each)", wrong == 0 ? "none" : fmt::format("{} wrong", wrong),
+                       times_[engine][0].mean());
+  }
 
   const ExaminationOptions options_;
   Lineup lineup_;
-  report::Table table_{{"flights", "number", "engine", "right", "ill-posed", "wrong", "wrong time",
-                        "undecided", "mean error", "worst", "us/query"}};
+  report::Table flights_ = table({"flights", "number"}, {"us each"});
+  std::map<std::string, std::map<int, Time>> times_;  // by engine and dimension; of both: 0
 };
 
-int run_demo(const std::optional<std::string>& disagreements) {
-  print(fmt::format(
-      "Which obstacle does the particle hit first? Two known algorithms against exact arithmetic (seed "
-      "{}).\n\n",
-      starts::kDefaultSeed));
-  DemoReport report(disagreements);
-  report.add("the paper's example, r = 0.1", paper_example());
-  using starts::Kind;
+int run_demo(bool all) {
+  DemoReport report;
+  report.add("the paper's example, r = 0.1", 2, paper_example());
+  using enum starts::Kind;
   for (const double r : {0.3, 0.1, 1e-2, 1e-3})
-    report.add(fmt::format("2D, drawn, r = {}", r), drawn("drawn", Kind::uniform, 2, r, 5000));
+    report.add(fmt::format("2D, drawn, r = {}", r), 2, drawn(uniform, 2, r, 5000));
   for (const double r : {0.3, 0.2, 0.1})  // on these flights the published algorithm skips discs
-    report.add(fmt::format("2D, leaving a disc, r = {}", r), drawn("leaving", Kind::surface, 2, r, 20000));
+    report.add(fmt::format("2D, leaving a disc, r = {}", r), 2, drawn(surface, 2, r, 20000));
   for (const double r : {0.3, 0.1, 1e-2})
-    report.add(fmt::format("3D, drawn, r = {}", r), drawn("drawn", Kind::uniform, 3, r, 5000));
-  report.add("3D, drawn, r = 0.001", drawn("drawn", Kind::uniform, 3, 1e-3, 100));
-  report.show();
+    report.add(fmt::format("3D, drawn, r = {}", r), 3, drawn(uniform, 3, r, 5000));
+  report.add("3D, drawn, r = 0.001", 3, drawn(uniform, 3, 1e-3, 100));
+  report.show(all);
   return kDone;
 }
 
@@ -134,14 +151,13 @@ int run_demo(const std::optional<std::string>& disagreements) {
 
 Command demo_command() {
   auto options = std::make_shared<ExaminationOptions>();
-  return {
-      "demo", "The known algorithms against the oracle, on the paper's example and on drawn queries.",
-      options->rows({"--disagreements"}),
+  return {"demo",
+          "The known algorithms against the oracle, on the paper's example and on drawn queries.",
+          {{"--all", &options->all, "", "a row for each kind of flights and each engine, too"}},
 
-      "Exits with 0 when all was done: the wrong answers of the known algorithms are what it shows.\n"
-      "Example:\n  lorentz demo --disagreements wrong.ndjson && lorentz compare --queries wrong.ndjson -e "
-      "classical",
-      [options] { return run_demo(options->disagreements); }};
+          "Exits with 0 when all was done: the wrong answers of the known algorithms are what it shows.\n"
+          "Example:\n  lorentz demo --all",
+          [options] { return run_demo(options->all); }};
 }
 
 }  // namespace lorentz::cli
