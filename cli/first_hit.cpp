@@ -190,13 +190,8 @@ void check_proving(const FirstHitOptions& options) {
 }
 
 void check_one_query(const FirstHitOptions& options) {
-  if (options.x.has_value() != options.v.has_value())
-    throw InputError(options.x ? "--x: needs --v, the velocity" : "--v: needs --x, the position");
-  if (!options.x) return;
-  if (!options.scene) throw InputError("--x and --v: need --scene");
-  if (options.queries != "-")
-    throw InputError("--x and --v: ask one query; leave them out, or the file " + options.queries);
-  if (options.format != "ndjson" || options.records)
+  if (ask_one_query(options.x, options.v, options.scene.has_value(), options.queries) &&
+      (options.format != "ndjson" || options.records))
     throw InputError("--x and --v: ask one query, without columns or records; leave " +
                      std::string(options.records ? "--records" : "--format") + " out");
 }

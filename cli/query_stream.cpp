@@ -113,6 +113,16 @@ bool SceneStream<AnItem, AScene>::next(AnItem& item) {
   return true;
 }
 
+bool ask_one_query(const std::optional<std::string>& x, const std::optional<std::string>& v, bool has_scene,
+                   const std::string& file) {
+  if (x.has_value() != v.has_value())
+    throw InputError(x ? "--x: needs --v, the velocity" : "--v: needs --x, the position");
+  if (!x) return false;
+  if (!has_scene) throw InputError("--x and --v: need --scene");
+  if (file != "-") throw InputError("--x and --v: ask one query; leave them out, or the file " + file);
+  return true;
+}
+
 template class SceneStream<StreamItem, Scene>;
 template class SceneStream<StartItem, RationalScene>;
 

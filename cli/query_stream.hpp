@@ -56,6 +56,11 @@ class SceneStream {
 using QueryStream = SceneStream<StreamItem, Scene>;
 using StartStream = SceneStream<StartItem, RationalScene>;
 
+/// Whether options --x and --v ask one query of --scene, in place of the stream in `file`. Throws InputError if only
+/// one of them does, or if there is no scene, or a stream besides.
+bool ask_one_query(const std::optional<std::string>& x, const std::optional<std::string>& v, bool has_scene,
+                   const std::string& file);
+
 extern template class SceneStream<StreamItem, Scene>;
 extern template class SceneStream<StartItem, RationalScene>;
 

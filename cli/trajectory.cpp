@@ -31,9 +31,9 @@ using rival::Rival;
 
 struct TrajectoryOptions {
   std::string starts = "-";
-  std::optional<std::string> scene, radius, time, engine, csv, svg;
+  std::optional<std::string> scene, radius, x, v, time, engine, csv, svg;
   std::optional<std::uint64_t> collisions, digits, most_bits;
-  bool detail = false, strict = false, json = false;
+  bool detail = false, strict = false;
 };
 
 Rational positive_rational(const std::string& text, const char* option) {
@@ -67,6 +67,25 @@ std::optional<RationalScene> scene_of(const TrajectoryOptions& options) {
   return load_rational_scene(
       *options.scene,
       options.radius ? std::optional(positive_rational(*options.radius, "--radius")) : std::nullopt, unknown);
+}
+
+// The parts of a list, each a text for the reader, which takes it exactly.
+std::vector<std::string> texts_in(const std::string& list) {
+  std::vector<std::string> parts;
+  std::istringstream rest(list + ',');
+  for (std::string part; std::getline(rest, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+// The starts of the stream, or the one of --x and --v.
+StartStream starts_of(const TrajectoryOptions& options) {
+  const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
+  if (!ask_one_query(options.x, options.v, options.scene.has_value(), options.starts))
+    return StartStream(options.starts, scene_of(options), unknown);
+  std::string line;
+  json::append(
+      line, [&](json::Members& start) { start.add("x", texts_in(*options.x), "v", texts_in(*options.v)); });
+  return StartStream(line, "--x and --v", scene_of(options), unknown);
 }
 
 // One column per dimension. For a lattice with fewer vectors the last ones are empty.
@@ -221,8 +240,7 @@ void TrajectoryRun::follow(const Id& id, const RationalScene& scene, const Start
 int run_trajectory(const TrajectoryOptions& options) {
   Output output;
   TrajectoryRun run(output, options);
-  StartStream stream(options.starts, scene_of(options),
-                     options.strict ? UnknownKeys::errors : UnknownKeys::warned);
+  StartStream stream = starts_of(options);
   RequestedFile svg(options.svg);
   const Interrupt interrupt;
   bool refused = false;
@@ -266,6 +284,9 @@ Command trajectory_command() {
           {"--scene", &options->scene, "SCENE",
            "scene before the first scene line: a file, or a name of the catalogue"},
           {"--radius", &options->radius, "R", "radius of every ball of --scene, exactly: 1/3, 0.1"},
+          {"--x", &options->x, "X1,X2,..",
+           "follow one start in --scene, without a stream: the position, exactly"},
+          {"--v", &options->v, "V1,V2,..", "its velocity, exactly: 1,1/3 or 1,golden"},
           {"--collisions", Whole{&options->collisions, 0, 1u << 30}, "N",
            "follow each start for N collisions"},
           {"--time,--max-time", &options->time, "T", "or to this time, exactly: 10, 1/3"},
@@ -278,15 +299,13 @@ Command trajectory_command() {
            "compares the trajectory with that of this engine's flights; " + std::string(kEngineHelp)},
           {"--csv", &options->csv, "FILE", "collisions as a table, to a file", kOutput},
           {"--svg", &options->svg, "FILE", "a picture of the first start's path (2D)", kOutput},
-          {"--json", &options->json, "", "lines of JSON, which is what there is without it, too"},
           {"--strict", &options->strict, "", kStrictKeysHelp},
       },
 
       "docs/itineraries.md: what is certified, and how. `bits`: of a collision, by how many bits an error of "
       "the\nstart has grown; of the end, the precision that it took.\n"
       "Example, problem 2 of the SIAM 100-digit challenge to 100 digits:\n"
-      R"(  echo '{"x":["1/2","1/10"],"v":[1,0]}' | lorentz trajectory --scene square --radius 1/3 )"
-      "--time 10 --digits 100",
+      "  lorentz trajectory --scene square --radius 1/3 --x 1/2,1/10 --v 1,0 --time 10 --digits 100",
       [options] { return run_trajectory(*options); }};
 }
 

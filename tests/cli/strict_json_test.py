@@ -38,11 +38,10 @@ COMMANDS = {
     "fuzz": (CAMPAIGN + ["--store", "store"], []),
     "fuzz show": (["ID", "--store", "store", "--html", "page.html"], ["page.html"]),
     "flights": (["--scene", SCENE, "--count", "1000", "--store", "flights", "--html", "page.html"], ["page.html"]),
-    "trajectory": (["starts.ndjson", "--collisions", "5", "--scene", SCENE, "--detail", "-e", "reduction"], []),
     "lyapunov": (["--scene", SCENE, "--collisions", "20000", "--store", "lyapunov"], []),
     "diffusion": (["--scene", SCENE, "--count", "1000", "--time", "5", "--store", "diffusion"], []),
 }
-MANY_LINES = {"trajectory", "flights"}
+MANY_LINES = {"flights"}
 
 
 def has_option(words):
@@ -134,12 +133,6 @@ class StrictJson(unittest.TestCase):
         self.assertEqual(self.ids_in(line["given"] for line in wrong[1:]), IDS)
         made = strict_json.read_lines(self.run_program("golden", "make", "--set", "ties", "--count", "5"))
         self.assertIn("golden", made[0])
-
-    def test_the_demonstration_s_own_file_is_asked_again(self):
-        self.run_program("demo", "--disagreements", "demo.ndjson")
-        lines = strict_json.read_lines((self.path / "demo.ndjson").read_bytes())
-        asked = strict_json.read(self.run_program("compare", "--queries", "demo.ndjson", "--json", "-e", "published"))
-        self.assertEqual(asked["engines"][0]["queries"], sum("id" in line for line in lines))
 
     def test_stores(self):
         self.run_program("lyapunov", "--scene", SCENE, "--collisions", "20000", "--store", "kept")
