@@ -53,10 +53,10 @@ void check_is_list(const std::string& text, const std::string& name) {
         fmt::format("--baseline: {} {}, not a list of known failures as --baseline writes it", name, kind));
 }
 
-// The records that a baseline names.
-std::set<RecordKey> records_in(const std::string& text, const std::string& name) {
+// The records that a baseline names, and the lines that do.
+std::map<RecordKey, std::size_t> records_in(const std::string& text, const std::string& name) {
   check_is_list(text, name);
-  std::set<RecordKey> records;
+  std::map<RecordKey, std::size_t> records;
   std::istringstream lines(text);
   std::size_t number = 0;
   for (std::string line; std::getline(lines, line);) {
@@ -67,7 +67,7 @@ std::set<RecordKey> records_in(const std::string& text, const std::string& name)
     if (!(words >> record.second))
       throw InputError(fmt::format(
           "{}:{}: expected a set and the id of a record, as in \"ties 9cbb135e0a1b2c3d\"", name, number));
-    records.insert(record);
+    records.emplace(record, number);
   }
   return records;
 }
@@ -111,7 +111,9 @@ std::optional<std::string> failure_of(const oracle::Judgement& judgement, bool t
 }
 
 FailureLedger::FailureLedger(const FailureFiles& files)
-    : makes_junit_(files.junit.has_value()), junit_file_(files.junit) {
+    : makes_junit_(files.junit.has_value()),
+      baseline_(files.baseline.value_or("")),
+      junit_file_(files.junit) {
   if (!files.baseline) return;
   std::error_code error;
   if (std::filesystem::exists(*files.baseline, error))
@@ -132,7 +134,7 @@ bool FailureLedger::take(const std::string& set, const std::string& id,
   number_of_new_ += is_new;
   if (is_new && known_) new_.push_back(fmt::format("new: {} {} {}", record.first, record.second, *failure));
   if (failure && baseline_file_) failures_.emplace(record, *failure);
-  if (makes_junit_) add_case(record, is_new ? failure : std::nullopt);
+  if (makes_junit_) add_case(record, failure, is_known);
   return is_new;
 }
 
@@ -146,9 +148,9 @@ std::size_t FailureLedger::failures(const question::Counts& counts, bool times, 
 void FailureLedger::end(const std::string& set) {
   if (!known_) return;
   const std::string word = word_of(set);
-  for (auto record = known_->lower_bound({word, ""}); record != known_->end() && record->first == word;
-       ++record)
-    if (!asked_.contains(*record)) stale_.push_back(*record);
+  for (auto known = known_->lower_bound({word, ""}); known != known_->end() && known->first.first == word;
+       ++known)
+    if (!asked_.contains(known->first)) stale_.push_back(known->first);
 }
 
 void FailureLedger::finish(const std::string& engine) {
@@ -167,21 +169,31 @@ void FailureLedger::finish(const std::string& engine) {
   junit_file_.write([&] { return junit_text(engine); });
 }
 
-void FailureLedger::add_case(const RecordKey& record, const std::optional<std::string>& failure) {
+void FailureLedger::add_case(const RecordKey& record, const std::optional<std::string>& failure,
+                             bool is_known) {
   Suite& suite = suites_[record.first];
-  ++suite.cases, suite.failures += failure.has_value();
+  ++suite.cases;
   suite.text += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", xml_escaped(record.first),
                             xml_escaped(record.second));
-  suite.text +=
-      failure ? fmt::format("><failure message=\"{}\"/></testcase>\n", xml_escaped(*failure)) : "/>\n";
+  std::string element = "/>\n";
+  if (failure && is_known) {
+    ++suite.skipped;
+    const std::string why = fmt::format("{}; known by {}:{}", *failure, baseline_, known_->at(record));
+    element = fmt::format("><skipped message=\"{}\"/></testcase>\n", xml_escaped(why));
+  } else if (failure) {
+    ++suite.failures;
+    element = fmt::format("><failure message=\"{}\"/></testcase>\n", xml_escaped(*failure));
+  }
+  suite.text += element;
 }
 
 std::string FailureLedger::junit_text(const std::string& engine) const {
   std::string text = fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"{}\">\n",
                                  xml_escaped(engine));
   for (const auto& [name, suite] : suites_)
-    text += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n{}  </testsuite>\n",
-                        xml_escaped(name), suite.cases, suite.failures, suite.text);
+    text += fmt::format(
+        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n{}  </testsuite>\n",
+        xml_escaped(name), suite.cases, suite.failures, suite.skipped, suite.text);
   return text + "</testsuites>\n";
 }
 

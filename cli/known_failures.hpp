@@ -35,7 +35,8 @@ std::optional<std::string> failure_of(const oracle::Judgement& judgement, bool t
 
 /// Records the failures of one engine. The baseline is a list of known failures, lines "SET ID", optionally
 /// followed by further text; # begins a comment. If there is no such file yet, it is written with the failures of
-/// this run. The report is XML in the format of JUnit with a suite for each set and a case for each question.
+/// this run. The report is XML in the format of JUnit with a suite for each set and a case for each question; a
+/// failure that is known is skipped there, with the baseline's line.
 class FailureLedger {
  public:
   /// Reads or opens the files. Throws FileError, and InputError with the number of a bad line.
@@ -58,16 +59,17 @@ class FailureLedger {
 
  private:
   struct Suite {
-    std::size_t failures = 0, cases = 0;
+    std::size_t failures = 0, skipped = 0, cases = 0;
     std::string text;
   };
 
-  void add_case(const RecordKey& record, const std::optional<std::string>& failure);
+  void add_case(const RecordKey& record, const std::optional<std::string>& failure, bool is_known);
   std::string junit_text(const std::string& engine) const;
 
   const bool makes_junit_;
-  std::optional<std::set<RecordKey>> known_;
-  std::set<RecordKey> asked_;  // of the known ones
+  const std::string baseline_;                             // its name, or ""
+  std::optional<std::map<RecordKey, std::size_t>> known_;  // and their lines
+  std::set<RecordKey> asked_;                              // of the known ones
   std::vector<RecordKey> stale_;
   std::size_t met_ = 0;  // known ones that failed again
   std::map<RecordKey, std::string> failures_;
