@@ -103,16 +103,10 @@ class FlightTable {
 ///
 ///  1. Each result is that of Reduction::fly, to the bit: outcome, stage, obstacle and time. This holds on
 ///     every processor and with any number of threads.
-///     held by "A batch says what one flight at a time says, to the bit, with every set of instructions",
-///             "The golden sets in batches, to the bit"
 ///  2. An invalid query (flaw_of) gets the outcome `error`; the other queries are not affected.
-///     held by "A query with a flaw is an error of its own in a batch"
 ///  3. `fly` allocates only what starting threads needs. It throws only what starting threads throws, and
 ///     InputError for invalid columns (flaw_of).
-///     held by "A batch allocates nothing",
-///             "Columns that are missing or too short are refused"
 ///  4. Any number of threads may use one batch engine.
-///     held by "Threads share a batch engine"
 ///
 /// Units, ranges and exactness: as for Reduction (reduction.hpp).
 ///

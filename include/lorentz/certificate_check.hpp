@@ -17,8 +17,6 @@ namespace lorentz::oracle {
 /// Checks proofs of answers to queries in one scene.
 ///
 ///  1. No false answer passes, whatever the certificate holds.
-///     held by "Another obstacle than the first is refused, whatever the proof holds",
-///             "No false answer passes with proofs tampered with at random"
 ///  2. It accepts the same forms and proofs as data/check.py, a checker with plain integers in Python.
 ///
 /// Cost: proportional to the rows and obstacles of the proof, a few million per second.

@@ -13,11 +13,7 @@ namespace lorentz::oracle {
 /// elsewhere.
 ///
 ///  1. The answer is that of Oracle::first_hit, to the bit of the time; it is never `undecided`.
-///     held by "certified is the oracle, to the bit",
-///             "certified is exact among ellipsoids, whatever the engine says of them",
-///             "A hit is before a limit iff its exact time is, and certified says what the oracle says"
 ///  2. Any number of threads may use one engine, each with its own tally.
-///     held by "Many threads may ask one engine, oracle, walk and judge"
 ///
 /// Units: as in Query: lengths are in the scene's unit, and times are such that x + t v is the particle's
 /// position.

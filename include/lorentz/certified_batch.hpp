@@ -21,11 +21,8 @@ namespace lorentz::oracle {
 /// First hits of many queries in one scene.
 ///
 ///  1. A query that is not in `uncertain` gets the answer of Certified::first_hit, to the bit of the time.
-///     held by "What a certified batch is certain of is what certified says, to the bit"
 ///  2. Any number of threads may use one engine.
-///     held by "Threads share a batch engine"
 ///  3. On a graphics card the results are the same, to the bit.
-///     held by tests/gpu/gpu_test.py
 ///
 /// Units: as in QueryColumns. Cost: that of Batch with rounded times. Fewer than one in 10 000 drawn queries
 /// are `uncertain`; in a scene that Reduction does not support, all are.

@@ -13,16 +13,12 @@ namespace lorentz {
 /// non-finite. The error is that of x + t v: a few ulps of the distance flown. For `inside` there is no collision: its
 /// point and normal are zero. Throws InputError if the answer is neither a hit with a time nor `inside`, or names no
 /// obstacle of the scene.
-///
-/// held by "Collision detail of balls is the oracle's, which is correctly rounded"
 Detail collision_detail(const Scene& scene, const Query& query, const Answer& answer);
 
 /// When the line leaves the obstacle that the answer names, with the error of collision_detail, and its exceptions.
 double exit_time(const Scene& scene, const Query& query, const Answer& answer);
 
 /// The velocity after a specular reflection: v - 2 (v.n) n. Requires a normal n of unit length.
-///
-/// held by "A reflection keeps the speed and turns the normal component"
 Vec reflected(const Vec& v, const Vec& normal);
 
 }  // namespace lorentz

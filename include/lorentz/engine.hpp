@@ -18,9 +18,7 @@ struct Ray;  // a flight in the form that engines take (engine_base.hpp)
 /// A first-hit engine for one scene.
 ///
 ///  1. It is const and has no hidden state, so any number of threads may use one engine.
-///     held by "Many threads may ask one engine, oracle, walk and judge"
 ///  2. The velocity's length affects only the time: v and 2 v get the same answer, at half the time.
-///     held by "The velocity's length goes into the time only"
 ///  3. It throws nothing.
 ///
 /// Units: lengths are in the scene's unit; times are such that x + t v is the particle's position.

@@ -21,8 +21,6 @@ struct ArithmeticCheck {
 /// engines is void: right obstacles, bounds of times, same bits everywhere. Modes belong to a thread, so call
 /// this in the thread that computes flights. Takes about ten operations; throws nothing but bad_alloc.
 ///
-/// held by "Broken arithmetic is seen, and named"
-///
 /// Source: IEEE 754-2019, 4.3, 5 and 7.5; docs/determinism.md.
 std::vector<ArithmeticCheck> arithmetic_checks();
 

@@ -51,13 +51,8 @@ struct StartItem {
 /// Reads the lines of query and answer streams.
 ///
 ///  1. A number is the binary64 nearest to its text, ties to even, however many digits it has.
-///     held by "Numbers: midpoints between neighbours, and what is beside them",
-///             "Numbers: 1 to 800 digits, with points and exponents that make up for each other"
 ///  2. Written values read back as the same bits.
-///     held by "Queries round-trip bit for bit, in decimal and in hexadecimal",
-///             "Scenes round-trip"
 ///  3. Bad lines are reported by name and place, and never stop a stream.
-///     held by "Every sort of bad line is told by name, and keeps its id where it can be read"
 ///
 /// A reader has its own buffers, so use one per thread.
 class ExchangeReader {

@@ -95,9 +95,6 @@ using SearchProgress = std::function<void(const std::string& what, std::size_t d
 ///
 /// Throws InputError for scenes with lattices that do not repeat in all directions, and for a `min_width` that is
 /// negative or not finite.
-///
-/// held by "Horizon: square and cubic lattices by their closed forms",
-///         "Horizon: the oracle flies for ever in a channel, and nowhere else"
 Horizon horizon_of(const Scene& scene, double min_width = 0, bool with_cylinders = true,
                    const SearchProgress& progress = {});
 

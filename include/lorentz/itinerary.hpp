@@ -56,15 +56,8 @@ struct Arrival {
 ///  1. Every reported obstacle is the true one and every decimal digit is correctly rounded, whatever the
 ///     numbers of scene and start. (A number within 2^-96 of itself from the midpoint between two decimals
 ///     has one or two digits more.)
-///     held by "Itinerary: problem 2 of the 100-digit challenge, to the published digits",
-///             "Itinerary: what is certain of an enclosure is what the oracle says",
-///             "Itinerary: an exact state is decided exactly, whatever the family"
 ///  2. More precision, reversed time, or another basis, frame or unit gives the same itinerary.
-///     held by "Itinerary: more bits than needed change nothing",
-///             "Itinerary: reversed, a particle comes back to its start",
-///             "Itinerary: in another basis, elsewhere, turned, and in another unit"
 ///  3. A journey that no precision decides ends as `undecided`, at `most_bits`.
-///     held by "Itinerary: how journeys end"
 ///  4. Any number of threads may follow journeys of one Itinerary.
 ///
 /// Cost: a passage of N collisions at B bits takes N times a few dozen operations of B bits, and B is

@@ -69,10 +69,7 @@ struct Crossing {
 ///     Among movements of twice the margin, some change it. This holds to first order. Where first order is
 ///     not enough, the margin is only an estimate: among tiny obstacles, in very long flights in 3D, and
 ///     where the line grazes one of two overlapping obstacles and their order decides (docs/verdicts.md).
-///     held by "Inputs moved by less than the margin give the same answer, moved by twice it some give
-///     another"
 ///  2. The condition is the largest change of the time, in its ulps, that one ulp in each input can cause.
-///     held by "Conditions: what each input makes of the time"
 ///
 /// Cost: 100 us and more, depending on the obstacles near the flight. Allocates. Any number of threads may
 /// use one object.

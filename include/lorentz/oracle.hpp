@@ -29,24 +29,15 @@ struct Request {
 ///     even. If several obstacles are entered at the same time, or several contain x, the answer names the
 ///     first in the order (lattice, atom, cell). The second oracle (walk.hpp) has code and arithmetic of its
 ///     own; where it answers, the answers are the same.
-///     held by "Oracle equals walk on generic scenes",
-///             "Oracle equals walk on a coarse grid: ties, tangents, rational slopes",
-///             "Oracle equals walk on ellipsoids, alone and mixed with balls"
 ///  2. A scene and a query may be written in another form: another basis of the lattice, axes exchanged or
 ///     reflected, another origin, other units, another order of lattices and atoms. If binary64 holds the
 ///     numbers of that form exactly, the answer is the same, with the cell in the new basis and the time in
 ///     the new unit. But the order (lattice, atom, cell) may differ in that form. So if obstacles are entered
 ///     at the same time, or several contain x, the answer may name a different one of them.
-///     held by "Rewording: the oracle says the same in other words",
-///             "The square and the cube look the same from all their sides"
 ///  3. The decimal digits and the details of Request are correctly rounded, too.
-///     held by "Details are correctly rounded"
 ///  4. The answer is never `undecided`.
 ///  5. A start inside is answered by the rule in Request.
-///     held by "A start inside by another rule: single obstacles are taken away, or looked at one by one",
-///             "A start inside that misses: the lattice as single obstacles says the same"
 ///  6. Any number of threads may use one oracle.
-///     held by "Many threads may ask one engine, oracle, walk and judge"
 ///
 /// Units: as in Query: lengths are in the scene's unit, and times are such that x + t v is the particle's
 /// position.

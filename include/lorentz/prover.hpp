@@ -13,8 +13,6 @@ namespace lorentz::oracle {
 ///
 ///  1. CertificateCheck and data/check.py accept the certificate of an exact answer, if it takes at most
 ///     kMostSteps steps. They refute the certificate of a wrong answer.
-///     held by "Prover: the proofs of drawn answers are accepted",
-///             "Prover: whatever it writes of a wrong answer is refuted"
 ///
 /// Cost: that of the oracle. Allocates. Any number of threads may use one prover.
 class Prover {

@@ -20,27 +20,17 @@ struct Task;  // internal: a query with its limit, in the engine's units
 /// Promises, and the tests that hold the engine to them:
 ///  1. An outcome other than `undecided` is right, and so is the obstacle of a `hit` or `inside`. Right means
 ///     that the exact oracle says the same.
-///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
-///             "Grazing hits: every stage decides, and none wrongly",
-///             "Among ellipsoids the reduction engine agrees with the oracle on drawn and constructed cases",
-///             "Limits within ulps of the time: every decided answer is right, alone and in a batch"
 ///  2. If `fly` is called with Time::rounded (below) and sets Flight::time_is_rounded, the time is correctly
 ///     rounded. For all other times no error bound is promised (see "Errors of times" below).
-///     held by "Times of drawn flights err by few ulps, those said to be rounded not at all"
 ///  3. The bits are the same on every processor that computes in IEEE 754 binary64, with a fused multiply-add
 ///     or without. This requires that the compiler does not fuse a product and a sum by itself, and does not
 ///     use fast-math. This project's build files see to both.
-///     held by "The reduction engine agrees with the oracle on drawn and constructed cases",
-///             "The digests of seeded flights are the known ones"
 ///  4. `fly` allocates nothing, throws nothing and ends: every loop has a bound.
-///     held by "A flight allocates nothing, in any model"
 ///  5. Any number of threads may use one engine.
-///     held by "Many threads may ask one engine, oracle, walk and judge"
 ///  6. On the unit square and cubic lattices random queries are decided. There is one exception: a query may
 ///     be undecided if its exact answer is `never`. (Few random queries have this answer.) The test asks 3000
 ///     queries at each of 8 radii in the square lattice, the smallest 1e-12. In the cubic lattice it does so
 ///     at 6 radii, the smallest 1e-7.
-///     held by "Nothing is undecided on drawn queries, down to the smallest radii"
 ///
 /// Units: lengths are in the scene's unit; times are such that x + t v is the particle's position. |v| may
 /// have any value.

@@ -71,24 +71,17 @@ using AskFirstHit = std::function<void(const Query& query, double max_time, Answ
 ///     times the flight's length; that of the direction is this divided by the radius; both times 1 / cosine.
 ///     Here u is 2^-53 in binary64 and 2^-102 in double_double. For ellipsoids, both are also multiplied by
 ///     the ratio of the semiaxes.
-///     held by "A collision is the oracle's, as exact as the state",
-///             "A collision in binary64 is that in double-double, rounded",
-///             "Problem 2 of the 100-digit challenge: the digits that each precision has"
 ///  2. After each collision the particle is on the obstacle's surface and has its initial speed, both up to a
 ///     few ulps, however many collisions there were.
-///     held by "Speed and surface are kept over many collisions"
 ///  3. The distance travelled costs no digits, because the engine is asked in a frame in which the obstacle
 ///     that the particle leaves lies in cell 0. Superposed lattices have no such frame. There the engine is
 ///     asked in the scene's own frame, and the query is rounded to an ulp of the distance from the origin.
-///     held by "Far from the origin a trajectory is the same, to the bit"
 ///  4. In double_double the engine gets the state rounded to binary64. So it may take a line that passes an
 ///     obstacle for one that grazes it, or the other way round. The first is a collision with cosine 0, which
 ///     does not change the velocity; the second goes unnoticed. This can happen only where 2^-50 of the
 ///     flight's length decides.
-///     held by "A line that grazes goes on unchanged"
 ///  5. Whatever happens, the particle stops with a reason (Stop). The state is then that of the last
 ///     collision, or that at the requested time. Only the engine, a constructor or set_state can throw.
-///     held by "A trajectory that ends says why"
 ///  6. Constant memory: the past is not kept.
 ///
 /// Units: those of the scene. |v|, the sizes of obstacles and the vectors' lengths may be from 2^-100 to

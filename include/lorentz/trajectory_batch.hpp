@@ -13,11 +13,8 @@ namespace lorentz {
 /// Particles in one scene that do not interact. Each moves as in a Trajectory with a Reduction.
 ///
 ///  1. Each particle moves as Trajectory says, to the bit, however many particles there are.
-///     held by "Particles in a batch go where each goes alone, to the bit"
 ///  2. A particle that stops does not affect the others.
-///     held by "Particles in a batch stop one by one"
 ///  3. Constant memory: `advance` allocates nothing.
-///     held by "Many collisions take no memory"
 ///  4. One set of particles is for one thread; any number of sets may share an engine.
 ///
 /// Units, ranges and exactness: as for Trajectory.

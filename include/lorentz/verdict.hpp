@@ -65,29 +65,18 @@ struct ExcusedAnswer {
 ///
 ///  1. An answer is `wrong` if no movement of each input by up to `ulps` units in its last place makes it
 ///     right (to first order, docs/verdicts.md). It is `ill_posed` if some such movement does.
-///     held by "Each answer gets its verdict",
-///             "An answer that a few ulps would make right is ill-posed, with the tolerance that it needs"
 ///  2. The time of the right obstacle is a wrong time if its error, in its ulps, is more than `ulps` and more
 ///     than `ulps` times its condition. The answer agrees nevertheless, however large the error of the time.
 ///     An exit_time, also of `inside`, is judged in the same way, by its own condition.
-///     held by "Errors of the time are counted in ulps, and judged by the condition",
-///             "A time that is off by a good part of itself is another quantity",
-///             "An exit is judged like a time, by its own condition"
 ///  3. With `ulps` = 0, an answer is the exact one or `wrong`, and a time is correctly rounded or a wrong
 ///     time. Not even a tie that was decided the other way is forgiven.
-///     held by "Where no ulp is forgiven an answer is the exact one or wrong"
 ///  4. Ulps are those of the claim's precision. With a time tolerance T, a time t is wrong if it is off by
 ///     more than T t, and only then. A later obstacle is forgiven if each obstacle entered earlier is entered
 ///     at most T times its time before, and not yet left.
-///     held by "In binary32 an ulp is one of 24 bits",
-///             "A tolerance of times, and what it forgives of the order"
 ///  5. If the claim has another rule for starts inside, the exact answer must be the one by that rule. `inside` is
 ///     wrong then; whether x lies in an obstacle is one of the decisions that ulps may excuse.
-///     held by "Starts inside are judged by the rule that is claimed"
 ///  6. Any number of threads may use one judge.
-///     held by "Many threads may ask one engine, oracle, walk and judge"
 ///  7. excused() lists what judge() forgives, and nothing else.
-///     held by "Excused answers are those that the judge calls ill-posed"
 ///
 /// Cost: negligible if the two answers agree, otherwise 100 us and more.
 class Judge {

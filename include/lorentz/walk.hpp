@@ -16,10 +16,7 @@ namespace lorentz::oracle {
 /// First hits cell by cell, in exact arithmetic.
 ///
 ///  1. An outcome other than `undecided` is exact, and the time is correctly rounded.
-///     held by "Oracle equals walk on generic scenes",
-///             "Walk rounds ties to even"
 ///  2. Any number of threads may use one walk.
-///     held by "Many threads may ask one engine, oracle, walk and judge"
 ///
 /// Units: as in Query. Cost: microseconds per cell and atom, so it grows with the distance and with
 /// 1/r^(d-1).
