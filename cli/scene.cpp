@@ -20,7 +20,7 @@ namespace {
 struct SceneOptions {
   std::optional<std::string> scene;
   std::optional<double> radius;
-  bool json = false, no_horizon = false;
+  bool json = false;
 };
 
 // The first comment of a scene file, which describes the scene.
@@ -68,13 +68,24 @@ int list(const SceneOptions& options) {
   return bad ? kBadInput : kDone;
 }
 
+constexpr std::size_t kMostLooks =
+    500'000;  // directions or planes: some seconds. `lorentz horizon` takes longer, too
+
+oracle::SearchProgress short_search() {
+  return [shown = search_progress()](const std::string& what, std::size_t done, std::size_t total) {
+    if (total > kMostLooks)
+      throw oracle::TooManyChannels(fmt::format("{} {} to look along would take long", total, what));
+    if (shown) shown(what, done, total);
+  };
+}
+
 // The verdict on the horizon: whether free flights are bounded.
 std::string horizon_verdict(const Scene& scene) {
   try {
-    const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false, search_progress());
+    const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false, short_search());
     const bool all = scene.dimension == 2 || horizon.is_infinite();  // otherwise cylinders matter
     std::string verdict =
-        report::verdict_of(all ? horizon : oracle::horizon_of(scene, 0, true, search_progress()), false);
+        report::verdict_of(all ? horizon : oracle::horizon_of(scene, 0, true, short_search()), false);
     const std::string word = " horizon";  // the row's name already has it
     if (const auto at = verdict.find(word); at != std::string::npos) verdict.erase(at, word.size());
     return verdict;
@@ -133,12 +144,12 @@ std::string lattice_in_words(const Scene& scene, std::size_t l) {
   const Lattice& lattice = scene.lattices[l];
   const int d = scene.dimension;
   std::string out = fmt::format("lattice {}\n", l);
-  for (int i = 0; i < lattice.rank(d); ++i)
+  for (int i = 0; i < lattice.rank_in(d); ++i)
     out += line(fmt::format("  u{}", i + 1), coordinates(lattice.vectors[i], d));
-  if (lattice.missing == 0)
+  if (lattice.rank >= d)
     out += line(d == 2 ? "  cell area" : "  cell volume", fmt::format("{:.6g}", cell_volume(lattice, d)));
   else
-    out += line("  repeats", fmt::format("in {} of {} directions", lattice.rank(d), d));
+    out += line("  repeats", fmt::format("in {} of {} directions", lattice.rank_in(d), d));
   for (std::size_t a = 0; a < lattice.atoms.size() && a < kAtomsShown; ++a)
     out += line(fmt::format("  atom {}", a), fmt::format("{} at {}", shape_in_words(lattice.atoms[a], d),
                                                          coordinates(lattice.atoms[a].position, d)));
@@ -171,7 +182,7 @@ std::string contacts_in_words(const oracle::Contacts& contacts, int dimension) {
 }
 
 void show_text(const std::string& name, const std::string& file, const Scene& scene,
-               const SceneFacts& findings, bool with_horizon) {
+               const SceneFacts& findings) {
   const int d = scene.dimension;
   std::string out = line("scene", name);
   if (const std::string what = description_in(file); !what.empty()) out += line("what it is", what);
@@ -192,7 +203,7 @@ void show_text(const std::string& name, const std::string& file, const Scene& sc
   // The search of the horizon may take long, so the other results are printed first.
   print(out);
   std::fflush(stdout);
-  print(line("horizon", with_horizon ? horizon_verdict(scene) : "not searched, as asked for"));
+  print(line("horizon", horizon_verdict(scene)));
 }
 
 void add_contact(json::Members& object, const oracle::Contact& contact, const Components& count) {
@@ -204,11 +215,11 @@ void add_contact(json::Members& object, const oracle::Contact& contact, const Co
 }
 
 void show_json(const std::string& name, const std::string& file, const Scene& scene,
-               const SceneFacts& findings, bool with_horizon) {
+               const SceneFacts& findings) {
   std::vector<std::optional<double>> volumes;
   for (const Lattice& lattice : scene.lattices)
-    volumes.push_back(lattice.missing == 0 ? std::optional(cell_volume(lattice, scene.dimension))
-                                           : std::nullopt);
+    volumes.push_back(lattice.rank >= scene.dimension ? std::optional(cell_volume(lattice, scene.dimension))
+                                                      : std::nullopt);
   const std::vector<oracle::Contact>& contacts = findings.contacts.found;
   const std::span first(contacts.data(), std::min(contacts.size(), kContactsShown));
   const auto contact = [&](json::Members& one, const oracle::Contact& c) { add_contact(one, c, scene); };
@@ -222,16 +233,14 @@ void show_json(const std::string& name, const std::string& file, const Scene& sc
               "first", json::objects(first, contact));
     });
     object.add("filling", filling(&Filling::fraction), "surface_per_volume", filling(&Filling::surface),
-               "mean_free_path", filling(&Filling::mean_free_path), "horizon",
-               with_horizon ? std::optional(horizon_verdict(scene)) : std::nullopt);
+               "mean_free_path", filling(&Filling::mean_free_path), "horizon", horizon_verdict(scene));
   }));
 }
 
 int show(const SceneOptions& options) {
   const Scene scene = read_scene(*options.scene, options.radius);
   const SceneFacts findings = findings_on(scene);
-  (options.json ? show_json : show_text)(*options.scene, find_scene(*options.scene), scene, findings,
-                                         !options.no_horizon);
+  (options.json ? show_json : show_text)(*options.scene, find_scene(*options.scene), scene, findings);
   return kDone;
 }
 
@@ -250,8 +259,6 @@ Command scene_show_command() {
           "Cell, obstacles, which of them touch or overlap, filling fraction, mean free path, horizon.",
           {{"scene", &options->scene, "SCENE", "a name of the catalogue, or a file", kRequired},
            {"--radius", Positive{&options->radius}, "R", "radius of every ball"},
-           {"--no-horizon", &options->no_horizon, "",
-            "leave out the horizon: among small obstacles its search takes half a minute"},
            {"--json", &options->json, "", "as one JSON object"}},
           "Example:\n  lorentz scene show fcc --radius 0.35",
           [options] { return show(*options); }};

@@ -48,7 +48,7 @@ void measure_from(const Question& question, const ObstacleId& obstacle, Features
   const Lattice& lattice = scene.lattices[static_cast<std::size_t>(obstacle.lattice)];
   const Atom& atom = lattice.atoms[static_cast<std::size_t>(obstacle.atom)];
   Vec centre = atom.position;
-  for (int i = 0; i < lattice.rank(scene.dimension); ++i)
+  for (int i = 0; i < lattice.rank_in(scene.dimension); ++i)
     centre = plus(centre, as_double(obstacle.cell[i]), lattice.vectors[i]);
   const Vec away = plus(centre, -1, question.query.x);
   its.distance = std::hypot(away[0], away[1], away[2]) / smallest_semiaxis(atom, scene.dimension);
@@ -65,7 +65,7 @@ void measure_cell(const Question& question, Features& its) {
   const Vec& x = question.query.x;
   for (int i = 0; i < scene.dimension; ++i) its.negative_start |= x[i] < 0;
   const auto repeating = std::ranges::find_if(scene.lattices, [&](const Lattice& lattice) {
-    return lattice.rank(scene.dimension) == scene.dimension;
+    return lattice.rank_in(scene.dimension) == scene.dimension;
   });
   if (repeating == scene.lattices.end()) return;
   its.negative_start = false;
@@ -102,7 +102,7 @@ Features features_of(const Question& question, const std::optional<ObstacleId>& 
   const Scene& scene = question.place->scene();
   const Query& query = question.query;
   const bool repeats = std::ranges::any_of(
-      scene.lattices, [&](const Lattice& lattice) { return lattice.rank(scene.dimension) > 0; });
+      scene.lattices, [&](const Lattice& lattice) { return lattice.rank_in(scene.dimension) > 0; });
   const double unit = repeats ? shortest_vector(scene) : Features::kNone;
   Features its;
   its.in_space = scene.dimension == 3;

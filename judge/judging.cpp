@@ -54,7 +54,7 @@ double length_of_flight(const Question& question) {
   if (!question.is_query()) return 0;
   const Scene& scene = question.place->scene();
   const bool repeats = std::ranges::any_of(
-      scene.lattices, [&](const Lattice& lattice) { return lattice.rank(scene.dimension) > 0; });
+      scene.lattices, [&](const Lattice& lattice) { return lattice.rank_in(scene.dimension) > 0; });
   if (question.exact.outcome == Outcome::inside || !repeats) return 0;
   if (question.exact.outcome != Outcome::hit) return std::numeric_limits<double>::infinity();
   return *question.exact.time * length(question.query.v) / shortest_vector(scene);

@@ -47,7 +47,7 @@ class Retold {
  private:
   // A single obstacle is moved together with the start.
   Scene retold(Scene scene) const {
-    const bool repeats = scene.lattices[0].rank(scene.dimension) > 0;
+    const bool repeats = scene.lattices[0].rank_in(scene.dimension) > 0;
     for_each_atom(scene, [&](Atom& atom) {
       if (how_ == Retelling::mirrored) atom.position = scaled(atom.position, -1);
       if (how_ == Retelling::moved && !repeats) atom.position = sum(atom.position, away_);
@@ -72,7 +72,7 @@ class Retold {
     if (how_ == Retelling::faster) query.v = scaled(query.v, std::ldexp(1, random.exponent(-kSpeed, kSpeed)));
     if (how_ != Retelling::moved) return query;
     const int bits = random.exponent(0, bits_to_move(place.claim().precision)),
-              rank = lattice.rank(scene.dimension);
+              rank = lattice.rank_in(scene.dimension);
     if (rank == 0) query.x = sum(query.x, away_);
     for (int i = 0; i < rank; ++i)
       query.x = plus(query.x, random.whole(-(std::int64_t{1} << bits), std::int64_t{1} << bits),

@@ -35,7 +35,7 @@ py::dict scene_dict(const PyScene& scene) {
   py::list lattices;
   for (const RationalLattice& lattice : scene.exact().lattices) {
     py::list vectors, atoms;
-    for (int i = 0; i < scene.dimension() - lattice.missing; ++i)
+    for (int i = 0; i < lattice.rank_in(scene.dimension()); ++i)
       vectors.append(to_python(lattice.vectors[i], scene.dimension()));
     for (const RationalAtom& atom : lattice.atoms) atoms.append(atom_dict(atom, scene.dimension()));
     lattices.append(py::dict(py::arg("vectors") = vectors, py::arg("atoms") = atoms));
@@ -136,7 +136,7 @@ void bind_scene(py::module_& module) {
           [](const PyScene& scene, std::int64_t lattice) {
             const auto& lattices = scene.exact().lattices;
             const auto l = static_cast<std::size_t>(lattice);
-            return scene.dimension() - (l < lattices.size() ? lattices[l].missing : 0);
+            return l < lattices.size() ? lattices[l].rank_in(scene.dimension()) : scene.dimension();
           })
       .def("nearest", [](const PyScene& scene) { return PyScene(scene.nearest()); })
       .def("to_dict", scene_dict);

@@ -38,7 +38,7 @@ bool Scope::admits(const Scene& scene) const {
   if (scenes == Scenes::unit) return is_unit_scene(scene);
   const Lattice& lattice = scene.lattices[0];
   return scene.lattices.size() == 1 && lattice.atoms.size() == 1 && lattice.atoms[0].is_ball() &&
-         lattice.missing == (scenes == Scenes::ball ? scene.dimension : 0);
+         lattice.rank_in(scene.dimension) == (scenes == Scenes::ball ? 0 : scene.dimension);
 }
 
 bool Scope::meets(const Target& target, std::uint64_t seed) const {

@@ -170,7 +170,7 @@ std::optional<std::vector<Atom>> copies_of(const Lattice& lattice, const std::ve
 std::optional<RewordingStep> draw_cells(Random& random, Scene& scene, std::int64_t factor) {
   const int l = static_cast<int>(random.below(scene.lattices.size()));
   Lattice& lattice = scene.lattices[l];
-  const int rank = lattice.rank(scene.dimension);
+  const int rank = lattice.rank_in(scene.dimension);
   if (rank == 0 || lattice.atoms.size() * static_cast<std::size_t>(factor) > kMostAtoms) return std::nullopt;
   Changing changing(lattice.vectors, rank);
   for (std::uint64_t steps = random.below(4) + (factor == 1); steps > 0; --steps) changing.shear(random);

@@ -73,9 +73,9 @@ Vec drawn_translation(Random& random, const Scene& scene) {
   const Lattice& lattice = scene.lattices[random.below(scene.lattices.size())];
   if (random.one_in(3)) return negated(lattice.atoms[random.below(lattice.atoms.size())].position);
   const Atom& atom = lattice.atoms[0];
-  const Vec size_of = lattice.rank(scene.dimension) > 0 ? lattice.vectors[0]
-                      : atom.is_ball()                  ? Vec{atom.radius}
-                                                        : atom.semiaxes[0];
+  const Vec size_of = lattice.rank_in(scene.dimension) > 0 ? lattice.vectors[0]
+                      : atom.is_ball()                     ? Vec{atom.radius}
+                                                           : atom.semiaxes[0];
   const int unit =
       std::ilogb(std::max({std::fabs(size_of[0]), std::fabs(size_of[1]), std::fabs(size_of[2])}));
   const int size = static_cast<int>(random.one_in(2) ? random.integer(-4, 4) : random.integer(5, 50));
@@ -115,7 +115,7 @@ class AxisOrder {
   Scene applied(const Scene& scene) const {
     Scene result{scene.dimension, {}};
     for (const int l : lattices_) {
-      result.lattices.push_back({scene.lattices[l].vectors, {}, scene.lattices[l].missing});
+      result.lattices.push_back({scene.lattices[l].vectors, {}, scene.lattices[l].rank});
       for (const int a : atoms_[l]) result.lattices.back().atoms.push_back(scene.lattices[l].atoms[a]);
     }
     return result;
@@ -221,9 +221,8 @@ std::optional<RewordingStep> draw_plane_in_space(Random& random, Scene& scene) {
   const int least = static_cast<int>(range_of(scene).highest) + 2;
   if (least > kLargestExponent) return std::nullopt;
   for (Lattice& lattice : scene.lattices) {
-    if (lattice.missing > 0) {
-      ++lattice.missing;
-    } else {
+    if (lattice.rank >= 2) {
+      lattice.rank = 3;
       const double height = drawn_height(random, least);
       lattice.vectors[2] = {0, 0, random.one_in(2) ? -height : height};
       if (random.one_in(2))

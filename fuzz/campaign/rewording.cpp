@@ -42,7 +42,7 @@ void change_speed(Random& random, Reworded& reworded) {
 
 Periods::Periods(const Scene& scene) {
   if (!is_crystal(scene)) {
-    if (scene.lattices.size() == 1 && scene.lattices[0].rank(scene.dimension) > 0)
+    if (scene.lattices.size() == 1 && scene.lattices[0].rank_in(scene.dimension) > 0)
       in_cells.push_back(identity());
     return;
   }
@@ -73,7 +73,7 @@ Periods::Periods(const Scene& scene) {
 }
 
 Rewording::Rewording(Random& random, const Scene& old)
-    : rank_(old.lattices[0].rank(old.dimension)),
+    : rank_(old.lattices[0].rank_in(old.dimension)),
       scene_(old),
       vectors_(old.lattices[0].vectors),
       periods_(old) {

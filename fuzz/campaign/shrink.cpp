@@ -136,7 +136,7 @@ class Shrinker {
   // Sets as many unit vectors as the lattice has vectors.
   static void set_unit_vectors(Scene& scene, std::size_t l) {
     Lattice& lattice = scene.lattices[l];
-    for (int i = 0; i < lattice.rank(scene.dimension); ++i) {
+    for (int i = 0; i < lattice.rank_in(scene.dimension); ++i) {
       lattice.vectors[i] = {};
       lattice.vectors[i][i] = 1;
     }
@@ -160,7 +160,7 @@ class Shrinker {
           set_unit_vectors(one.scene, 0);
           keep_from(one.query);
         });
-        if (lattice.missing > 0) continue;
+        if (lattice.rank < dimension) continue;
         offer([&](Shrunk& one) {
           const auto dual = dual_of(lattice.vectors, dimension);
           one.scene = unit_scene(dimension, radius / size);
@@ -237,7 +237,7 @@ class Shrinker {
   // counts, and the failure may be lost.)
   void go_home() {
     const Scene& scene = best_.scene;
-    if (scene.lattices[0].missing > 0) return;
+    if (scene.lattices[0].rank < scene.dimension) return;
     const auto& vectors = scene.lattices[0].vectors;
     const Vec place = coordinates(dual_of(vectors, scene.dimension), best_.query.x);
     const auto& from = best_.query.from;
@@ -401,9 +401,9 @@ double price(const Scene& scene, const Query& query) {
 bool is_sane(const Scene& scene) {
   constexpr double kLargestRadius = 100;
   for (const Lattice& lattice : scene.lattices) {
-    if (lattice.missing == scene.dimension) continue;
+    if (lattice.rank == 0) continue;
     double shortest = length(lattice.vectors[0]), largest = 0;
-    for (int i = 1; i < lattice.rank(scene.dimension); ++i)
+    for (int i = 1; i < lattice.rank_in(scene.dimension); ++i)
       shortest = std::min(shortest, length(lattice.vectors[i]));
     for (const Atom& atom : lattice.atoms) {
       largest = std::max(largest, atom.radius);

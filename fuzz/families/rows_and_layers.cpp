@@ -16,7 +16,7 @@ namespace lorentz::cases {
 namespace {
 
 Lattice cut(Lattice lattice, int dimension, int rank) {
-  lattice.missing = dimension - rank;
+  lattice.rank = rank;
   for (int i = rank; i < dimension; ++i) lattice.vectors[i] = {};
   return lattice;
 }
@@ -43,7 +43,7 @@ Scene drawn_scene(Random& drawn, std::vector<std::string>& tags) {
 // A velocity along the lattice, with small integers, exactly or up to ulps and tilts.
 Vec along(Random& random, NumberFormat precision, const Lattice& lattice, int dimension) {
   Vec v{};
-  for (int i = 0; i < lattice.rank(dimension); ++i) v = plus(v, random.whole(-5, 5), lattice.vectors[i]);
+  for (int i = 0; i < lattice.rank_in(dimension); ++i) v = plus(v, random.whole(-5, 5), lattice.vectors[i]);
   if (v == Vec{}) v = lattice.vectors[0];
   if (random.one_in(2)) return v;
   return sum(v, random.vector(dimension, length(v) * random.octave(-50 + missing_bits(precision), -4)));
@@ -56,8 +56,8 @@ void make_case(Source& source, Case& made) {
   const Lattice& lattice = made.scene.lattices[0];
   const Atom& atom = lattice.atoms[random.below(lattice.atoms.size())];
   Vec target = atom.position;
-  const IntVec cell = drawn_integers(random, lattice.rank(dimension), 50);
-  for (int i = 0; i < lattice.rank(dimension); ++i)
+  const IntVec cell = drawn_integers(random, lattice.rank_in(dimension), 50);
+  for (int i = 0; i < lattice.rank_in(dimension); ++i)
     target = plus(target, static_cast<double>(cell[i]), lattice.vectors[i]);
   const double reach = atom.is_ball() ? atom.radius : length(atom.semiaxes[0]);
   const Vec direction = random.direction(dimension);

@@ -166,7 +166,7 @@ void stretch(Random& random, const RayRange& range, Ray& ray) {
 
 Scene alone(int dimension, Atom atom) {
   Scene scene{dimension, {Lattice{}}};
-  scene.lattices[0].missing = dimension;
+  scene.lattices[0].rank = 0;
   scene.lattices[0].atoms = {std::move(atom)};
   return scene;
 }

@@ -56,7 +56,9 @@ struct RationalAtom {
 struct RationalLattice {
   std::array<RationalVec, 3> vectors{};
   std::vector<RationalAtom> atoms;
-  int missing = 0;
+  int rank = 3;
+
+  int rank_in(int dimension) const { return rank < dimension ? rank : dimension; }
 };
 
 struct RationalScene {
@@ -96,7 +98,7 @@ To mapped(const From& scene, const Number& number) {
     auto& its = result.lattices.emplace_back();
     using Vector = std::remove_reference_t<decltype(its.vectors[0])>;
     const auto vector = [&](const auto& a) { return Vector{number(a[0]), number(a[1]), number(a[2])}; };
-    its.missing = lattice.missing;
+    its.rank = lattice.rank;
     for (std::size_t i = 0; i < 3; ++i) its.vectors[i] = vector(lattice.vectors[i]);
     for (const auto& atom : lattice.atoms) {
       auto& obstacle = its.atoms.emplace_back();

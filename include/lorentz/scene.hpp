@@ -29,9 +29,9 @@ struct Atom {
 struct Lattice {
   std::array<Vec, 3> vectors{};  ///< those after the first k are zero
   std::vector<Atom> atoms;
-  int missing = 0;  ///< d - k: the number of directions in which the lattice does not repeat
+  int rank = 3;  ///< k: in how many directions the lattice repeats; 3 is a crystal in the plane, too
 
-  int rank(int dimension) const { return dimension - missing; }  ///< k
+  int rank_in(int dimension) const { return rank < dimension ? rank : dimension; }  ///< k
 
   friend bool operator==(const Lattice&, const Lattice&) = default;
 };
@@ -55,7 +55,7 @@ class Components {
   Components(int dimension) : dimension_(checked_dimension(dimension)) {}
   Components(const Scene& scene) : Components(scene.dimension) {
     if (is_crystal(scene)) return;
-    for (const Lattice& lattice : scene.lattices) ranks_.push_back(lattice.rank(dimension_));
+    for (const Lattice& lattice : scene.lattices) ranks_.push_back(lattice.rank_in(dimension_));
   }
 
   int of_vectors() const { return dimension_; }

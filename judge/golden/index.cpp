@@ -21,7 +21,7 @@ void see_scene(const Scene& scene, std::set<std::string>& kinds) {
   if (scene.lattices.size() > 1) kinds.insert("several lattices");
   for (const Lattice& lattice : scene.lattices) {
     if (lattice.atoms.size() > 1) kinds.insert("several atoms");
-    const int rank = lattice.rank(scene.dimension);
+    const int rank = lattice.rank_in(scene.dimension);
     kinds.insert(rank == scene.dimension ? "crystals"
                  : rank == 0             ? "single obstacles"
                  : rank == 1             ? "rows"

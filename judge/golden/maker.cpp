@@ -202,7 +202,7 @@ double sine_between(const Vec& a, const Vec& b) {
 // True if v is along a small vector of a lattice, or nearly.
 bool is_near_rational(const Scene& scene, const Vec& v) {
   for (const Lattice& lattice : scene.lattices) {
-    const int rank = lattice.rank(scene.dimension);
+    const int rank = lattice.rank_in(scene.dimension);
     std::array<int, 3> most{};
     std::fill_n(most.begin(), rank, kSmall);
     for (int i = -most[0]; i <= most[0]; ++i)

@@ -28,7 +28,7 @@ std::optional<std::string> dependence_of(const Scene& scene) {
   for (std::size_t l = 0; l < scene.lattices.size(); ++l) {
     const Lattice& lattice = scene.lattices[l];
     const std::string where = "lattice " + std::to_string(l);
-    const int rank = lattice.rank(scene.dimension);
+    const int rank = lattice.rank_in(scene.dimension);
     if (are_dependent(lattice.vectors, scene.dimension, rank))
       return where + ": the primitive vectors are linearly dependent; leave out those that the others make";
     for (std::size_t a = 0; a < lattice.atoms.size(); ++a) {

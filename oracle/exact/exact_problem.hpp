@@ -195,7 +195,7 @@ IntegerScene<D> in_integers(const AnyScene& scene, const Number& number) {
   IntegerScene<D> result;
   for (const auto& lattice : scene.lattices) {
     auto& its = result.lattices.emplace_back();
-    its.rank = D - static_cast<std::size_t>(lattice.missing);
+    its.rank = static_cast<std::size_t>(lattice.rank_in(D));
     for (std::size_t i = 0; i < D; ++i) its.vectors[i] = vector(lattice.vectors[i]);
     for (const auto& atom : lattice.atoms) {
       auto& its_atom = its.atoms.emplace_back();

@@ -18,7 +18,7 @@ InputUlps<D>::InputUlps(const Scene& scene, const Query& query, const ExactQuery
   };
   for (const Lattice& lattice : scene.lattices) {
     for (const Vec& u : lattice.vectors) see(u);
-    if (lattice.missing == 0) continue;
+    if (lattice.rank >= static_cast<int>(D)) continue;
     for (const Atom& atom : lattice.atoms) {
       see(atom.position), size = std::max(size, atom.radius);
       for (const Vec& axis : atom.semiaxes) see(axis);

@@ -67,7 +67,7 @@ class AtomWalk {
  public:
   AtomWalk(const Scene& scene, int lattice, int atom, const Query& query)
       : dimension_(scene.dimension), lattice_(lattice), atom_(atom) {
-    rank_ = scene.lattices[lattice].rank(dimension_);
+    rank_ = scene.lattices[lattice].rank_in(dimension_);
     for (int i = 0; i < 3; ++i) u_[i] = exact(scene.lattices[lattice].vectors[i]);
     if (dimension_ == 2) u_[2] = {Real(0), Real(0), Real(1)};
     const Atom& obstacle = scene.lattices[lattice].atoms[atom];
@@ -322,7 +322,7 @@ bool are_dependent(const std::array<Vec, 3>& vectors, int count) {
 Walk::Walk(Scene scene, std::int64_t max_cells) : scene_(std::move(scene)), max_cells_(max_cells) {
   checked(scene_);
   for (const Lattice& lattice : scene_.lattices) {
-    bool dependent = are_dependent(lattice.vectors, lattice.rank(scene_.dimension));
+    bool dependent = are_dependent(lattice.vectors, lattice.rank_in(scene_.dimension));
     for (const Atom& atom : lattice.atoms)
       dependent |= !atom.is_ball() && are_dependent(columns_of(atom), scene_.dimension);
     if (dependent) throw InputError("scene: vectors of a lattice, or semiaxes, are linearly dependent");

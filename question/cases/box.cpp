@@ -15,10 +15,9 @@ double reach_of(const Atom& atom) {
 }
 
 Box around_fewest(const Scene& scene) {
-  const auto fewest =
-      std::max_element(scene.lattices.begin(), scene.lattices.end(),
-                       [](const Lattice& a, const Lattice& b) { return a.missing < b.missing; });
-  const int d = scene.dimension, rank = fewest->rank(d);
+  const auto fewest = std::max_element(scene.lattices.begin(), scene.lattices.end(),
+                                       [](const Lattice& a, const Lattice& b) { return a.rank > b.rank; });
+  const int d = scene.dimension, rank = fewest->rank_in(d);
   Box box{d, fewest->vectors, {1, 1, 1}, {}};
   complete_perpendicularly(box.vectors, rank, d);
   double beside = 0;
@@ -30,7 +29,7 @@ Box around_fewest(const Scene& scene) {
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (const Lattice& lattice : scene.lattices)
       for (const Atom& atom : lattice.atoms) {
-        if (lattice.missing == 0) continue;
+        if (lattice.rank >= d) continue;
         const double place = dot(atom.position, box.vectors[i]), reach = reach_of(atom);
         low = std::min(low, place - reach), high = std::max(high, place + reach);
       }

@@ -116,7 +116,7 @@ struct HostScene {
   explicit HostScene(const Scene& of) : scene(of) {
     const int d = scene.dimension;
     for (const Lattice& lattice : scene.lattices) {
-      for (int k = 0; k < lattice.rank(d); ++k) append(vectors, lattice.vectors[k]);
+      for (int k = 0; k < lattice.rank_in(d); ++k) append(vectors, lattice.vectors[k]);
       for (const Atom& atom : lattice.atoms) {
         lattice_of.push_back(static_cast<std::int32_t>(ranks.size()));
         append(positions, atom.position);
@@ -124,7 +124,7 @@ struct HostScene {
         const auto semiaxes = semiaxes_of(atom, d);
         for (int i = 0; i < d; ++i) append(shapes, semiaxes[i]);
       }
-      ranks.push_back(lattice.rank(d));
+      ranks.push_back(lattice.rank_in(d));
     }
     arrays = {d,
               static_cast<std::int32_t>(ranks.size()),

@@ -108,7 +108,7 @@ inline Scene scan_scene(Scan& line) {
     Lattice& lattice = scene.lattices.emplace_back();
     line.expect_key("vectors");
     const auto read = [&](int k) { lattice.vectors.at(static_cast<std::size_t>(k)) = line.vector(); };
-    lattice.missing = scene.dimension - line.each(read);
+    lattice.rank = line.each(read);
     line.expect_key("atoms");
     line.each([&](int) { lattice.atoms.push_back(scan_atom(line)); });
     line.expect("}");

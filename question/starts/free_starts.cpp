@@ -35,7 +35,7 @@ Vec near_rational_direction(Random& random, const Scene& scene, NumberFormat for
   constexpr std::int64_t kRange = 9, kUlps = 3;
   const int d = scene.dimension;
   Lattice lattice = scene.lattices[random.below(scene.lattices.size())];
-  if (lattice.missing > 0) lattice.vectors = cases::Box::of(scene).vectors;
+  if (lattice.rank < scene.dimension) lattice.vectors = cases::Box::of(scene).vectors;
   Vec v = cases::cartesian(lattice, cases::drawn_primitive(random, d, kRange));
   if (random.one_in(2)) {
     cases::jitter(random, v, d, kUlps << (53 - bits_of(format)));

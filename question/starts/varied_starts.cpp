@@ -29,7 +29,7 @@ bool move_by_cells(Random& random, const Scene& scene, Query& query) {
   const Lattice& lattice = scene.lattices[0];
   if (query.from && query.from->lattice != 0) return false;
   const int bits = random.one_in(kSeldom) ? random.exponent(kNear, kFar) : random.exponent(0, kNear);
-  for (int i = 0; i < lattice.rank(scene.dimension); ++i) {
+  for (int i = 0; i < lattice.rank_in(scene.dimension); ++i) {
     const std::int64_t n = random.integer(-(std::int64_t{1} << bits), std::int64_t{1} << bits);
     query.x = plus(query.x, static_cast<double>(n), lattice.vectors[i]);
     if (query.from) query.from->cell[i] = query.from->cell[i].int64() + n;

@@ -65,7 +65,7 @@ std::vector<DrawnLine> lines_in_window(const Scene& scene, const std::vector<Dra
 std::vector<Placed> hits_of(const Scene& scene, const std::vector<DrawnLine>& lines);
 
 /// For a picture, completes a lattice with too few vectors by vectors at right angles, which are half as long
-/// again as its obstacles need there. `missing` is kept: nothing is repeated along these vectors.
+/// again as its obstacles need there. `rank` is kept: nothing is repeated along these vectors.
 Scene with_cells(Scene scene);
 
 /// The size of a cell of the first lattice: the d-th root of its volume.

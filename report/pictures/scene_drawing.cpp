@@ -56,7 +56,7 @@ void add_obstacles(const Scene& scene, Placed obstacle, const std::array<Vec, 3>
     }
     if (!(std::fabs(at) + half < 1e15))
       throw InputError("this is too far from the origin, or too fine, to be drawn");
-    if (i >= scene.lattices[obstacle.lattice].rank(d)) continue;  // the lattice does not repeat there
+    if (i >= scene.lattices[obstacle.lattice].rank_in(d)) continue;  // the lattice does not repeat there
     first[i] = static_cast<std::int64_t>(std::ceil(at - half));
     last[i] = static_cast<std::int64_t>(std::floor(at + half));
     cells *= 2 * half + 1;
@@ -125,7 +125,7 @@ Vec cell_at(const Scene& scene, const std::array<Vec, 3>& u, const Vec& point, d
   const auto rows = dual_of(u, scene.dimension);
   Vec corner{};
   for (int i = 0; i < scene.dimension; ++i) {
-    const bool repeats = i < lattice.rank(scene.dimension);
+    const bool repeats = i < lattice.rank_in(scene.dimension);
     const double n =
         repeats ? std::floor(dot(rows[i], point)) : dot(rows[i], lattice.atoms[0].position) - cells / 2;
     corner = sum(corner, scaled(u[i], n));
@@ -176,7 +176,7 @@ Scene with_cells(Scene scene) {
     for (const Atom& atom : lattice.atoms)
       size = std::max(
           size, length(plus(atom.position, -1, lattice.atoms[0].position)) + principal_semiaxes(atom, d)[0]);
-    const int rank = lattice.rank(d);
+    const int rank = lattice.rank_in(d);
     complete_perpendicularly(lattice.vectors, rank, d);
     for (int i = rank; i < d; ++i) lattice.vectors[i] = scaled(lattice.vectors[i], 3 * size);
   }

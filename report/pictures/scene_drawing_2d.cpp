@@ -175,7 +175,7 @@ class Picture2D {
     }
     choose_obstacles();
     for (const Vec& p : corners_of(scene, corner_))
-      if (window_.box.contains(p, 0) && scene.lattices[0].missing == 0)
+      if (window_.box.contains(p, 0) && scene.lattices[0].rank >= 2)
         legend_.cell = scene.lattices.size() > 1 ? "a cell of lattice 0" : "a primitive cell";
   }
 
@@ -221,7 +221,7 @@ class Picture2D {
   }
 
   void add_contents() {
-    if (scene_.lattices[0].missing == 0) add_grid(svg_, scene_, window_, corner_);
+    if (scene_.lattices[0].rank >= 2) add_grid(svg_, scene_, window_, corner_);
     for (std::size_t i = 0; i < options_.ways.size(); ++i)
       if (add_corridor(svg_, scene_, window_, options_.ways[i], way_colour(i))) legend_.ways.push_back(i);
     for (const Placed& obstacle : obstacles_) add_disc(svg_, scene_, window_, obstacle, false, enlarged_);

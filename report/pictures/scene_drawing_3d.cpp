@@ -203,7 +203,7 @@ class Picture3D {
   Picture3D(const Scene& scene, const DrawOptions& options, const std::vector<DrawnFlight>& flights)
       : scene_(scene),
         options_(options),
-        cell_(scene.lattices[0].missing > 0
+        cell_(scene.lattices[0].rank < 3
                   ? ShownCell{scene.lattices[0].vectors}
                   : shown_cell(scene.lattices[0], short_vectors(scene.lattices[0], 3))) {
     lines_ = lines_of(scene, flights, drawing_.remarks);
@@ -283,7 +283,7 @@ class Picture3D {
   // Fills in what the legend must explain.
   void explain() {
     for (const SeenObstacle& seen : seen_) legend_.atoms.insert({seen.placed.lattice, seen.placed.atom});
-    if (scene_.lattices[0].missing == 0)
+    if (scene_.lattices[0].rank == 3)
       legend_.cell = cell_.primitive_cells > 1
                          ? fmt::format("the cube of {} primitive cells", cell_.primitive_cells)
                      : scene_.lattices.size() > 1 ? "a cell of lattice 0"
@@ -306,7 +306,7 @@ class Picture3D {
   }
 
   void fit() {
-    const bool has_cell = scene_.lattices[0].missing == 0;
+    const bool has_cell = scene_.lattices[0].rank == 3;
     Extent& box = window_.box;
     box.low = box.high = has_cell || seen_.empty() ? eye_(corner_) : seen_[0].view;
     for (const SeenObstacle& seen : seen_) {
@@ -422,7 +422,7 @@ class Picture3D {
   }
 
   void add_cell() {
-    if (scene_.lattices[0].missing > 0) return;
+    if (scene_.lattices[0].rank < 3) return;
     const auto& u = cell_.vectors;
     for (int i = 0; i < 3; ++i)
       for (int n = 0; n < 4; ++n) {

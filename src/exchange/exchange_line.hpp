@@ -46,7 +46,7 @@ template <class AScene>
 void check_cell(const ObstacleRead& from, const AScene& scene) {
   const auto l = static_cast<std::size_t>(from.obstacle.lattice);
   if (l >= scene.lattices.size()) return;  // which is reported elsewhere
-  const int rank = scene.dimension - scene.lattices[l].missing;
+  const int rank = scene.lattices[l].rank_in(scene.dimension);
   if (from.components != static_cast<std::size_t>(rank))
     throw InputError("from.cell: has " + std::to_string(from.components) + " components, the lattice has " +
                      std::to_string(rank) + " vectors");

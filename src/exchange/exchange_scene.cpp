@@ -161,7 +161,7 @@ AScene scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
     ALattice lattice;
     auto vectors = vectors_at<Number>(required(lattices[l], "vectors", place), scene.dimension, false,
                                       place + ".vectors");
-    lattice.missing = scene.dimension - static_cast<int>(vectors.size());
+    if (const auto rank = static_cast<int>(vectors.size()); rank < scene.dimension) lattice.rank = rank;
     std::move(vectors.begin(), vectors.end(), lattice.vectors.begin());
     const auto& atoms = array_at(required(lattices[l], "atoms", place), place + ".atoms");
     for (std::size_t a = 0; a < atoms.size(); ++a)

@@ -74,7 +74,7 @@ void add_atom(json::Members& object, const Atom& atom, int dimension) {
 
 void add_lattice(json::Members& object, const Lattice& lattice, int dimension) {
   std::vector<std::span<const double>> vectors;
-  for (int i = 0; i < lattice.rank(dimension); ++i)
+  for (int i = 0; i < lattice.rank_in(dimension); ++i)
     vectors.push_back(components(lattice.vectors[i], dimension));
   object.add("vectors", vectors, "atoms",
              json::objects(lattice.atoms,

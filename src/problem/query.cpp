@@ -19,7 +19,7 @@ std::optional<std::string> from_flaw(const ObstacleId& from, const Scene& scene)
   if (from.atom < 0 || from.atom >= static_cast<int>(scene.lattices[from.lattice].atoms.size()))
     return "from names atom " + std::to_string(from.atom) + ", which its lattice does not have";
   const auto& lattice = scene.lattices[from.lattice];
-  for (int i = scene.dimension - lattice.missing; i < 3; ++i)
+  for (int i = lattice.rank_in(scene.dimension); i < 3; ++i)
     if (!(from.cell[i] == Integer(0)))
       return "from names a cell with more coordinates than lattice " + std::to_string(from.lattice) +
              " has vectors";

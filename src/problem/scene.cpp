@@ -47,11 +47,11 @@ std::optional<std::string> flaw_of(const Scene& scene) {
   for (std::size_t l = 0; l < scene.lattices.size(); ++l) {
     const Lattice& lattice = scene.lattices[l];
     const std::string where = "lattice " + std::to_string(l);
-    if (lattice.missing < 0 || lattice.missing > scene.dimension)
+    if (lattice.rank < 0 || lattice.rank > 3)
       return where + ": needs from 0 to " + std::to_string(scene.dimension) + " primitive vectors";
     for (int i = 0; i < scene.dimension; ++i) {
       if (!all_finite(lattice.vectors[i])) return where + ": a primitive vector is not finite";
-      if (i >= lattice.rank(scene.dimension) && lattice.vectors[i] != Vec{})
+      if (i >= lattice.rank_in(scene.dimension) && lattice.vectors[i] != Vec{})
         return where + ": has more primitive vectors than it says";
     }
     if (lattice.atoms.empty()) return where + ": needs at least one atom";
@@ -68,7 +68,8 @@ const Scene& checked(const Scene& scene) {
 }
 
 bool is_crystal(const Scene& scene) {
-  return std::ranges::all_of(scene.lattices, [](const Lattice& lattice) { return lattice.missing == 0; });
+  return std::ranges::all_of(scene.lattices,
+                             [&](const Lattice& lattice) { return lattice.rank >= scene.dimension; });
 }
 
 int Components::checked_dimension(int dimension) {

@@ -43,7 +43,7 @@ std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension) {
 double shortest_vector(const Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const Lattice& lattice : scene.lattices)
-    for (int i = 0; i < lattice.rank(scene.dimension); ++i)
+    for (int i = 0; i < lattice.rank_in(scene.dimension); ++i)
       shortest = std::min(shortest, length(lattice.vectors[i]));
   return shortest;
 }

@@ -17,7 +17,7 @@ std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension);
 /// True if the scene is a single obstacle.
 inline bool is_one_obstacle(const Scene& scene) {
   const Lattice& first = scene.lattices[0];
-  return scene.lattices.size() == 1 && first.atoms.size() == 1 && first.rank(scene.dimension) == 0;
+  return scene.lattices.size() == 1 && first.atoms.size() == 1 && first.rank_in(scene.dimension) == 0;
 }
 
 /// The length of the shortest of all primitive vectors; infinite if no lattice repeats.

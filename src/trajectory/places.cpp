@@ -19,7 +19,7 @@ bool in_range(const Vec& a) {
 bool in_range(const Scene& scene) {
   bool good = true;
   for (const Lattice& lattice : scene.lattices) {
-    for (int i = 0; i < lattice.rank(scene.dimension); ++i) good &= in_range(lattice.vectors[i]);
+    for (int i = 0; i < lattice.rank_in(scene.dimension); ++i) good &= in_range(lattice.vectors[i]);
     for (const Atom& atom : lattice.atoms) {
       for (const double component : atom.position) good &= std::fabs(component) <= kLargest;
       for (int i = 0; i < scene.dimension; ++i) good &= in_range(semiaxes_of(atom, scene.dimension)[i]);
@@ -48,7 +48,7 @@ void Places::set_home(const Query& start, Particle& particle) const {
     }
     return;
   }
-  const int rank = scene_.lattices[0].rank(scene_.dimension);
+  const int rank = scene_.lattices[0].rank_in(scene_.dimension);
   std::array<Vec, 3> vectors = scene_.lattices[0].vectors;
   complete_perpendicularly(vectors, rank, scene_.dimension);
   const Vec n = coordinates(dual_of(vectors, scene_.dimension), start.x);

@@ -274,7 +274,7 @@ void measure_engines(Measurement& measurement) {
   }
   for (const int dimension : {2, 3}) {
     Scene ball = unit_scene(dimension, 1);
-    ball.lattices[0].vectors = {}, ball.lattices[0].missing = dimension;
+    ball.lattices[0].vectors = {}, ball.lattices[0].rank = 0;
     Ground ground(ball, Kind::uniform);
     for (const std::string& instructions : Batch::instruction_sets())
       if (instructions != "none")

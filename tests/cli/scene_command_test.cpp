@@ -110,14 +110,14 @@ atoms = [{ position = [0, 0], radius = 1 }, { position = [2, 0], radius = 1 },
          { position = [20, 20], semiaxes = [[2, 0], [0, 1]] }, { position = [20, 21.75], semiaxes = [[2, 0], [0, 1]] },
          { position = [0, 40], semiaxes = [[2, 0], [0, 1]] }, { position = [0, 42.5], radius = 1.5 }]
 )");
-  const Run pairs = folder.lorentz("scene show " + file + " --no-horizon");
+  const Run pairs = folder.lorentz("scene show " + file);
   INFO(pairs.out << pairs.err);
   CHECK(contains(pairs.out, "2 overlap, 3 touch"));
   for (const char* part :
        {"atom 0 touches atom 1 of", "atom 2 overlaps atom 3 of", "atom 4 touches atom 5 of",
         "atom 6 overlaps atom 7 of", "atom 8 touches atom 9 of"})
     CHECK(contains(pairs.out, part));
-  const Run counted = folder.lorentz("scene show " + file + " --no-horizon --json");
+  const Run counted = folder.lorentz("scene show " + file + " --json");
   CHECK(contains(counted.out, R"("contacts":{"count":5,"complete":true)"));
   CHECK(contains(counted.out, R"("other_atom":3,"cell":[0,0],"kind":"overlap"})"));
 
@@ -275,12 +275,11 @@ TEST_CASE("horizon and scene show: a search that is too long is refused before i
   CHECK(contains(shown.out, "cell volume  1e-09"));
   CHECK(contains(shown.out, "horizon        not searched: too many planes"));
 
-  // Nor is one that would take long begun where it is not wanted.
-  const Run left_out = folder.run(lorentz + " scene show square --radius 4.5e-4 --no-horizon");
+  // Nor is one that would take long.
+  const Run left_out = folder.run(lorentz + " scene show square --radius 4.5e-4");
   CHECK(left_out.status == 0);
   CHECK(contains(left_out.out, "mean free path"));
-  CHECK(contains(left_out.out, "horizon        not searched, as asked for"));
-  CHECK(contains(folder.lorentz("scene show square --no-horizon --json").out, R"("horizon":null})"));
+  CHECK(contains(left_out.out, " directions to look along would take long; see `lorentz horizon"));
 }
 
 TEST_CASE("horizon: a search of seconds is seen on a terminal, and nowhere else", "[cli][scene_command]") {

@@ -17,7 +17,7 @@ namespace {
 Scene lattice_scene(Draw& draw, int dimension, int rank) {
   Scene scene = unit_scene(dimension, 0.1);
   Lattice& lattice = scene.lattices[0];
-  lattice.missing = dimension - rank;
+  lattice.rank = rank;
   const std::uint64_t kind = draw.below(3);
   do {
     lattice.vectors = {};
@@ -159,7 +159,7 @@ TEST_CASE("Balls of half the shortest vector do not overlap, in any lattice",
   const auto strides = [](int dimension, const std::vector<Vec>& vectors, double radius) {
     Scene scene = unit_scene(dimension, radius);
     Lattice& lattice = scene.lattices[0];
-    lattice.missing = dimension - static_cast<int>(vectors.size());
+    lattice.rank = static_cast<int>(vectors.size());
     lattice.vectors = {};
     std::copy(vectors.begin(), vectors.end(), lattice.vectors.begin());
     REQUIRE(Reduction::beyond(scene).value_or("") == "");

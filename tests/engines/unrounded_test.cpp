@@ -118,7 +118,7 @@ TEST_CASE("A slack of one square of the roundoff has its sign", "[engines][unrou
     const Query query{{-0.25, -0.25 - below, 0}, {1, 1, 0}, {}};
     INFO(stream(scene, query));
     if (m > 0x1p31) CHECK(Reduction(scene).fly(query).outcome == (meets ? Outcome::hit : Outcome::never));
-    scene.lattices[0].missing = 3, scene.lattices[0].vectors = {};
+    scene.lattices[0].rank = 0, scene.lattices[0].vectors = {};
     CHECK(Reduction(scene).fly(query).outcome == (meets ? Outcome::hit : Outcome::never));
     const double next = m + k;
     k += 2 * m, m = next;
@@ -146,7 +146,7 @@ TEST_CASE("Tangents, starts on surfaces and ties are decided", "[engines][unroun
       if (is == "overlapping") lattice.atoms[0].radius *= 2;
       if (is != "unit") lattice.atoms[0].position = sixteenths(dimension, 8), lattice.vectors[1][0] = 0.25;
       if (is == "several") lattice.atoms.push_back({sixteenths(dimension, 8), 0.3125, {}});
-      if (is == "rows and layers") lattice.missing = 1, lattice.vectors[dimension - 1] = {};
+      if (is == "rows and layers") lattice.rank = dimension - 1, lattice.vectors[dimension - 1] = {};
       if (is == "ellipsoids")
         for (Atom& atom : lattice.atoms) {
           for (int k = 0; k < dimension; ++k) atom.semiaxes.push_back({}), atom.semiaxes[k][k] = atom.radius;
@@ -165,7 +165,7 @@ TEST_CASE("Tangents, starts on surfaces and ties are decided", "[engines][unroun
 TEST_CASE("A limit at the very time of entry is later", "[engines][unrounded]") {
   Scene ball = unit_scene(3, 0.25), ellipse = unit_scene(2, 1), single = unit_scene(2, 0.25);
   ellipse.lattices[0].atoms[0] = {{}, 0, {Vec{0.25, 0, 0}, Vec{0.125, 0.375, 0}}};
-  single.lattices[0].missing = 2, single.lattices[0].vectors = {};
+  single.lattices[0].rank = 0, single.lattices[0].vectors = {};
   for (const Scene& scene : {ball, ellipse, single})
     for (const double speed : {1.0, 3.0, 0x1p-700, 0x1p700})
       for (const double x : {-0.5, -0.75}) {

@@ -122,7 +122,7 @@ class FreeWriter {
 
   std::string text_of(const Lattice& lattice, int dimension) {
     std::vector<std::string> vectors, atoms;
-    for (int k = 0; k < lattice.rank(dimension); ++k)
+    for (int k = 0; k < lattice.rank_in(dimension); ++k)
       vectors.push_back(text_of(lattice.vectors[k], dimension));
     for (const Atom& atom : lattice.atoms) {
       std::vector<Member> members{{"position", text_of(atom.position, dimension)}};

@@ -296,9 +296,9 @@ TEST_CASE("What scopes admit", "[fuzz][campaign]") {
   stretched.lattices[0].vectors[0] = {2, 0};
   Scene ball = unit_scene(2, 0.2), row = ball;
   for (Vec& vector : ball.lattices[0].vectors) vector = {};
-  ball.lattices[0].missing = 2;
+  ball.lattices[0].rank = 0;
   row.lattices[0].vectors[1] = {};
-  row.lattices[0].missing = 1;
+  row.lattices[0].rank = 1;
   const auto admitted = [&](const fuzz::Scope& scope) {
     std::string text;
     for (const Scene& scene : {unit_scene(2, 0.2), unit_scene(3, 0.2), stretched, two, ball, row})

@@ -353,9 +353,10 @@ TEST_CASE("Golden: made records are proved, and nothing is wrong with them", "[g
       CHECK(maker.flaw_of(record, question.query, index % 8 == 0).value_or("") == "");
       const bool hit = record.expect.outcome == Outcome::hit;
       CHECK(record.condition.has_value() == hit);
-      const bool missed = record.expect.outcome == Outcome::never &&  // of which there is a nearest one
-                          std::all_of(question.scene.lattices.begin(), question.scene.lattices.end(),
-                                      [](const Lattice& lattice) { return lattice.missing > 0; });
+      const bool missed =
+          record.expect.outcome == Outcome::never &&  // of which there is a nearest one
+          std::all_of(question.scene.lattices.begin(), question.scene.lattices.end(),
+                      [&](const Lattice& lattice) { return lattice.rank < question.scene.dimension; });
       CHECK(record.margin.has_value() == (hit || missed || record.expect.outcome == Outcome::inside));
       CHECK((!record.margin || (*record.margin >= 0 && *record.margin <= 0x1p20)));
       CHECK(record.certificate.has_value() == question.query.has_value());
@@ -457,7 +458,7 @@ TEST_CASE("Golden: each kind of tampering with a hit is named", "[golden]") {
 
 TEST_CASE("Golden: records of one single obstacle, and no others, say when it is left", "[golden]") {
   Scene ball = unit_scene(3, 0.25);
-  ball.lattices[0].missing = 3, ball.lattices[0].vectors = {};
+  ball.lattices[0].rank = 0, ball.lattices[0].vectors = {};
   const GoldenCase hit = golden_case(ball, {{-1, 0.125, 0}, {1, 0, 0.03125}, {}}),
                    inside = golden_case(ball, {{0.125, 0, 0}, {1, 0.5, 0}, {}}),
                    graze = golden_case(ball, {{-1, 0.25 - 0x1p-54, 0}, {1, 0, 0}, {}});
@@ -521,8 +522,8 @@ TEST_CASE("Golden: each kind of tampering with acceptable answers is named", "[g
   REQUIRE(golden::needs_judge(endless.record));
   Scene beside_row = unit_scene(3, 0.4);  // a layer, and a row that the flight runs along for ever
   beside_row.lattices.resize(2, beside_row.lattices[0]);
-  beside_row.lattices[0].missing = 1, beside_row.lattices[0].vectors[2] = {};
-  beside_row.lattices[1].missing = 2, beside_row.lattices[1].vectors = {Vec{0, 0, 1}};
+  beside_row.lattices[0].rank = 2, beside_row.lattices[0].vectors[2] = {};
+  beside_row.lattices[1].rank = 1, beside_row.lattices[1].vectors = {Vec{0, 0, 1}};
   beside_row.lattices[1].atoms[0].radius = 0.01;
   CHECK(golden::needs_judge(golden_case(beside_row, {{7e15, 7e15, 7e15}, {0, 0, -1}, {}}).record));
   require_flaws(endless, {{"acceptable", [](Record& r) { std::erase(r.tags, golden::kNeedsJudge); }}});

@@ -249,12 +249,12 @@ TEST_CASE("Features are those of the whole scene, in lengths of its shortest vec
   const Query downwards{{0, 3, 0}, {0, -1, 0}, {}};
   const Features row = of({2, {Lattice{{{{2, 0, 0}}}, {Atom{{0, 0, 0}, 0.5, {}}}, 1}}}, downwards).first;
   CHECK((row.radius == 0.25 && row.start == 1.5 && row.flight == 1.25));
-  const Features disc_alone = of({2, {Lattice{{}, {Atom{{0, 0, 0}, 0.5, {}}}, 2}}}, downwards).first;
+  const Features disc_alone = of({2, {Lattice{{}, {Atom{{0, 0, 0}, 0.5, {}}}, 0}}}, downwards).first;
   CHECK((std::isnan(disc_alone.radius) && std::isnan(disc_alone.start) && std::isnan(disc_alone.flight)));
 }
 
 TEST_CASE("False hits from afar are told by the distance in radii", "[judge][circumstance]") {
-  const auto place = std::make_shared<Place>(Scene{2, {Lattice{{}, {Atom{{0, 0, 0}, 4, {}}}, 2}}});
+  const auto place = std::make_shared<Place>(Scene{2, {Lattice{{}, {Atom{{0, 0, 0}, 4, {}}}, 0}}});
   const auto from = [&](double x) {
     const Query query{{x, 12, 0}, {-1, 0, 0}, {}};
     return features_of({place, query, place->oracle().first_hit(query), "here", ""});

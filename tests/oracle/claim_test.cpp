@@ -29,7 +29,7 @@ Answer hit_of(int atom, std::array<int, 2> cell, double time) {
 
 Scene single_discs(std::vector<Atom> atoms) {
   Scene scene = unit_scene(2, 1);
-  scene.lattices[0].vectors = {}, scene.lattices[0].missing = 2;
+  scene.lattices[0].vectors = {}, scene.lattices[0].rank = 0;
   scene.lattices[0].atoms = std::move(atoms);
   return scene;
 }

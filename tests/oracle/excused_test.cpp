@@ -44,7 +44,7 @@ Answer hit(const ObstacleId& obstacle) {
 // fewer directions, those near the origin.
 std::set<std::array<int, 3>> cells_near(const Lattice& lattice, int dimension, const Vec& position,
                                         const Query& query, double far) {
-  const int rank = lattice.rank(dimension);
+  const int rank = lattice.rank_in(dimension);
   std::set<std::array<int, 3>> cells;
   const auto add_around = [&](const Vec& n, int reach) {
     std::array<int, 3> most{};
@@ -98,7 +98,7 @@ TEST_CASE("Excused answers are those that the judge calls ill-posed", "[oracle][
       const Answer exact = oracle::Oracle(one.scene).first_hit(one.query);
       double unit = std::numeric_limits<double>::infinity();
       for (const Lattice& lattice : one.scene.lattices)
-        for (int i = 0; i < lattice.rank(one.scene.dimension); ++i)
+        for (int i = 0; i < lattice.rank_in(one.scene.dimension); ++i)
           unit = std::min(unit, length(lattice.vectors[i]));
       const double far = exact.time.value_or(0) * length(one.query.v) / unit;
       if (!(far < kLongest)) continue;
@@ -169,7 +169,7 @@ TEST_CASE("What is excused of a tangent, a tie, and a start on a surface", "[ora
 TEST_CASE("A single ball is excused, and has a margin, however far the line misses it", "[oracle][excused]") {
   Scene scene = unit_scene(2, 1);
   scene.lattices[0].vectors = {};
-  scene.lattices[0].missing = 2;
+  scene.lattices[0].rank = 0;
   const Query query{{-1e17, -1.0000000000000002e17, 0}, {1, 1, 0}, {}};  // by 11 radii, less than an ulp of x
   const Answer exact = oracle::Oracle(scene).first_hit(query);
   REQUIRE(exact.outcome == Outcome::never);

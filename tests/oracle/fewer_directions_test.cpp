@@ -22,7 +22,7 @@ namespace {
 
 Scene with_rank(Scene scene, int lattice, int rank) {
   Lattice& its = scene.lattices[lattice];
-  its.missing = scene.dimension - rank;
+  its.rank = rank;
   for (int i = rank; i < scene.dimension; ++i) its.vectors[i] = {};
   return scene;
 }
@@ -136,7 +136,7 @@ Scene drawn_scene_of(Draw& draw, Style style, int dimension, Kind kind) {
   Scene scene = drawn_scene(draw, style, dimension);
   if (kind == Kind::mixed) return scene;
   for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l) {
-    const int rank = kind == Kind::single ? 0 : scene.lattices[l].rank(dimension);
+    const int rank = kind == Kind::single ? 0 : scene.lattices[l].rank_in(dimension);
     scene = with_rank(scene, l, std::min(rank, dimension - 1));
   }
   return scene;
@@ -272,7 +272,7 @@ TEST_CASE("A row or a layer in other words is the same", "[oracle][ranks]") {
     Scene scene = drawn_scene(draw, style, 3);
     scene.lattices.resize(1);
     const Lattice& lattice = scene.lattices[0];
-    const int rank = lattice.rank(3);
+    const int rank = lattice.rank_in(3);
     if (rank == 0) continue;
     // One vector doubled, and each atom twice.
     Scene coarser = scene;
@@ -452,7 +452,7 @@ TEST_CASE("Contacts of single obstacles, rows and layers", "[oracle][ranks]") {
   apart.lattices.push_back(apart.lattices[0]);
   apart.lattices[1].atoms[0].position = {3, 0, 0};
   CHECK(contacts(apart).empty());
-  apart.lattices[1].missing = 2, apart.lattices[1].vectors[0] = {0, 1, 0};
+  apart.lattices[1].rank = 1, apart.lattices[1].vectors[0] = {0, 1, 0};
   CHECK(contacts(apart).size() == 2);  // the row's balls overlap the next ones, and touch those after
   apart.lattices[1].vectors[0] = {2.5, 0, 0};
   REQUIRE(contacts(apart).size() == 1);  // that of the cell -1 and the other lattice's
@@ -491,7 +491,7 @@ TEST_CASE("Dependence and flaws of lattices with fewer vectors", "[oracle][ranks
   CHECK(oracle::dependence_in(scene));
   scene.lattices[0].vectors[2] = {0, 0, 1};
   CHECK(flaw_of(scene));  // more than it says
-  scene.lattices[0].missing = 4;
+  scene.lattices[0].rank = 4;
   CHECK(flaw_of(scene));
   CHECK(flaw_of(Query{{}, {1, 0, 0}, cell(1)}, lone_ball(3, 1)));  // a cell of a lattice without vectors
 }

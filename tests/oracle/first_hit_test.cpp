@@ -270,11 +270,11 @@ constexpr StartInside kRules[] = {StartInside::miss, StartInside::zero, StartIns
 Scene alone(const Scene& scene, const ObstacleId& id) {
   const Lattice& lattice = scene.lattices[id.lattice];
   Atom atom = lattice.atoms[id.atom];
-  for (int i = 0; i < lattice.rank(scene.dimension); ++i)
+  for (int i = 0; i < lattice.rank_in(scene.dimension); ++i)
     for (int k = 0; k < 3; ++k)
       atom.position[k] += static_cast<double>(id.cell[i].int64()) * lattice.vectors[i][k];
   Scene one{scene.dimension, {}};
-  one.lattices.push_back({.vectors = {}, .atoms = {atom}, .missing = scene.dimension});
+  one.lattices.push_back({.vectors = {}, .atoms = {atom}, .rank = 0});
   return one;
 }
 
@@ -319,7 +319,7 @@ TEST_CASE("A start inside by another rule: single obstacles are taken away, or l
     std::vector<ObstacleId> ids;
     for (int n = 0; n < 8; ++n) {
       const Atom atom{draw.vec(d, -1, 1), draw.between(0.2, 1), {}};
-      scene.lattices.push_back({.vectors = {}, .atoms = {atom}, .missing = d});
+      scene.lattices.push_back({.vectors = {}, .atoms = {atom}, .rank = 0});
       ids.push_back({n, 0, {}});
     }
     Query query{draw.vec(d, -1, 1), draw.vec(d, -3, 3), {}};

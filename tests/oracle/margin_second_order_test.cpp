@@ -172,7 +172,7 @@ Pair drawn(Draw& draw, const Kind& kind) {
   const double depth = ulp * std::exp2(draw.between(-1, 6));
   for (int i = 0; i < 2; ++i) {
     Lattice& lattice = pair.scene.lattices[i];
-    lattice.missing = 3;
+    lattice.rank = 0;
     lattice.atoms.resize(1);
     Atom& atom = lattice.atoms[0];
     auto& axes = pair.axes[i];

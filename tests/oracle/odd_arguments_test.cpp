@@ -57,9 +57,9 @@ std::vector<BadScene> flawed() {
       with("lattice 0: needs at least one atom", [](Scene& s) { s.lattices[0].atoms.clear(); }),
       with("lattice 1: needs at least one atom", [](Scene& s) { s.lattices.emplace_back(); }),
       with("primitive vector is not finite", [](Scene& s) { s.lattices[0].vectors[1][0] = kInf; }),
-      with("primitive vectors", [](Scene& s) { s.lattices[0].missing = -1; }),
-      with("primitive vectors", [](Scene& s) { s.lattices[0].missing = 3; }),
-      with("more primitive vectors than it says", [](Scene& s) { s.lattices[0].missing = 1; }),
+      with("primitive vectors", [](Scene& s) { s.lattices[0].rank = -1; }),
+      with("primitive vectors", [](Scene& s) { s.lattices[0].rank = 4; }),
+      with("more primitive vectors than it says", [](Scene& s) { s.lattices[0].rank = 1; }),
       with("position is not finite", [](Scene& s) { s.lattices[0].atoms[0].position[0] = kNaN; }),
       with("as many semiaxes",
            [](Scene& s) {
@@ -92,7 +92,7 @@ std::vector<BadScene> dependent() {
                [](Scene& s) {
                  s.lattices[0].vectors = {{{0.1, 0.3, 0}, {0.2, 0.6, 0}}};
                }),
-          with("linearly dependent", [](Scene& s) { s.lattices[0].vectors = {}, s.lattices[0].missing = 1; }),
+          with("linearly dependent", [](Scene& s) { s.lattices[0].vectors = {}, s.lattices[0].rank = 1; }),
           with("linearly dependent", [](Scene& s) {
             s.lattices[0].atoms[0].semiaxes = {{1, 2, 0}, {2, 4, 0}};
           })};

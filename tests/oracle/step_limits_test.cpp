@@ -15,7 +15,7 @@ namespace {
 
 Lattice balls(int dimension, const std::vector<Vec>& vectors, double radius) {
   Lattice lattice;
-  lattice.missing = dimension - static_cast<int>(vectors.size());
+  lattice.rank = static_cast<int>(vectors.size());
   std::copy(vectors.begin(), vectors.end(), lattice.vectors.begin());
   lattice.atoms = {{{}, radius, {}}};
   return lattice;
@@ -78,6 +78,6 @@ TEST_CASE("Step limits: starts inside balls of very many cells", "[oracle][verdi
     CHECK(judge.judge(kInBalls, exact, other, 4).verdict == Verdict::wrong);
     // The obstacle named contains x by less than an ulp of the radius, which is 16384.
     CHECK(oracle::Margins(scene).hardest_decision(kInBalls, exact)->margin < 1e-3);
-    if (scene.lattices[0].rank(scene.dimension) > 1) CHECK_FALSE(judge.excused(kInBalls, exact, 16, 32));
+    if (scene.lattices[0].rank_in(scene.dimension) > 1) CHECK_FALSE(judge.excused(kInBalls, exact, 16, 32));
   }
 }

@@ -406,11 +406,11 @@ TEST_CASE("An obstacle left behind is acceptable only within the ulps that would
 TEST_CASE("A start hardly inside an obstacle is outside within ulps, and enters it at once",
           "[oracle][verdict]") {
   Scene alone = unit_scene(2, 1);
-  alone.lattices[0].vectors = {}, alone.lattices[0].missing = 2;
+  alone.lattices[0].vectors = {}, alone.lattices[0].rank = 0;
   const double inside = -1 + 0x1p-53;
   const auto along = [&](const Vec& v) { return Query{{inside, 0}, v, {}}; };
   for (const Scene& scene : {alone, unit_scene(2, 0.25)}) {
-    const Query inwards{{scene.lattices[0].missing ? inside : -0.25 + 0x1p-54, 0}, {1, 0}, {}};
+    const Query inwards{{scene.lattices[0].rank == 0 ? inside : -0.25 + 0x1p-54, 0}, {1, 0}, {}};
     REQUIRE(oracle::Oracle(scene).first_hit(inwards).outcome == Outcome::inside);
     CHECK(judged(scene, inwards, Answer::never()).verdict == Verdict::wrong);
   }
@@ -484,7 +484,7 @@ TEST_CASE("A time that is off by a good part of itself is another quantity", "[o
   }
   // Where nothing is forgiven, a time is wrong however little it is off: here by 2^-1074 where an ulp of x is 512.
   Scene huge = unit_scene(2, 0x5p60);
-  huge.lattices[0].vectors = {}, huge.lattices[0].missing = 2;
+  huge.lattices[0].vectors = {}, huge.lattices[0].rank = 0;
   const Query touching{{-3458764513820540928, 4611686018427387904}, {1, -1}, {}};
   const auto judged_at_once = [&](double ulps) {
     const Answer exact = oracle::Oracle(huge).first_hit(touching);
@@ -543,7 +543,7 @@ TEST_CASE("The condition of an exit is the sum of its derivatives", "[oracle][ve
   for (int i = 0; i < 300; ++i) {
     const int d = draw.one_in(2) ? 2 : 3;
     Scene scene = unit_scene(d, draw.between(0.3, 0.9));
-    scene.lattices[0].vectors = {}, scene.lattices[0].missing = d;
+    scene.lattices[0].vectors = {}, scene.lattices[0].rank = 0;
     scene.lattices[0].atoms[0].position = draw.vec(d, -0.5, 0.5);
     const Query query{draw.vec(d, -1, 1), draw.vec(d, -3, 3), {}};
     oracle::Request request;
@@ -684,12 +684,12 @@ TEST_CASE("Excused answers are the same in other units, axes and bases", "[oracl
       Query query = words(one.query, dimension);
       // The first two vectors the other way round, and the cells with them.
       const auto turned = [&](ObstacleId obstacle) {
-        if (scene.lattices[static_cast<std::size_t>(obstacle.lattice)].rank(dimension) > 1)
+        if (scene.lattices[static_cast<std::size_t>(obstacle.lattice)].rank_in(dimension) > 1)
           std::swap(obstacle.cell[0], obstacle.cell[1]);
         return obstacle;
       };
       for (Lattice& lattice : scene.lattices)
-        if (lattice.rank(dimension) > 1) std::swap(lattice.vectors[0], lattice.vectors[1]);
+        if (lattice.rank_in(dimension) > 1) std::swap(lattice.vectors[0], lattice.vectors[1]);
       if (query.from) query.from = turned(*query.from);
       const auto here = listed(one.scene, one.query), there = listed(scene, query);
       INFO(name << ' ' << index << '\n' << stream(one.scene, one.query));
@@ -800,7 +800,7 @@ TEST_CASE("never: along a row that is met it is wrong, whatever other rows lie b
           "[oracle][verdict]") {
   Scene scene = unit_scene(3, 0.25);
   scene.lattices[0].vectors = {Vec{1, 0, 0}};
-  scene.lattices[0].missing = 2;
+  scene.lattices[0].rank = 1;
   scene.lattices[0].atoms = {Atom{{0, 5, 0}, 0.25, {}}, Atom{{0, 0, 0}, 0.25, {}}};
   const Query along{{0.5, 0.125, 0}, {1, 0, 0}, {}};
   REQUIRE(oracle::Oracle(scene).first_hit(along).obstacle.atom == 1);

@@ -158,7 +158,7 @@ inline ObstacleId obstacle_of(Draw& draw, const Scene& scene) {
   ObstacleId id;
   id.lattice = static_cast<int>(draw.below(scene.lattices.size()));
   id.atom = static_cast<int>(draw.below(scene.lattices[id.lattice].atoms.size()));
-  for (int i = 0; i < scene.lattices[id.lattice].rank(scene.dimension); ++i)
+  for (int i = 0; i < scene.lattices[id.lattice].rank_in(scene.dimension); ++i)
     id.cell[i] = Integer(static_cast<std::int64_t>(draw.below(3)) - 1);
   return id;
 }

@@ -542,7 +542,7 @@ TEST_CASE("Among rows and layers every flight is the oracle's, until the particl
       Scene scene = unit_scene(dimension, 0.45);
       scene.lattices.push_back(scene.lattices[0]);
       for (Lattice& lattice : scene.lattices) {
-        lattice.missing = dimension - rank;
+        lattice.rank = rank;
         for (int i = rank; i < dimension; ++i) lattice.vectors[i] = {};
       }
       if (rank > 0) scene.lattices[1].vectors[0][0] = 1.125;

@@ -97,7 +97,7 @@ struct Body {
   long axes;
 
   Body(int dimension, const Lattice& lattice, const Atom& atom, long exponent)
-      : rank(lattice.rank(dimension)), axes(exponent), dimension_(static_cast<unsigned long>(dimension)) {
+      : rank(lattice.rank_in(dimension)), axes(exponent), dimension_(static_cast<unsigned long>(dimension)) {
     for (std::size_t i = 0; i < 3; ++i) u[i] = scaled_vec(lattice.vectors[i], exponent);
     if (!independent(u, rank)) refute("the primitive vectors are dependent");
     p = scaled_vec(atom.position, exponent);

@@ -55,7 +55,7 @@ struct Shortening {
   bool complete = true;  // no component was taken as zero
 
   Shortening(const Lattice& lattice, int d, double scale, Metric in)
-      : rank(lattice.rank(d)), primitive(lattice.vectors), metric(in) {
+      : rank(lattice.rank_in(d)), primitive(lattice.vectors), metric(in) {
     for (int i = 0; i < rank; ++i)
       for (double& component : primitive[i]) set_component(component, scale);
     complete_perpendicularly(primitive, rank, d);
@@ -282,7 +282,7 @@ class LatticePreparation {
     for (int a = 0; a < static_cast<int>(lattice_.atoms.size()); ++a) {
       Bravais bravais;
       bravais.dimension = scene_.dimension;
-      bravais.rank = static_cast<std::int8_t>(lattice_.rank(scene_.dimension));
+      bravais.rank = static_cast<std::int8_t>(lattice_.rank_in(scene_.dimension));
       bravais.lattice = index_;
       bravais.atom = a;
       std::string why;
@@ -410,7 +410,7 @@ class LatticePreparation {
 // obstacle.
 double first_length(const Scene& scene) {
   const Lattice& first = scene.lattices[0];
-  if (first.rank(scene.dimension) == 0) return length(semiaxes_of(first.atoms[0], scene.dimension)[0]);
+  if (first.rank_in(scene.dimension) == 0) return length(semiaxes_of(first.atoms[0], scene.dimension)[0]);
   Shortening unscaled(first, scene.dimension, 1, {});
   unscaled.run();
   return length(rounded(unscaled.B[0]));
