@@ -19,12 +19,14 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-BUILD = ROOT / "build-python"
+BUILD = ROOT / "build"
 TEXT = (ROOT / "CMakeLists.txt").read_text()
 VERSION = re.search(r"project\(lorentz VERSION ([0-9.]+)", TEXT).group(1)
 INFO = f"lorentz-{VERSION}.dist-info"
 TAG = "-".join([f"cp{sys.version_info[0]}{sys.version_info[1]}"] * 2 +
                [re.sub(r"[-.]", "_", sysconfig.get_platform())])
+LINES = (ROOT / "packaging/address").read_text().splitlines()
+ADDRESS = "".join(line for line in LINES if not line.startswith("#")).strip()  # packaging/say_address checks it
 METADATA = f"""Metadata-Version: 2.1
 Name: lorentz
 Version: {VERSION}
@@ -34,9 +36,9 @@ Requires-Python: >=3.9
 Requires-Dist: numpy
 Provides-Extra: plot
 Requires-Dist: matplotlib; extra == 'plot'
-"""
+""" + (f"Project-URL: Repository, {ADDRESS}\n" if ADDRESS else "")
 # The files in an archive of the sources: those from which the extension module is compiled.
-WANTED = re.compile(r"(CMakeLists|CMakePresets|LICENSE|README|pyproject|packages|packaging/cmake/|include/|src/|oracle/|question/|"
+WANTED = re.compile(r"(CMakeLists|CMakePresets|LICENSE|README|pyproject|packages|packaging/cmake/|packaging/address|include/|src/|oracle/|question/|"
                     r"report/|statistics/|fuzz/|judge/|python/|"
                     r"data/scenes/|data/golden/)")
 UNWANTED = re.compile(r"^python/tests/|^oracle/proof/|^fuzz/planted/|^report/web/")
@@ -86,22 +88,33 @@ def sources():
 
 
 def install(folder, with_program):
-    """Installs the package together with its scenes and golden sets."""
+    """Installs the package together with its scenes and golden sets. What a clone has compiled already is taken as it is."""
     jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
     targets = ["lorentz_python"] + ["lorentz"] * with_program
-    is_archive = not (ROOT / "cli").exists()  # of the package's sources: built in less than five minutes of processor time
-    print("lorentz: building the extension module: some minutes of processor time", file=sys.stderr, flush=True)
-    for command in (["cmake", "--log-level=WARNING", "--preset", "python", "-DBUILD_TESTING=OFF", "-DLORENTZ_PYTHON_DIR=.",
-                     f"-DLORENTZ_CLI={'ON' if with_program else 'OFF'}", f"-DPython3_EXECUTABLE={sys.executable}",
-                     f"-DLORENTZ_AVX512={'OFF' if is_archive else 'ON'}"],
+    print("lorentz: building the extension module, about a minute of processor time; the libraries, if they are not there yet, "
+          "three more", file=sys.stderr, flush=True)
+    for command in (["cmake", "--log-level=WARNING", "--preset", "release", "-DLORENTZ_PYTHON=ON",
+                     f"-DLORENTZ_PYTHON_PROGRAM={sys.executable}", *settings(with_program)],
                     ["cmake", "--build", BUILD, "--target", *targets, "-j", jobs],
                     ["cmake", "--install", BUILD, "--component", "python", "--prefix", folder, "--strip"]):
         subprocess.run(command, cwd=ROOT, check=True)
+    shutil.move(folder / "lib/python3/dist-packages/lorentz", folder)
+    shutil.rmtree(folder / "lib")
+    shutil.rmtree(folder / "share", ignore_errors=True)  # documents of the Debian package
     if with_program:
         (folder / "lorentz" / "bin").mkdir()
         subprocess.run(["strip", BUILD / "lorentz", "-o", folder / "lorentz" / "bin" / "lorentz"], check=True)
     for data in ("scenes", "golden"):
         shutil.copytree(ROOT / "data" / data, folder / "lorentz" / "data" / data)
+
+
+def settings(with_program):
+    """Options of CMake that do not change how a source is compiled, in a folder where some are compiled."""
+    if not (ROOT / "cli").exists():  # an archive of the package's sources, compiled in half the time: batches take a tenth more
+        return ["-DBUILD_TESTING=OFF", "-DLORENTZ_CLI=OFF", "-DLORENTZ_AVX512=OFF", "-DLORENTZ_GPU=OFF",
+                "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"]
+    first = [] if (BUILD / "CMakeCache.txt").exists() else ["-DBUILD_TESTING=OFF"]
+    return first + ["-DLORENTZ_MPI=OFF"] * with_program  # a wheel is for machines without MPI, too
 
 
 def write_info(folder):

@@ -16,7 +16,9 @@ function(lorentz_settings target)
   target_compile_options(${target} PRIVATE -fno-fast-math -ffp-contract=off -Wall -Wextra -Wpedantic
     # GCC 12 sees overlaps in std::string operator+ that are not there (GCC bug 105651), and, where headers are precompiled,
     # overflows.
-    "$<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize;-Wno-restrict;-Wno-stringop-overflow;-Wno-array-bounds>")
+    "$<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize;-Wno-restrict;-Wno-stringop-overflow;-Wno-array-bounds>"
+    # GCC frees its own memory from half a GiB on: a tenth of the time.
+    $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
   # Headers are named by their path from the root: "oracle/exact/quadratic.hpp"; public ones <lorentz/oracle.hpp>.
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 endfunction()
@@ -53,7 +55,7 @@ function(lorentz_library name)
   endif()
   add_library(${name} ${kind} ${its_SOURCES})
   lorentz_settings(${name})
-  if(NOT its_FAST)
+  if(NOT its_FAST AND NOT CMAKE_CXX_FLAGS_RELEASE MATCHES "-O1")  # who asks for that has it everywhere
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O$<IF:$<BOOL:${its_PLAIN}>,1,2>>)
   endif()
   if(LORENTZ_UNITY AND NOT its_FAST)

@@ -24,6 +24,10 @@ endforeach()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
+file(STRINGS ${PROJECT_SOURCE_DIR}/packaging/address address REGEX "^https:")
+if(address)
+  set(CPACK_DEBIAN_PACKAGE_HOMEPAGE ${address})
+endif()
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME lorentz)
@@ -45,9 +49,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-lorentz)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 if(TARGET lorentz_python)  # a module for one version of Python; scenes and golden sets are those of the program
-  find_package(Python3 REQUIRED COMPONENTS Interpreter)
-  math(EXPR next_minor "${Python3_VERSION_MINOR}+1")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor}), \
+  math(EXPR next_minor "${LORENTZ_PYTHON_MINOR}+1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${LORENTZ_PYTHON_MINOR}), python3 (<< 3.${next_minor}), \
 python3-numpy, lorentz (= ${PROJECT_VERSION})")
 endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib")
