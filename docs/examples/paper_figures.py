@@ -30,19 +30,15 @@ def axes(x_label: str, y_label: str) -> Axes:
 
 
 def first_free_flight(count: int = 3_000_000, radius: float = 1e-4) -> Axes:
-    """The density falls like t^-2, t^-3, t^-4: histograms with the paper's lines."""
-    ax = axes("first free flight t", "density")
-    for number, name in enumerate(LATTICES, start=1):
-        paths = lorentz.flights(name, radius, count=count, seed=SEED)
-        enough = paths.counts[1:-1] >= 10
-        t = np.sqrt(paths.edges[1:] * paths.edges[:-1])[enough]
-        density = paths.density()[enough]
-        dots = ax.loglog(t, density, ".", markersize=3, label=f"{number} lattice{'s'[:number > 1]}")[0]
-        tail = t > t[-1] / 30
-        line = density[-1] * (t / t[-1]) ** -(number + 1.0)
-        ax.loglog(t[tail], line[tail], "-", linewidth=1, color=dots.get_color(), label=f"t^-{number + 1}")
+    """The densities, with their limit laws, and dashed the paper's lines: t^-2, t^-3, t^-4."""
+    runs = [lorentz.flights(name, radius, count=count, seed=SEED) for name in LATTICES]
+    ax: Axes = lorentz.plot.density(runs, ax=axes("", ""))
+    for number, run in enumerate(runs, start=1):
+        last = np.flatnonzero(run.counts[1:-1] >= 10)[-1]
+        t = run.edges[last] * np.array([0.1, 1])
+        ax.plot(t, 3 * run.density()[last] * (t / t[-1]) ** -(number + 1.0), "k--", linewidth=1)
+        ax.annotate(f"$t^{{-{number + 1}}}$", (t[0], 3 * run.density()[last] * 10.0 ** (number + 1)))
     ax.set_xlim(1, None)
-    ax.legend(frameon=False, ncols=3)
     return ax
 
 

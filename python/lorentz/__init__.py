@@ -9,7 +9,6 @@ an engine, and `golden` has hard queries that break engines. docs/python.md has 
 from __future__ import annotations
 
 import os as _os
-from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from . import _lorentz
 from ._answer import Answer, ExactTime, hit, inside, never, undecided, unsupported
@@ -25,11 +24,8 @@ from ._paths import (STOPS, CertifiedCollision, Itinerary, Paths, Starts, draw_s
                      memory_of_trajectories, trajectories)
 from ._scene import Scene, SceneLike, catalogue, unit_scene
 from ._statistics import Diffusion, Estimate, Lyapunov, diffusion, lyapunov, scan
-from . import oracle
+from . import oracle, plot
 from .oracle import judge_answer
-
-if _TYPE_CHECKING:  # imported at its first use, because only it needs Matplotlib
-    from . import plot
 
 __version__: str = _lorentz.VERSION
 
@@ -48,16 +44,3 @@ _here = _os.path.dirname(_os.path.abspath(__file__))
 for _folder in (_os.path.join(_here, "data"), _os.path.join(_here, "..", "..", "..", "..", "share", "lorentz")):
     if _os.path.isdir(_folder):
         _lorentz.add_data_folder(_folder)
-
-
-def __getattr__(name: str) -> object:
-    """Imports `lorentz.plot` at its first use."""
-    if name == "plot":
-        import importlib
-
-        return importlib.import_module(".plot", __name__)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-
-
-def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})

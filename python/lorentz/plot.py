@@ -5,19 +5,17 @@
     ax.set_title("Honeycomb")
     ax.figure.savefig("honeycomb.pdf")  # or .svg, .png
 
-For axes of other sizes pass ``plt.subplots(figsize=(4, 3))[1]`` as ``ax``.
+For axes of other sizes pass ``plt.subplots(figsize=(4, 3))[1]`` as ``ax``. Matplotlib is imported by the first
+picture; without it a picture raises ImportError.
 """
 
 from __future__ import annotations
 
 from itertools import product
-from typing import Any, Iterator, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterator, Sequence, Union
 
-import matplotlib.pyplot as plt
 import numpy as np
 import numpy.typing as npt
-from matplotlib.collections import LineCollection, PatchCollection
-from matplotlib.patches import Ellipse
 
 from ._answers import Answers, Floats, Outcome
 from ._first_hit import floats_of
@@ -28,17 +26,26 @@ from ._paths import Itinerary, Paths
 from ._scene import Scene, SceneLike, common_radius, scene_of
 from ._statistics import Diffusion
 
-__all__ = ["displacements", "flights", "free_paths", "scene", "survival_function", "trajectory"]
+if TYPE_CHECKING:
+    from matplotlib.patches import Ellipse
+
+__all__ = ["density", "displacements", "flights", "scene", "survival_function", "trajectory"]
 
 #: Colours of the obstacles of lattice 0, 1, ..; lines have the other colours.
 OBSTACLES = ("#9db4c8", "#d8b48c", "#a9c9a4", "#c9a9c6")
 FLIGHT, HIT = "#b3362b", "#202020"
 COLOURS = ("#b3362b", "#2b62b3", "#3a8a4d", "#8a5ba8", "#b37f2b", "#2b9a9a")
 MOST_OBSTACLES = 20_000
+#: The fewest flights of a point of `density`.
+FLIGHTS_OF_A_POINT = 10
 
 Box = tuple[float, float, float, float]
 #: One run of flights, or several in one figure.
 Runs = Union[FreePaths, Sequence[FreePaths]]
+
+
+def __dir__() -> list[str]:
+    return __all__
 
 
 def scene(of: SceneLike, box: Box | None = None, *, ax: Any = None) -> Any:
@@ -47,6 +54,8 @@ def scene(of: SceneLike, box: Box | None = None, *, ax: Any = None) -> Any:
     place = _flat(of)
     limits = _around_cells(place) if box is None else _box(box)
     ax = _axes(ax)
+    from matplotlib.collections import PatchCollection
+
     for number, lattice in enumerate(place.nearest().to_dict()["lattices"]):
         patches = list(_obstacles(lattice, limits))
         colour = OBSTACLES[number % len(OBSTACLES)]
@@ -74,6 +83,8 @@ def flights(of: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, answers: Answers,
     whole = hits & (shown < longest)
     if ax is None:
         ax = scene(of, _around(np.concatenate([starts, ends[flown]])) if len(starts) else None)
+    from matplotlib.collections import LineCollection
+
     for mask, style in ((whole, "solid"), (flown & ~whole, "dashed")):
         lines = np.stack([starts[mask], ends[mask]], axis=1)
         ax.add_collection(LineCollection(list(lines), colors=FLIGHT, linestyles=style, linewidths=1, zorder=2))
@@ -116,30 +127,44 @@ def _flown(place: Scene, start: npt.ArrayLike, paths: Paths | None, particle: in
     return place, points, {(int(lattice), int(atom), tuple(cell)) for lattice, atom, cell in met}
 
 
-def free_paths(runs: Runs, *, ax: Any = None) -> Any:
-    """The density of free paths on logarithmic axes, from counts. Each of several runs has its own colour."""
-    ax = _axes(ax)
-    for number, (run, label) in enumerate(_labelled(runs)):
-        density = run.density()
-        seen = density > 0
-        middle = np.sqrt(run.edges[1:] * run.edges[:-1])
-        ax.loglog(middle[seen], density[seen], ".", color=_colour(number), markersize=4, label=label)
-    return _explained(ax, "free path t", "density")
+def density(runs: Runs, *, ax: Any = None) -> Any:
+    """The density of free paths on logarithmic axes, from counts, with the known laws for each scene as lines.
+    Each of several runs has its own colour. The title has the scene, the radius and the starts, as far as the
+    runs share them; the legend has what differs.
+
+    A point is the density in a bin, at the geometric mean of its edges. Neighbouring bins are joined until each
+    has 10 flights, because a bin of one flight among empty ones would be drawn too high. The vertical bar is
+    one standard error, that of Poisson's distribution: the density of n flights is known up to a factor of
+    1 +- 1/sqrt(n). The bar of a single flight, if there are no more, reaches down to the axis. The horizontal
+    bar is the width of the bin. Laws are averaged over the same bins (`FreePaths.laws`).
+
+    Raises Error if ``runs`` are not results of `lorentz.flights`.
+    """
+    labelled, title = _labelled(runs)
+    ax = _logarithmic(ax)
+    for number, (run, label) in enumerate(labelled):
+        cuts = _cuts(run)
+        edges, total = run.edges[cuts], max(run.count - int(run.report["undecided"]), 1)
+        low, high = edges[:-1], edges[1:]
+        flights_in = -np.diff(run.beyond[cuts].astype(float))
+        measured, middle = flights_in / (total * (high - low)), np.sqrt(low * high)
+        _draw_law(ax, labelled, number, middle, lambda law: -np.diff(law[cuts]) / (high - low))
+        ax.errorbar(middle, measured, measured / np.sqrt(flights_in), [middle - low, high - middle], fmt=".",
+                    color=_colour(number), markersize=4, elinewidth=0.8, label=label)
+    return _explained(ax, "free path t", "density", title)
 
 
 def survival_function(runs: Runs, *, ax: Any = None) -> Any:
-    """P(path > t) on logarithmic axes, with the known laws for each scene as lines. Each of several runs has
-    its own colour."""
-    ax = _axes(ax)
-    for number, (run, label) in enumerate(_labelled(runs)):
+    """P(path > t) on logarithmic axes, with the known laws for each scene as lines. Colours, title, legend and
+    errors are those of `density`."""
+    labelled, title = _labelled(runs)
+    ax = _logarithmic(ax)
+    for number, (run, label) in enumerate(labelled):
         measured = run.survival_function()
         seen = (measured > 0) & (measured < 1)
-        t = run.edges[seen]
-        for count, (name, law) in enumerate(run.laws().items()):
-            ax.loglog(t, law[seen], "-", color=_colour(number), alpha=0.6 / (count + 1), linewidth=1.5,
-                      label=name if number == 0 else None)
-        ax.loglog(t, measured[seen], ".", color=_colour(number), markersize=4, label=label)
-    return _explained(ax, "t", "P(free path > t)")
+        _draw_law(ax, labelled, number, run.edges[seen], lambda law: law[seen])
+        ax.plot(run.edges[seen], measured[seen], ".", color=_colour(number), markersize=4, label=label)
+    return _explained(ax, "t", "P(free path > t)", title)
 
 
 def displacements(found: Diffusion, *, ax: Any = None) -> Any:
@@ -161,15 +186,33 @@ def _check_kind(found: Any, kind: type) -> None:
         raise Error(f"found: needs what lorentz.{kind.__name__.lower()} returns, one of it; got {type(found).__name__}")
 
 
-def _labelled(runs: Runs) -> list[tuple[FreePaths, str]]:
-    """Each run with its label: scene, radius, start, seed, engine, as far as they differ, or the number of flights."""
+def _cuts(run: FreePaths) -> npt.NDArray[np.int64]:
+    """The numbers of the edges among which each bin has `FLIGHTS_OF_A_POINT` flights; empty without a flight."""
+    flown = np.flatnonzero(run.counts[1:-1])
+    if not len(flown):
+        return flown
+    cuts, flights_since = [int(flown[0])], 0
+    for i in flown.tolist():
+        flights_since += int(run.counts[1 + i])
+        if flights_since >= FLIGHTS_OF_A_POINT:
+            cuts.append(i + 1)
+            flights_since = 0
+    return np.array([*cuts[:max(len(cuts) - 1, 1)], int(flown[-1]) + 1])  # the last bin takes the rest
+
+
+def _labelled(runs: Runs) -> tuple[list[tuple[FreePaths, str]], str]:
+    """Each run with its label: scene, radius, start, seed, engine, as far as they differ, or the number of
+    flights; and a title: scene, radius and start as far as they do not."""
     several = [runs] if isinstance(runs, FreePaths) else list(runs)
     if not several or not all(isinstance(run, FreePaths) for run in several):
         raise Error("runs: needs what lorentz.flights returns, one or a list")
     facts = [_facts(run, number) for number, run in enumerate(several, 1)]
-    telling = [k for k, first in enumerate(facts[0]) if any(one[k][0] != first[0] for one in facts)]
-    labels = [", ".join(one[k][1] for k in telling if one[k][1]) for one in facts]
-    return [(run, label or f"{run.count:.3g} flights") for run, label in zip(several, labels)]
+    differ = [any(one[k][0] != first[0] for one in facts) for k, first in enumerate(facts[0])]
+    labels = [", ".join(text for (_, text), other in zip(one, differ) if other and text) for one in facts]
+    common = [several[0].scene._name, facts[0][1][1], f"{several[0].start} starts"]
+    title = ", ".join(text for text, other in zip(common, differ) if text and not other)
+    counts = [f"{run.count:.3g} flight{'s' * (run.count > 1)}" for run in several]
+    return [(run, label or count) for run, label, count in zip(several, labels, counts)], title
 
 
 def _facts(run: FreePaths, number: int) -> list[tuple[Any, str]]:
@@ -186,7 +229,7 @@ def _colour(number: int) -> str:
 
 def _met_in_space(place: Scene, met: set[Obstacle]) -> Any:
     """3D axes with these obstacles."""
-    ax = plt.figure(layout="constrained").add_subplot(projection="3d")
+    ax = _pyplot().figure(layout="constrained").add_subplot(projection="3d")
     lattices = place.nearest().to_dict()["lattices"]
     turn, tilt = np.meshgrid(np.linspace(0, 2 * np.pi, 25), np.linspace(0, np.pi, 13))
     sphere = np.stack([np.cos(turn) * np.sin(tilt), np.sin(turn) * np.sin(tilt), np.cos(tilt)])
@@ -200,13 +243,41 @@ def _met_in_space(place: Scene, met: set[Obstacle]) -> Any:
     return ax
 
 
+def _pyplot() -> Any:
+    try:
+        import matplotlib.pyplot
+    except ImportError as error:
+        raise ImportError("lorentz.plot needs Matplotlib: pip install matplotlib, or on Debian apt-get install "
+                          f"python3-matplotlib ({error})") from None
+    return matplotlib.pyplot
+
+
 def _axes(ax: Any) -> Any:
-    return plt.subplots(layout="constrained")[1] if ax is None else ax
+    return _pyplot().subplots(layout="constrained")[1] if ax is None else ax
 
 
-def _explained(ax: Any, x: str, y: str) -> Any:
+def _logarithmic(ax: Any) -> Any:
+    ax = _axes(ax)
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    return ax
+
+
+def _draw_law(ax: Any, labelled: list[tuple[FreePaths, str]], number: int, t: Floats,
+              drawn: Callable[[Floats], Floats]) -> None:
+    """The law for the run of this number, if one is known. The legend has one line for the laws of all runs."""
+    names = {f"{law['name']}, {law['when']}" for run, _ in labelled for law in run.report["theory"]}
+    label = names.pop() if len(names) == 1 else "limit laws"
+    named = {line.get_label() for line in ax.lines}
+    for survival in labelled[number][0].laws().values():
+        ax.plot(t, drawn(survival), "-", color=_colour(number), alpha=0.6, linewidth=1.5,
+                label=None if label in named else label)
+
+
+def _explained(ax: Any, x: str, y: str, title: str) -> Any:
     ax.set_xlabel(x)
     ax.set_ylabel(y)
+    ax.set_title(ax.get_title() or title)
     ax.legend(frameon=False)
     return ax
 
@@ -238,6 +309,8 @@ def _around_cells(place: Scene) -> Box:
 
 def _obstacles(lattice: dict[str, Any], box: Box) -> Iterator[Ellipse]:
     """The obstacles of a lattice that reach into the box."""
+    from matplotlib.patches import Ellipse
+
     vectors = np.array(lattice["vectors"])
     for atom in lattice["atoms"]:
         position = np.array(atom["position"])

@@ -1,14 +1,24 @@
 """Pictures hold what they should."""
 
 import pickle
+import subprocess
+import sys
+from dataclasses import replace
 
 import lorentz
 import matplotlib
+import matplotlib.pyplot
 import numpy as np
 import pytest
 
 matplotlib.use("Agg")
 SEED = 20161115
+
+
+@pytest.fixture(autouse=True)
+def closed_afterwards():
+    yield
+    matplotlib.pyplot.close("all")
 
 
 def patches(ax):
@@ -107,19 +117,63 @@ def labels(ax):
 
 def test_free_paths_of_one_radius_and_of_several():
     runs = [lorentz.flights("square", radius, count=100_000, seed=SEED) for radius in (0.1, 0.01, 0.001)]
-    assert labels(lorentz.plot.survival_function(runs[1])) == ["Boca-Zaharescu", "1e+05 flights"]
-    assert len(lorentz.plot.free_paths(runs[1]).lines) == 1
-    for draw in (lorentz.plot.survival_function, lorentz.plot.free_paths):
+    for draw in (lorentz.plot.survival_function, lorentz.plot.density):
+        ax = draw(runs[1])
+        assert labels(ax) == ["Boca-Zaharescu, r -> 0", "1e+05 flights"]
+        assert ax.get_title() == "square, r = 0.01, uniform starts" and ax.get_xscale() == ax.get_yscale() == "log"
         ax = draw(runs)
-        assert [text for text in labels(ax) if text.startswith("r =")] == ["r = 0.1", "r = 0.01", "r = 0.001"]
+        assert labels(ax) == ["Boca-Zaharescu, r -> 0", "r = 0.1", "r = 0.01", "r = 0.001"]
+        assert ax.get_title() == "square, uniform starts"
         dots = [line for line in ax.lines if line.get_marker() == "."]
         assert len({line.get_color() for line in dots}) == len(dots) == 3
+    own = matplotlib.figure.Figure().subplots()
+    own.set_title("Mine")
+    assert lorentz.plot.density(runs[0], ax=own).get_title() == "Mine"
+    several = lorentz.plot.density([lorentz.flights(name, 1e-3, count=1000) for name in ("square", "superposition-pi-5")])
+    assert labels(several)[:2] == ["limit laws", "square"]
+
+
+def points_of(ax):
+    """Middles, densities and laws; the ends of the bars across, and of those along."""
+    law, dots = ax.lines[0], ax.lines[1]
+    across, along = (np.array(bars.get_segments()) for bars in ax.collections)
+    return dots.get_xdata(), dots.get_ydata(), law.get_ydata(), across[:, :, 0], along[:, :, 1]
+
+
+def test_a_density_has_bars_and_a_law_of_the_same_bins():
+    run = lorentz.flights("square", 0.01, count=100_000, seed=SEED)
+    t, density, law, across, along = points_of(lorentz.plot.density(run))
+    low, high = across.T
+    flown = density * (high - low) * run.count
+    assert np.array_equal(low[1:], high[:-1]) and set(low) | set(high) <= set(run.edges) and np.allclose(t, np.sqrt(low * high))
+    assert np.allclose(flown, np.round(flown), rtol=0, atol=1e-6) and flown.min() > 9.5 and flown.sum() == pytest.approx(100_000)
+    assert np.allclose(along.T, density * [1 - flown**-0.5, 1 + flown**-0.5])
+    survival = run.laws()["Boca-Zaharescu"]
+    at = {edge: share for edge, share in zip(run.edges, survival)}
+    assert np.allclose(law, [(at[a] - at[b]) / (b - a) for a, b in zip(low, high)], rtol=1e-9)
+    assert (abs(density / law - 1) < 5 * flown**-0.5).all() and len(t) > 100
+
+
+@pytest.mark.parametrize("count", [1, 9, 10, 19, 20])
+def test_a_density_of_few_flights(count):
+    run = lorentz.flights("square", 0.01, count=count, seed=SEED)
+    _, density, _, across, _ = points_of(lorentz.plot.density(run))
+    assert len(density) == max(count // 10, 1) and sum(density * np.diff(across)[:, 0]) == pytest.approx(1)
+
+
+def test_a_density_without_an_end():
+    rows = lorentz.Scene({"dimension": 2, "lattices": [{"vectors": [[1, 0], [0, 1]], "atoms": [
+        {"position": [0, 0], "radius": 0.25}]}]})
+    run = lorentz.flights(rows, count=10, seed=SEED)
+    none = replace(run, counts=0 * run.counts, beyond=run.count + 0 * run.beyond)
+    assert len(lorentz.plot.density(none).lines[1].get_xdata()) == 0
 
 
 def test_labels_of_free_paths_name_what_differs():
     def labelled(*runs):
         found = [lorentz.flights(*scene, count=100, **options) for scene, options in runs]
-        return labels(lorentz.plot.free_paths(found, ax=matplotlib.figure.Figure().subplots()))
+        shown = labels(lorentz.plot.density(found, ax=matplotlib.figure.Figure().subplots()))
+        return [text for text in shown if text != "limit laws" and not text.startswith("Boca-Zaharescu")]
 
     assert labelled((("square", 0.1), {}), (("triangular", 0.1), {})) == ["square", "triangular"]
     assert labelled((("square", 0.1), {}), (("triangular", 0.2), {})) == ["square, r = 0.1", "triangular, r = 0.2"]
@@ -130,6 +184,7 @@ def test_labels_of_free_paths_name_what_differs():
     assert labelled(((unit,), {}), ((lorentz.Scene(unit, 0.2),), {})) == ["r = 0.1", "r = 0.2"]
     assert labelled(((unit,), {}), ((pickle.loads(pickle.dumps(lorentz.Scene("hexagonal", 0.1))),), {})) == ["scene 1", "hexagonal"]
     assert labelled((("square", 0.1), {}), (("square", 0.1), {})) == ["100 flights"] * 2
+    assert labelled((("square", 0.1), {}))[0] == "100 flights"
 
 
 def test_statistics_of_trajectories(tmp_path):
@@ -141,7 +196,7 @@ def test_statistics_of_trajectories(tmp_path):
 
 
 def test_what_cannot_be_drawn():
-    for draw, name in ((lorentz.plot.displacements, "found"), (lorentz.plot.free_paths, "runs"),
+    for draw, name in ((lorentz.plot.displacements, "found"), (lorentz.plot.density, "runs"),
                        (lorentz.plot.survival_function, "runs")):
         for odd in ([], [1], {"a": 1}):
             with pytest.raises(lorentz.Error, match=f"{name}: needs what lorentz"):
@@ -150,3 +205,21 @@ def test_what_cannot_be_drawn():
         lorentz.plot.scene("cubic")
     with pytest.raises(lorentz.Error, match="smaller"):
         lorentz.plot.scene("square", (0, 1e6, 0, 1e6))
+
+
+def test_its_functions_are_listed_before_one_is_called():
+    program = """if True:
+        import sys, rlcompleter, lorentz
+        functions = ["density", "displacements", "flights", "scene", "survival_function", "trajectory"]
+        assert dir(lorentz.plot) == functions, dir(lorentz.plot)
+        typed = rlcompleter.Completer({"lorentz": lorentz}).attr_matches("lorentz.plot.")
+        assert {f"lorentz.plot.{name}(" for name in functions} == {text.rstrip(")") for text in typed}, typed
+        assert "matplotlib" not in sys.modules
+        sys.modules["matplotlib"] = None
+        try:
+            lorentz.plot.scene("square")
+        except ImportError as error:
+            assert "lorentz.plot needs Matplotlib: pip install matplotlib" in str(error), error
+        else:
+            assert False"""
+    subprocess.run([sys.executable, "-c", program], check=True)
