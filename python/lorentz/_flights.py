@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,9 +15,9 @@ from . import _lorentz
 from ._answers import Floats
 from ._columns import same
 from ._first_hit import floats_of
-from ._lorentz import Error
+from ._lorentz import Error, FileError
 from ._numbers import finite, whole, word
-from ._scene import Scene, SceneLike, native
+from ._scene import Scene, SceneLike, common_radius, native
 
 
 def _known(number: float | None) -> float:
@@ -30,7 +31,7 @@ class FreePaths:
     ``edges`` (K,): the edges of logarithmic bins, eight per octave; ``counts`` (K + 1,): flights below the
     first edge, in each bin, and beyond the last edge; ``beyond`` (K,): flights longer than each edge.
     ``report`` is the report of `lorentz flights --json`: mean, its error, the exact mean, laws and their
-    fits, tails.
+    fits, tails. `to_frame` and `save` give the bins as a table; ``pickle`` keeps the whole result.
     """
 
     scene: Scene
@@ -80,6 +81,56 @@ class FreePaths:
         row = single_numbers(self.report)
         return {"start": row.pop("from")} | row
 
+    def to_frame(self) -> Any:
+        """The bins as a pandas DataFrame, one row for each bin with a flight. Its columns are those of
+        `lorentz flights --csv`: ``from`` and ``to``, the edges; ``count``; ``density`` and ``density_error``, one
+        standard error; ``survival_at_to``, the share of flights longer than ``to``; and for each law, under its
+        name, ``LAW: density`` and ``LAW: survival_at_to``. pandas must be installed."""
+        import pandas
+
+        return pandas.DataFrame(self._bins())
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the bins to a file whose name ends in ``.csv``, or the report to one that ends in ``.json``. A
+        file of this name is replaced.
+
+        The forms are those of `lorentz flights --csv` and ``--json`` (docs/formats.md). The bins are the
+        logarithmic ones: ``pandas.read_csv``, ``csv.DictReader`` and ``numpy.genfromtxt`` read them. The report
+        also has ``radius``, null if the obstacles differ; ``json.load`` reads it.
+
+        Raises Error if the name ends otherwise, FileError if the file cannot be written.
+        """
+        if not isinstance(path, (str, os.PathLike)):
+            raise Error(f"path: {path!r} is not the name of a file")
+        name = os.fspath(path)
+        if name.endswith(".csv"):
+            text = _csv({"bins": np.full(np.count_nonzero(self.counts), "logarithmic")} | self._bins())
+        elif name.endswith(".json"):
+            radius = common_radius(self.scene)
+            text = json.dumps({"scene": self.report["scene"], "radius": radius} | self.report) + "\n"
+        else:
+            raise Error(f"path: {name!r} ends neither in .csv (the bins) nor in .json (the report)")
+        try:
+            with open(name, "w", encoding="utf-8") as file:
+                file.write(text)
+        except OSError as error:
+            raise FileError(f"path: {name!r} cannot be written: {error.strerror}") from None
+
+    def _bins(self) -> dict[str, npt.NDArray[Any]]:
+        """The columns of the bins that have flights, from 0 to infinity. The last bin has no density."""
+        edges = np.array([0, *self.edges, math.inf])
+        total, width = max(self.count - int(self.report["undecided"]), 1), np.diff(edges)
+        columns = {"density": self.counts / total / width, "density_error": np.sqrt(self.counts) / total / width,
+                   "survival_at_to": np.append(self.beyond, 0) / total}
+        for law, survival in laws(self.scene, edges[:-1], start=self.start).items():
+            name = law.replace(",", ";")  # as in a file
+            columns |= {f"{name}: density": -np.diff(survival, append=0) / width,
+                        f"{name}: survival_at_to": np.append(survival[1:], 0)}
+        for column in columns.values():
+            column[-1] = math.nan
+        seen, bins = np.flatnonzero(self.counts), {"from": edges[:-1], "to": edges[1:], "count": self.counts}
+        return {name: column[seen] for name, column in (bins | columns).items()}
+
     def __eq__(self, other: object) -> bool:
         return isinstance(other, FreePaths) and same(vars(self), vars(other))
 
@@ -87,6 +138,13 @@ class FreePaths:
         text = f"FreePaths({self.count} flights, start={self.start!r}, mean {self.mean:.6g} +- {self.mean_error:.2g})"
         remark = self.report.get("mean_remark")
         return f"{text}\n  {remark}" if remark else text
+
+
+def _csv(columns: dict[str, npt.NDArray[Any]]) -> str:
+    """A table with a header, in the form of the command line: numbers in the fewest digits, nothing for nan."""
+    rows = zip(*(column.tolist() for column in columns.values()))
+    lines = [",".join("" if field != field else str(field).removesuffix(".0") for field in row) for row in rows]
+    return "\n".join([",".join(columns), *lines, ""])
 
 
 def report_of(text: str, scene: Scene) -> dict[str, Any]:

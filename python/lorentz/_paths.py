@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _lorentz
 from ._answers import Floats
 from ._columns import Array, Column, Columns, by_component
-from ._first_hit import StartFrom, _columns, vectors_of
+from ._first_hit import StartFrom, _columns, _fits_64_bits, vectors_of
 from ._lorentz import Error
 from ._memory import free_memory
 from ._numbers import Number, Obstacle, Vector, exact, obstacle_dict, plain, renamed, text, time_limit, whole, word
@@ -175,7 +175,9 @@ class Itinerary:
     or "undecided"; ``bits``: the precision used; ``x``, ``v`` and ``distance`` from the origin at the end, as
     decimal texts; ``scene`` and ``start``: where it was followed, and from which place.
 
-    ``time``, ``place`` and ``velocity`` are the collisions in floats, as columns of `Paths`."""
+    ``time``, ``lattice``, ``atom``, ``cell``, ``place`` and ``velocity`` are the collisions as arrays, with the
+    shapes of one particle of `Paths`; times, places and velocities are rounded to floats. `to_frame` is the table
+    of them."""
 
     collisions: list[CertifiedCollision]
     end: str
@@ -190,6 +192,23 @@ class Itinerary:
     def time(self) -> Floats:
         """(N,): time of each collision since the start."""
         return np.array([float(one.time) for one in self.collisions])
+
+    @property
+    def lattice(self) -> npt.NDArray[np.int32]:
+        """(N,): lattice of each obstacle that is hit."""
+        return np.array([one.lattice for one in self.collisions], np.int32)
+
+    @property
+    def atom(self) -> npt.NDArray[np.int32]:
+        """(N,): its atom in that lattice."""
+        return np.array([one.atom for one in self.collisions], np.int32)
+
+    @property
+    def cell(self) -> npt.NDArray[Any]:
+        """(N, d): its cell, in int64. If 64 bits do not hold all cells, the array has the dtype object, of ints."""
+        cells = [one.cell for one in self.collisions]
+        kind = np.int64 if all(map(_fits_64_bits, cells)) else object
+        return np.array(cells, kind).reshape(-1, len(self.start))
 
     @property
     def place(self) -> Floats:
@@ -209,6 +228,18 @@ class Itinerary:
     def to_dict(self) -> dict[str, Any]:
         """The itinerary as dicts, lists and numbers."""
         return asdict(self) | {"scene": self.scene.to_dict()}
+
+    def to_frame(self) -> Any:
+        """A pandas DataFrame with one row for each collision: ``collision`` (from 1), ``time``, ``lattice``,
+        ``atom``, ``cell_0``, ``cell_1`` .., with states also ``place_0`` .. and ``velocity_0`` ..; and ``bits``.
+        pandas must be installed."""
+        import pandas
+
+        table: dict[str, Array] = {"collision": np.arange(1, 1 + len(self.collisions)), "time": self.time,
+                                   "lattice": self.lattice, "atom": self.atom} | by_component("cell", self.cell)
+        if all(one.x for one in self.collisions):
+            table |= by_component("place", self.place) | by_component("velocity", self.velocity)
+        return pandas.DataFrame(table | {"bits": np.array([one.bits for one in self.collisions], np.int64)})
 
 
 @renamed("from", "start_from")

@@ -1,5 +1,6 @@
 """Particles in floats and in certainty."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import lorentz
@@ -41,6 +42,9 @@ def test_floats_follow_the_truth_for_a_while():
         for column in ("time", "place", "velocity"):
             assert getattr(truth, column).shape == getattr(paths, column)[i].shape
             assert np.allclose(getattr(truth, column), getattr(paths, column)[i], rtol=0, atol=1e-8)
+        for column in ("lattice", "atom", "cell"):
+            assert getattr(truth, column).dtype == getattr(paths, column).dtype
+            assert np.array_equal(getattr(truth, column), getattr(paths, column)[i])
 
 
 def test_an_itinerary_without_states_has_times_alone():
@@ -50,7 +54,40 @@ def test_an_itinerary_without_states_has_times_alone():
     for column in ("place", "velocity"):
         with pytest.raises(lorentz.Error, match="states=True"):
             getattr(path, column)
-    assert lorentz.itinerary("square", [0.5, 0.5], [1, 0], max_time=1, states=True).place.shape == (0, 2)
+    free = lorentz.itinerary("square", [0.5, 0.5], [1, 0], max_time=1, states=True)
+    assert free.place.shape == free.cell.shape == (0, 2) and free.lattice.shape == free.atom.shape == (0,)
+
+
+def test_cells_of_an_itinerary_in_an_array():
+    scene = lorentz.Scene("rock-salt")
+    x, v, _ = lorentz.draw_starts(scene, 1, seed=SEED)
+    path = lorentz.itinerary(scene, x[0], v[0], collisions=8)
+    assert path.atom.tolist() == [one.atom for one in path.collisions] and set(path.atom) == {0, 1}
+    assert path.cell.dtype == np.int64 and path.cell.shape == (8, 3)
+    far = lorentz.itinerary("square", [0, 0.445], [1, "1/100000000000000000000000"], radius=0.1, collisions=2)
+    assert far.cell.dtype == object and [tuple(cell) for cell in far.cell] == [one.cell for one in far.collisions]
+    assert far.cell[0, 0] > 2**64 and isinstance(far.cell[0, 1], int)
+    one = far.collisions[0]
+    for cell, kind in (((2**63, -1), object), ((2**63 - 1, -(2**63)), np.int64)):  # a uint64 beside an int64 is a float
+        path = replace(far, collisions=[replace(one, cell=cell)])
+        assert path.cell.dtype == kind and tuple(path.cell[0]) == cell
+
+
+def test_an_itinerary_is_a_table():
+    pytest.importorskip("pandas")
+    scene = lorentz.Scene("triangular", 0.45)
+    x, v, _ = lorentz.draw_starts(scene, 1, seed=SEED)
+    path = lorentz.itinerary(scene, x[0], v[0], collisions=4, states=True)
+    frame, floats = path.to_frame(), lorentz.trajectories(scene, x, v, 4).to_frame()
+    assert list(frame.columns) == [*floats.columns.drop("particle"), "bits"]
+    for column in frame.columns.drop("bits"):
+        assert np.allclose(frame[column], floats[column], rtol=0, atol=1e-8), column
+        assert frame[column].dtype == floats[column].dtype, column
+    assert frame.bits.tolist() == [one.bits for one in path.collisions]
+    without = lorentz.itinerary(scene, x[0], v[0], collisions=4).to_frame()
+    assert list(without.columns) == ["collision", "time", "lattice", "atom", "cell_0", "cell_1", "bits"]
+    nothing = lorentz.itinerary("square", [0.5, 0.5], [1, 0], max_time=1, states=True).to_frame()
+    assert len(nothing) == 0 and "cell_1" in nothing.columns
 
 
 @pytest.mark.parametrize("precision", ["binary64", "double-double"])
