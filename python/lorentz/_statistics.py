@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+import os
+import sys
 import warnings
 from dataclasses import dataclass
 from itertools import product
 from numbers import Real
-from typing import Any, Callable, Iterable, NamedTuple, Sequence, Union
+from typing import Any, Callable, Iterable, Iterator, NamedTuple, Sequence, Union
 
 import numpy as np
 
@@ -159,7 +161,7 @@ def diffusion(scene: SceneLike, radius: Number | None = None, *, count: int = 10
 
 def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLike]],
          radii: Number | Iterable[Number] | None = None, *, on_error: str = "raise",
-         **options: Any) -> list[dict[str, Any]]:
+         progress: bool | None = None, **options: Any) -> list[dict[str, Any]]:
     """A table of the results of a function for each scene at each radius.
 
     Args:
@@ -169,6 +171,8 @@ def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLi
         radii: every ball gets each of these in turn; without radii the scenes are unchanged.
         on_error: ``"raise"`` or ``"mark"``. With ``"mark"`` a refused scene and radius have the column
             ``error``.
+        progress: show on stderr which scene and radius is next, by tqdm if it is installed, otherwise in
+            lines. None: if stderr is a terminal.
         options: further arguments of the function.
 
     Returns:
@@ -176,26 +180,79 @@ def scan(function: Callable[..., Any], scenes: Union[SceneLike, Sequence[SceneLi
         all balls have the same), and the single numbers and texts of the result (``value`` if the function
         returns one number, ``value`` and ``error`` if an `Estimate`). ``pandas.DataFrame(scan(..))`` makes a
         table of them.
+
+    Raises:
+        Error: the function refused a scene or a radius, and ``on_error`` is ``"raise"``.
+
+    An exception that ends a scan early, Ctrl-C (KeyboardInterrupt) too, has the rows of the scenes and radii
+    before it in its attribute ``rows``. At a prompt it is ``sys.last_value``; in a program::
+
+        try:
+            rows = lorentz.scan(lorentz.lyapunov, "square", [0.1, 0.01, 0.001])
+        except KeyboardInterrupt as stop:
+            rows = stop.rows
     """
     if not callable(function):
         raise Error(f"function: {function!r} is not a function")
-    if on_error not in ("raise", "mark"):
+    if word(on_error, "on_error") not in ("raise", "mark"):
         raise Error(f'on_error: {on_error!r} is unknown; expected "raise" or "mark"')
+    if progress is not None and not isinstance(progress, bool):
+        raise Error(f"progress: {progress!r} is unknown; expected True, False or None")
     several = list(scenes) if isinstance(scenes, (list, tuple)) else [scenes]
-    rows = []
     one = radii is None or isinstance(radii, (str, Real))
     sizes: list[Any] = [radii] if one else items(radii, "radii")
-    for scene, radius in product(several, sizes):
-        row = {"scene": scene, "radius": radius}
-        try:
-            found = function(scene, radius, **options)
-            row |= ({"radius": common_radius(Scene(scene))} if radius is None else {}) | _row_of(found)
-        except Error as error:
-            if on_error == "raise":
-                raise
-            row["error"] = str(error)
-        rows.append(row)
+    places, rows = list(product(several, sizes)), []
+    shown = sys.stderr.isatty() if progress is None else progress
+    try:
+        for scene, radius in _with_progress(places) if shown else places:
+            rows.append(_row_at(scene, radius, function, on_error == "mark", options))
+    except BaseException as stop:
+        _keep(rows, places, stop)
+        raise
     return rows
+
+
+def _keep(rows: list[dict[str, Any]], places: list[tuple[Any, Any]], stop: BaseException) -> None:
+    """Puts the rows of a scan that does not end into what ended it, and says so there."""
+    setattr(stop, "rows", rows)
+    told = "".join(f", stopped at {_told(place)}" for place in places[len(rows):len(rows) + 1])
+    kept = "; the rows are in the attribute `rows` of this exception (at a prompt: sys.last_value.rows)" if rows else ""
+    if hasattr(stop, "add_note"):  # from Python 3.11 on
+        stop.add_note(f"scan: {len(rows)} of {len(places)} rows are done{told}{kept}")
+
+
+def _row_at(scene: Any, radius: Any, function: Callable[..., Any], marks: bool, options: dict[str, Any]) -> dict[str, Any]:
+    row = {"scene": scene, "radius": radius}
+    try:
+        found = function(scene, radius, **options)
+        return row | ({"radius": common_radius(Scene(scene))} if radius is None else {}) | _row_of(found)
+    except Error as error:
+        if not marks:
+            raise
+        return row | {"error": str(error)}
+
+
+def _with_progress(places: list[tuple[Any, Any]]) -> Iterator[tuple[Any, Any]]:
+    """The places one by one, each shown on stderr before."""
+    try:
+        from tqdm import tqdm
+    except ImportError:
+        for number, place in enumerate(places, 1):
+            print(f"scan: {number} of {len(places)}: {_told(place)}", file=sys.stderr, flush=True)
+            yield place
+        return
+    with tqdm(places, "scan") as bar:
+        for place in bar:
+            bar.set_postfix_str(_told(place))
+            yield place
+
+
+def _told(place: tuple[Any, Any]) -> str:
+    """A scene and a radius in words."""
+    scene, radius = place
+    name = scene if isinstance(scene, (str, os.PathLike)) else getattr(scene, "_name", None)
+    told = ["a scene without a name" if name is None else os.fspath(name)] + ([] if radius is None else [f"radius {radius}"])
+    return ", ".join(told)
 
 
 def _row_of(found: Any) -> dict[str, Any]:

@@ -7,7 +7,9 @@ import re
 from pathlib import Path
 
 import lorentz
+import matplotlib
 
+matplotlib.use("Agg")
 DOCUMENTS = Path(__file__).parents[2] / "docs"
 
 
@@ -36,3 +38,12 @@ def test_examples_of_the_package():
     assert len(test.examples) >= 4 and doctest.DocTestRunner().run(test).failed == 0
     programs = [block for block in blocks("python.md") if block.startswith("import lorentz\n")]
     assert [printed_by(program).startswith("Answers to 1000000 queries in 2D: ") for program in programs] == [True]
+
+
+def test_fragments_that_print_nothing(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    fragments = [block for block in blocks("python.md") if block.startswith(("runs = ", "try:\n"))]
+    found = {"lorentz": lorentz}
+    for fragment in fragments:
+        exec(fragment, found)
+    assert len(found["runs"]) == len(found["rows"]) == 3 and (tmp_path / "density.png").stat().st_size > 10_000

@@ -1,7 +1,12 @@
 """Statistics of trajectories say what the command line says, and what theory does."""
 
+import signal
+import subprocess
+import sys
 import warnings
 from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
 
 import lorentz
 import pytest
@@ -67,6 +72,90 @@ def test_scans():
     assert "exponent_1" in marked[0] and "reach over as many cells" in marked[1]["error"]
     with pytest.raises(lorentz.Error, match="reach over as many cells"):
         lorentz.scan(lorentz.lyapunov, "square", [0.2, 6], collisions=1000)
+    with pytest.raises(lorentz.Error, match="on_error: 'warn' is unknown"):
+        lorentz.scan(lorentz.mean_free_path, "square", on_error="warn")
+    with pytest.raises(lorentz.Error, match="progress: 'yes' is unknown; expected True, False or None"):
+        lorentz.scan(lorentz.mean_free_path, "square", progress="yes")
+
+
+@pytest.mark.parametrize("stop", [KeyboardInterrupt, ZeroDivisionError, lorentz.Error])
+def test_what_ends_a_scan_early_has_its_rows(stop):
+    def stopped_at(scene, radius):
+        if radius == 0.3:
+            raise stop("enough")
+        return radius
+
+    with pytest.raises(stop) as seen:
+        lorentz.scan(stopped_at, "square", [0.1, 0.2, 0.3, 0.4])
+    assert [(row["radius"], row["value"]) for row in seen.value.rows] == [(0.1, 0.1), (0.2, 0.2)]
+    assert seen.value.__notes__ == ["scan: 2 of 4 rows are done, stopped at square, radius 0.3; the rows are in the attribute "
+                                    "`rows` of this exception (at a prompt: sys.last_value.rows)"]
+    with pytest.raises(stop) as seen:
+        lorentz.scan(stopped_at, lorentz.unit_scene(2, 0.1), [0.3])
+    assert seen.value.rows == []
+    assert seen.value.__notes__ == ["scan: 0 of 1 rows are done, stopped at a scene without a name, radius 0.3"]
+
+
+def test_an_interrupt_keeps_the_rows_of_a_scan():
+    program = """if True:
+        import lorentz
+        def function(scene, radius):
+            if radius == 0.46:
+                print("go", flush=True)
+                return lorentz.diffusion(scene, radius, count=10**7)
+            return lorentz.diffusion(scene, radius, count=100)
+        try:
+            lorentz.scan(function, "triangular", [0.45, 0.46])
+        except KeyboardInterrupt as stop:
+            print([row["radius"] for row in stop.rows])"""
+    with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as child:
+        assert child.stdout.readline() == "go\n"
+        child.send_signal(signal.SIGINT)
+        assert child.stdout.read() == "[0.45]\n" and child.wait() == 0
+
+
+class Bar:
+    """What `scan` needs of tqdm."""
+
+    def __init__(self, places, name):
+        self.places, self.told = places, [name]
+        Bar.last = self
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.told.append("closed")
+
+    def __iter__(self):
+        return iter(self.places)
+
+    def set_postfix_str(self, text):
+        self.told.append(text)
+
+
+def test_progress_of_a_scan(monkeypatch, capsys):
+    arguments = lorentz.mean_free_path, ["square", Path("honeycomb")]
+    expected = lorentz.scan(*arguments)
+    assert capsys.readouterr() == ("", "")
+    monkeypatch.setitem(sys.modules, "tqdm", None)
+    assert lorentz.scan(*arguments, progress=True) == expected
+    assert capsys.readouterr() == ("", "scan: 1 of 2: square\nscan: 2 of 2: honeycomb\n")
+    monkeypatch.setitem(sys.modules, "tqdm", SimpleNamespace(tqdm=Bar))
+    assert lorentz.scan(*arguments, [0.1], progress=True) == lorentz.scan(*arguments, [0.1], progress=False)
+    assert Bar.last.told == ["scan", "square, radius 0.1", "honeycomb, radius 0.1", "closed"]
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    monkeypatch.setitem(sys.modules, "tqdm", None)
+    for progress, lines in ((None, 2), (False, 0)):
+        lorentz.scan(*arguments, progress=progress)
+        assert capsys.readouterr().err.count("\n") == lines
+
+
+def test_progress_by_tqdm(capsys):
+    pytest.importorskip("tqdm")
+    lorentz.scan(lorentz.mean_free_path, "square", [0.1, 0.2], progress=True)
+    shown = capsys.readouterr().err
+    assert "scan: 100%" in shown and "2/2" in shown and "square, radius 0.2" in shown
 
 
 @pytest.mark.parametrize("call", [
