@@ -35,9 +35,9 @@ def first_free_flight(count: int = 3_000_000, radius: float = 1e-4) -> Axes:
     ax: Axes = lorentz.plot.density(runs, ax=axes("", ""))
     for number, run in enumerate(runs, start=1):
         last = np.flatnonzero(run.counts[1:-1] >= 10)[-1]
-        t = run.edges[last] * np.array([0.1, 1])
-        ax.plot(t, 3 * run.density()[last] * (t / t[-1]) ** -(number + 1.0), "k--", linewidth=1)
-        ax.annotate(f"$t^{{-{number + 1}}}$", (t[0], 3 * run.density()[last] * 10.0 ** (number + 1)))
+        t, end = run.edges[last], run.density()[last] / 4
+        ax.plot([t / 10, t], [end * 10 ** (number + 1), end], "k--", linewidth=1)
+        ax.annotate(f"$t^{{-{number + 1}}}$", (t, end), ha="right", va="top")
     ax.set_xlim(1, None)
     return ax
 

@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._answers import Answers, Floats, Outcome
-from ._first_hit import floats_of
+from ._first_hit import floats_of, vectors_of
 from ._flights import FreePaths
 from ._lorentz import Error
 from ._numbers import Obstacle, finite
@@ -70,10 +70,11 @@ def scene(of: SceneLike, box: Box | None = None, *, ax: Any = None) -> Any:
 
 def flights(of: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, answers: Answers, *, ax: Any = None,
             longest: float = 40.0) -> Any:
-    """Flights of a 2D scene (N at most several hundred) up to their hits. Flights that are longer than
-    ``longest``, or never end, are cut and dashed. Without axes the scene is drawn, too."""
-    starts, velocities = np.reshape(np.asarray(x, float), (-1, 2)), np.reshape(np.asarray(v, float), (-1, 2))
-    if not isinstance(answers, Answers) or not len(answers) == len(starts) == len(velocities):
+    """Flights of a 2D scene (N at most several hundred) up to their hits. ``x`` and ``v`` are those that
+    `lorentz.first_hit` answered, of shape (N, 2) or (2,). Flights that are longer than ``longest``, or never
+    end, are cut and dashed. Without axes the scene is drawn, too."""
+    starts, velocities = vectors_of(x, v, 2)
+    if not isinstance(answers, Answers) or len(answers) != len(starts):
         raise Error(f"answers: needs the Answers to these {len(starts)} queries")
     lengths = np.linalg.norm(velocities, axis=1)
     hits = answers.outcome == Outcome.HIT

@@ -67,6 +67,15 @@ def test_flights_end_where_they_hit(tmp_path):
     assert (tmp_path / "flights.png").stat().st_size > 10_000
 
 
+def test_flights_of_one_start():
+    v = [[1, 0.3], [0.3, 1], [-1, 0.2]]
+    ax = lorentz.plot.flights("square", [0.5, 0.5], v, lorentz.first_hit("square", [0.5, 0.5], v))
+    lines = next(c.get_segments() for c in ax.collections if isinstance(c, matplotlib.collections.LineCollection))
+    assert [line[0].tolist() for line in lines] == [[0.5, 0.5]] * 3
+    with pytest.raises(lorentz.Error, match="answers: needs the Answers to these 3 queries"):
+        lorentz.plot.flights("square", [0.5, 0.5], v, lorentz.first_hit("square", [0.5, 0.5], v[:2]))
+
+
 def test_a_path_goes_through_its_collisions():
     scene = lorentz.Scene("triangular", 0.3)
     x, v, _ = lorentz.draw_starts(scene, 1, seed=SEED)
