@@ -1,5 +1,6 @@
 """The habits that CONTRIBUTING.md drops, counted: english_test.py SOURCE. Each that is meant stands in MEANT."""
 
+import json
 import re
 import subprocess
 import sys
@@ -35,14 +36,24 @@ LANGUAGES = {
         language(r"//[^\n]*(?:\n\s*//[^\n]*)*|/\*.*?\*/", r'R"\w*\(.*?\)\w*"|' + STRING, rf"\b(?:TEST_CASE|test)\(\s*(?:{STRING})"),
     ".py .pyi python3": language(r'#[^\n]*(?:\n\s*#[^\n]*)*|""".*?"""', f"{DOUBLE}|{SINGLE}"),
     ".v .ml": language(r"\(\*.*?\*\)", '"[^"]*"'),
-    ".md .sh .bash .cmake CMakeLists.txt /bin/sh": language(".+"),  # all of it: code of a shell does not look like English
+    ".md .ipynb .sh .bash .cmake CMakeLists.txt /bin/sh": language(".+"),  # all of it: code of a shell does not look like English
 }
 CODE = re.compile(r"^```.*?^```|^\| instead of \|[^\n]*(?:\n\|[^\n]*)*|`[^`\n]*`|\"[^\"\n]*\"", re.DOTALL | re.MULTILINE)
 
 
+def text_of(name):
+    """A file's text. A notebook's is that of its cells of Markdown."""
+    text = (SOURCE / name).read_text(errors="replace")
+    return notebook_text(text) if name.endswith(".ipynb") else text
+
+
+def notebook_text(text):
+    return "\n".join("".join(cell["source"]) for cell in json.loads(text)["cells"] if cell["cell_type"] == "markdown")
+
+
 def prose(name, text):
     """What people read in a file: pieces of its text, each with the number of its first line."""
-    if name.endswith(".md"):
+    if name.endswith((".md", ".ipynb")):
         text = CODE.sub(lambda code: "x" + "\n" * code[0].count("\n"), text)
     end = name if "." in Path(name).name else text.partition("\n")[0]
     for pattern in [pattern for ends, pattern in LANGUAGES.items() if end.endswith(tuple(ends.split()))]:
@@ -63,7 +74,7 @@ class English(unittest.TestCase):
         names, found = [name for name in listed.stdout.split("\0")[:-1] if not NOT_READ.match(name)], []
         self.assertGreater(len(names), 1000)
         for name in names:
-            text = (SOURCE / name).read_text(errors="replace")
+            text = text_of(name)
             found += [f"{name}:{line}: {habit}: {text.splitlines()[line - 1].strip()}" for line, habit in habits(name, text)]
         self.assertLessEqual(len(found), MEANT, "\n" + "\n".join(found))
 
@@ -81,8 +92,11 @@ class English(unittest.TestCase):
                 ("tests/a.py", 'f("Of it")  # Of it\n"""Doc\n\nOf it."""\n', [1, 4]),
                 ("a/run", "#!/usr/bin/env python3\nf('Of it', Of it)", [2]),
                 ("b/run", "#!/bin/sh\n# Of it\necho x # Of it\n", [2, 3]),
-                ("a.v", "Of x. (* Of\nit *)\n", [1]), ("a.md", "```\nOf it\n```\n`Of` Of it\nOf it", [5]), ("a.json", '"Of it"', [])]:
+                ("a.v", "Of x. (* Of\nit *)\n", [1]), ("a.md", "```\nOf it\n```\n`Of` Of it\nOf it", [5]), ("a.ipynb", "It\nOf it", [2]), ("a.json", '"Of it"', [])]:
             self.assertEqual([line for line, _ in habits(name, text)], lines, name)
+        cells = [{"cell_type": "markdown", "source": ["Of it\n", "and"]}, {"cell_type": "code", "source": ["# Of it"]},
+                 {"cell_type": "markdown", "source": ["Of her"]}]
+        self.assertEqual(notebook_text(json.dumps({"cells": cells})), "Of it\nand\nOf her")
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 usage: links_test.py SOURCE [LEAST]; it also fails if there are fewer than LEAST documents (default: 20)
 """
 
+import json
 import re
 import subprocess
 import sys
@@ -12,15 +13,24 @@ ROOT = Path(sys.argv[1]).resolve()
 
 
 def documents():
-    """All Markdown that git knows, or that is there if this is not a clone."""
-    listed = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, stdout=subprocess.PIPE, text=True)
+    """All Markdown and notebooks that git knows, or that are there if this is not a clone."""
+    listed = subprocess.run(["git", "ls-files", "*.md", "*.ipynb"], cwd=ROOT, stdout=subprocess.PIPE, text=True)
     names = listed.stdout.split()
-    return [ROOT / name for name in names] or [f for f in ROOT.rglob("*.md") if "node_modules" not in f.parts]
+    return [ROOT / name for name in names] or [
+        f for end in ("md", "ipynb") for f in ROOT.rglob(f"*.{end}") if "node_modules" not in f.parts]
+
+
+def text_of(document):
+    """A notebook's text is that of its cells of Markdown."""
+    text = document.read_text()
+    if document.suffix != ".ipynb":
+        return text
+    return "\n".join("".join(cell["source"]) for cell in json.loads(text)["cells"] if cell["cell_type"] == "markdown")
 
 
 def prose_of(document):
     """Without code blocks."""
-    return re.sub(r"^```.*?^```", "", document.read_text(), flags=re.M | re.S)
+    return re.sub(r"^```.*?^```", "", text_of(document), flags=re.M | re.S)
 
 
 def anchors_of(document):
@@ -37,7 +47,7 @@ def broken_links(document):
         file = (document.parent / path).resolve() if path else document
         if not file.exists():
             yield f"{document.relative_to(ROOT)}: no {path}"
-        elif anchor and file.suffix == ".md" and anchor not in anchors_of(file):
+        elif anchor and file.suffix in (".md", ".ipynb") and anchor not in anchors_of(file):
             yield f"{document.relative_to(ROOT)}: {path} has no heading #{anchor}"
 
 
