@@ -12,7 +12,7 @@ picture; without it a picture raises ImportError.
 from __future__ import annotations
 
 from itertools import product
-from typing import TYPE_CHECKING, Any, Callable, Iterator, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -73,7 +73,7 @@ def flights(of: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, answers: Answers,
     """Flights of a 2D scene (N at most several hundred) up to their hits. ``x`` and ``v`` are those that
     `lorentz.first_hit` answered, of shape (N, 2) or (2,). Flights that are longer than ``longest``, or never
     end, are cut and dashed. Without axes the scene is drawn, too."""
-    starts, velocities = vectors_of(x, v, 2)
+    starts, velocities = vectors_of(x, v, _flat(of).dimension)
     if not isinstance(answers, Answers) or len(answers) != len(starts):
         raise Error(f"answers: needs the Answers to these {len(starts)} queries")
     lengths = np.linalg.norm(velocities, axis=1)
@@ -139,7 +139,11 @@ def density(runs: Runs, *, ax: Any = None) -> Any:
     1 +- 1/sqrt(n). The bar of a single flight, if there are no more, reaches down to the axis. The horizontal
     bar is the width of the bin. Laws are averaged over the same bins (`FreePaths.laws`).
 
-    Raises Error if ``runs`` are not results of `lorentz.flights`.
+    Args:
+        runs: a result of `lorentz.flights`, or several. Lengths are in the unit of their scenes.
+        ax: the axes to draw into; a title that they have stays. None: new ones.
+
+    Returns the axes. Raises Error if ``runs`` are not results of `lorentz.flights`.
     """
     labelled, title = _labelled(runs)
     ax = _logarithmic(ax)
@@ -204,7 +208,7 @@ def _cuts(run: FreePaths) -> npt.NDArray[np.int64]:
 def _labelled(runs: Runs) -> tuple[list[tuple[FreePaths, str]], str]:
     """Each run with its label: scene, radius, start, seed, engine, as far as they differ, or the number of
     flights; and a title: scene, radius and start as far as they do not."""
-    several = [runs] if isinstance(runs, FreePaths) else list(runs)
+    several = [runs] if isinstance(runs, FreePaths) or not isinstance(runs, Iterable) else list(runs)
     if not several or not all(isinstance(run, FreePaths) for run in several):
         raise Error("runs: needs what lorentz.flights returns, one or a list")
     facts = [_facts(run, number) for number, run in enumerate(several, 1)]

@@ -207,11 +207,12 @@ def test_statistics_of_trajectories(tmp_path):
 def test_what_cannot_be_drawn():
     for draw, name in ((lorentz.plot.displacements, "found"), (lorentz.plot.density, "runs"),
                        (lorentz.plot.survival_function, "runs")):
-        for odd in ([], [1], {"a": 1}):
+        for odd in ([], [1], {"a": 1}, 5, None):
             with pytest.raises(lorentz.Error, match=f"{name}: needs what lorentz"):
                 draw(odd)
-    with pytest.raises(lorentz.Error, match="two dimensions"):
-        lorentz.plot.scene("cubic")
+    for draw in (lambda: lorentz.plot.scene("cubic"), lambda: lorentz.plot.flights("cubic", [0, 0, 0.5], [1, 0, 0], None)):
+        with pytest.raises(lorentz.Error, match="two dimensions"):
+            draw()
     with pytest.raises(lorentz.Error, match="smaller"):
         lorentz.plot.scene("square", (0, 1e6, 0, 1e6))
 
