@@ -117,7 +117,7 @@ export function plot(options) {
     ],
     style:
       "background: transparent; overflow: visible; font-family: inherit; font-size: 12px; color: inherit",
-    marginLeft: options.marginLeft ?? 62,
+    marginLeft: options.marginLeft ?? 72,
     marginRight: 16,
     marginBottom: 44,
     marginTop: 16,
