@@ -159,5 +159,5 @@ function said(all, by) {
     return `${count(answers)} answers; wrong ones from ${tick(wrong[0].decade)} to ${tick(wrong.at(-1).decade + 1)}.`;
   const edge = wrong.at(-1).decade + 1;
   const beyond = all.filter((call) => call.decade >= edge).reduce((sum, call) => sum + totalOf(call), 0);
-  return `${count(answers)} answers; wrong ones only where the obstacle is met or missed by less than ${edge === 1 ? "a radius" : `${tick(edge)} radii`}${beyond ? `, none of the ${count(beyond)} beyond` : ""}.`;
+  return `${count(answers)} answers; wrong ones only where the obstacle is met or missed by less than ${edge === 0 ? "a radius" : `${tick(edge)} radii`}${beyond ? `, none of the ${count(beyond)} beyond` : ""}.`;
 }
