@@ -79,7 +79,7 @@ std::shared_ptr<CardAnswers> first_hits(const oracle::CertifiedBatch& engine, in
 
 // A column as its users' libraries take it, and a copy of it here.
 template <class T>
-py::tuple column(const CardAnswers& answers, T* CardAnswers::*which, std::size_t columns = 1) {
+py::tuple card_column(const CardAnswers& answers, T* CardAnswers::*which, std::size_t columns = 1) {
   std::vector<py::ssize_t> shape;
   if (columns > 1) shape.push_back(static_cast<py::ssize_t>(columns));
   shape.push_back(static_cast<py::ssize_t>(answers.count()));
@@ -98,12 +98,12 @@ void bind_card(py::module_& module) {
       .def_property_readonly("count", &CardAnswers::count)
       .def_property_readonly("dimension", &CardAnswers::dimension)
       .def_readonly("errors", &CardAnswers::errors)
-      .def("outcome", [](const CardAnswers& its) { return column(its, &CardAnswers::outcome); })
-      .def("lattice", [](const CardAnswers& its) { return column(its, &CardAnswers::lattice); })
-      .def("atom", [](const CardAnswers& its) { return column(its, &CardAnswers::atom); })
-      .def("time", [](const CardAnswers& its) { return column(its, &CardAnswers::time); })
+      .def("outcome", [](const CardAnswers& its) { return card_column(its, &CardAnswers::outcome); })
+      .def("lattice", [](const CardAnswers& its) { return card_column(its, &CardAnswers::lattice); })
+      .def("atom", [](const CardAnswers& its) { return card_column(its, &CardAnswers::atom); })
+      .def("time", [](const CardAnswers& its) { return card_column(its, &CardAnswers::time); })
       .def("cell", [](const CardAnswers& its) {
-        return column(its, &CardAnswers::cell, static_cast<std::size_t>(its.dimension()));
+        return card_column(its, &CardAnswers::cell, static_cast<std::size_t>(its.dimension()));
       });
   py::class_<oracle::CertifiedBatch>(module, "CardEngine")
       .def(py::init(
