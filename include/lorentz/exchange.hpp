@@ -86,7 +86,10 @@ class ExchangeReader {
 /// place.
 Scene read_scene_file(const std::string& path, const OnUnknownKey& on_unknown_key = {});
 
-/// The same for a scene whose numbers may be strings with rational numbers (rational_from).
+/// The same for the text of such a file, whose place is the line, or the key.
+Scene read_scene_text(const std::string& text, const OnUnknownKey& on_unknown_key = {});
+
+/// The same for a scene file whose numbers may be strings with rational numbers (rational_from).
 RationalScene read_rational_scene_file(const std::string& path, const OnUnknownKey& on_unknown_key = {});
 
 /// Append a line, with its line end. `components` is the scene, or its dimension if all lattices are

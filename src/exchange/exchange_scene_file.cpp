@@ -83,18 +83,26 @@ std::string text_of(const std::string& path) {
 }
 
 template <class AScene>
+AScene read_text(const std::string& text, const OnUnknownKey& on_unknown_key) {
+  const auto first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) throw InputError("is empty: a scene needs dimension and lattices");
+  return scene_from<AScene>(text[first] == '{' ? parse_json(text) : parse_toml(text), on_unknown_key);
+}
+
+template <class AScene>
 AScene read(const std::string& path, const OnUnknownKey& on_unknown_key) {
   try {
-    const std::string text = text_of(path);
-    const auto first = text.find_first_not_of(" \t\r\n");
-    if (first == std::string::npos) throw InputError("is empty: a scene needs dimension and lattices");
-    return scene_from<AScene>(text[first] == '{' ? parse_json(text) : parse_toml(text), on_unknown_key);
+    return read_text<AScene>(text_of(path), on_unknown_key);
   } catch (const InputError& error) {
     throw InputError(path + ": " + error.what());
   }
 }
 
 }  // namespace
+
+Scene read_scene_text(const std::string& text, const OnUnknownKey& on_unknown_key) {
+  return read_text<Scene>(text, on_unknown_key);
+}
 
 Scene read_scene_file(const std::string& path, const OnUnknownKey& on_unknown_key) {
   return read<Scene>(path, on_unknown_key);
