@@ -1,9 +1,9 @@
 # Installing: `cmake --install build --prefix P`, then in another project
-#   find_package(lorentz REQUIRED COMPONENTS engine batch oracle certified_batch itinerary exchange)
+#   find_package(lorentz REQUIRED COMPONENTS engine batch oracle certified_batch itinerary exchange c)
 #   target_link_libraries(.. lorentz::engine lorentz::batch lorentz::oracle lorentz::certified lorentz::walk lorentz::exchange)
 # One export set a component, because they differ in what they need: `engine` the standard library, `batch` Highway,
 # `oracle` GMP (linked; Boost's and CGAL's headers only to build it), `certified_batch` those two, `itinerary` Arb besides,
-# `exchange` simdjson and toml++. What is installed is in three parts (--component): `program`, `development`, and `python`.
+# `exchange` simdjson and toml++, `c` nothing to link. What is installed is in three parts (--component): `program`, `development`, and `python`.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(LORENTZ_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/lorentz)
@@ -24,6 +24,8 @@ set(LORENTZ_CERTIFIED_BATCH_TARGETS lorentz_certified_batch)
 set(LORENTZ_CERTIFIED_BATCH_HEADERS certified_batch)
 set(LORENTZ_ITINERARY_TARGETS lorentz_itinerary)
 set(LORENTZ_ITINERARY_HEADERS itinerary)
+set(LORENTZ_C_TARGETS lorentz_c)
+set(LORENTZ_C_HEADERS "")
 
 function(lorentz_install_component component)
   string(TOUPPER ${component} upper)
@@ -45,7 +47,11 @@ function(lorentz_install_pkg_config component requires)  # and linker options fo
   set(targets ${LORENTZ_${upper}_TARGETS})
   list(REVERSE targets)
   foreach(target ${targets})
-    string(APPEND libs " -l${target}")
+    get_target_property(name ${target} OUTPUT_NAME)
+    if(NOT name)
+      set(name ${target})
+    endif()
+    string(APPEND libs " -l${name}")
   endforeach()
   set(LORENTZ_PC_NAME lorentz-${component})
   set(LORENTZ_PC_LIBS "${libs} ${ARGN}")
@@ -77,8 +83,12 @@ if(TARGET lorentz_certified_batch)
   lorentz_install_component(certified_batch)
   lorentz_install_pkg_config(certified_batch "lorentz-batch lorentz-oracle")
 endif()
-# For authors of `lib:` engines: plain C, by itself.
-install(FILES ${PROJECT_SOURCE_DIR}/include/lorentz/engine.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lorentz
+if(TARGET lorentz_c)
+  lorentz_install_component(c)
+  lorentz_install_pkg_config(c "")
+endif()
+# For authors of `lib:` engines: plain C, by itself. The library for C takes its columns from there.
+install(FILES ${PROJECT_SOURCE_DIR}/include/lorentz/engine.h ${PROJECT_SOURCE_DIR}/include/lorentz/lorentz.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lorentz
   COMPONENT development)
 if(TARGET lorentz)
   install(TARGETS lorentz RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)

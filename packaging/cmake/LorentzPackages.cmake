@@ -41,9 +41,10 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # The archives are static: what they call has to be there to link with.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libstdc++-12-dev | libstdc++-dev, libhwy-dev, libgmp-dev, libflint-arb-dev, libsimdjson-dev, libtomlplusplus-dev, pkgconf")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS ON)  # of the library for C
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers and static libraries for C++: a fast engine that knows when it does
 not know, batches in vectors, an oracle in exact arithmetic, certified
-trajectories.")
+trajectories. One shared library for C, and for languages that call C.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-lorentz)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
