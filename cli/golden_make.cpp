@@ -139,7 +139,7 @@ void check_folder(const fs::path& folder) {
         skip(value);
       });
       return has_sets;
-    } catch (const json::Error&) {
+    } catch (const NotJson&) {
       return false;
     }
   };

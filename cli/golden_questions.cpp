@@ -35,7 +35,7 @@ std::vector<std::string> tags_in_line(const GivenQuery& given, const std::string
       if (key != "tags") return skip(value);
       json::each_element(value, [&](json::Value tag) { tags.emplace_back(tag.text()); });
     });
-  } catch (const json::Error&) {
+  } catch (const NotJson&) {
     throw InputError(fmt::format("{}: query {}: tags: expected a list of texts", name, given.id));
   }
   for (const std::string& tag : tags)

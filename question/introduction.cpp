@@ -28,8 +28,6 @@ bool read_first(std::string_view line, std::string_view key, const Read& read) {
       name == key ? json::each_member(value, read) : skip(value);
     });
     return true;
-  } catch (const json::Error& error) {
-    throw InputError(fmt::format("{}: {}", key, error.what()));
   } catch (const NotJson& error) {
     throw InputError(fmt::format("{}: {}", key, error.what()));
   }

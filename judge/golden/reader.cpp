@@ -219,8 +219,6 @@ struct Reader::Impl {
     const std::string place = lines.name() + ':' + std::to_string(line.number) + ": ";
     try {
       read();
-    } catch (const json::Error& error) {
-      throw InputError(place + "not JSON as it should be: " + error.what());
     } catch (const NotJson& error) {
       throw InputError(place + "not JSON: " + error.what());
     } catch (const InputError& error) {
@@ -261,8 +259,6 @@ struct Reader::Impl {
                        asked.emplace_back(key);
                        skip(value);
                      });
-    } catch (const json::Error&) {
-      throw InputError(kOrder);
     } catch (const NotJson&) {
       throw InputError(kOrder);
     }

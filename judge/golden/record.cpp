@@ -83,7 +83,7 @@ std::string question_in(std::string_view line) {
       question += (question.empty() ? "" : ",") + json_quoted(key) + ':' + value.raw();
     });
     return document.ended() ? question : "";
-  } catch (const std::runtime_error&) {  // InputError, NotJson, json::Error
+  } catch (const std::runtime_error&) {  // InputError, NotJson
     return "";
   }
 }

@@ -46,7 +46,7 @@ ondemand::value& inside(Value value) {
 template <class T>
 T known(simdjson::simdjson_result<T>&& result) {
   T value{};
-  if (const auto error = std::move(result).get(value)) throw Error(simdjson::error_message(error));
+  if (const auto error = std::move(result).get(value)) throw NotJson(simdjson::error_message(error));
   return value;
 }
 template <class T>
@@ -246,7 +246,7 @@ void skip(json::Value value, int depth) {
       (void)value.boolean();
       break;
     case json::Type::null:
-      if (!value.is_null()) throw json::Error(simdjson::error_message(simdjson::N_ATOM_ERROR));
+      if (!value.is_null()) throw NotJson(simdjson::error_message(simdjson::N_ATOM_ERROR));
       break;
   }
 }

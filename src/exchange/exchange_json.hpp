@@ -17,8 +17,8 @@
 
 namespace lorentz {
 
-/// A text that is not JSON. This is not an InputError, because a reader can go on after a bad value, but not
-/// after a text that is not JSON.
+/// A text that is not JSON, or has a value of another type or no member where one is needed. This is not an
+/// InputError, because a reader can go on after a bad value, but not after a text that is not JSON.
 struct NotJson : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -31,14 +31,9 @@ struct KeyTwice : InputError {
 
 namespace json {
 
-/// An error of simdjson: the text is not JSON, a value has another type, or a member is missing.
-struct Error : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 enum class Type { array, object, number, string, boolean, null };
 
-/// A value of a document, for the call that gets it. All but type() and is_null() throw Error if the value is of
+/// A value of a document, for the call that gets it. All but type() and is_null() throw NotJson if the value is of
 /// another type; each may be called once.
 class Value {
  public:

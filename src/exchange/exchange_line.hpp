@@ -59,7 +59,7 @@ struct ExchangeReader::Impl {
   json::Document document;
   OnUnknownKey on_unknown_key;
 
-  /// The line's object. Throws InputError or simdjson's error if the line is not an object; every line of a
+  /// The line's object. Throws InputError or NotJson if the line is not an object; every line of a
   /// stream is one.
   json::Value open(const LineReader::Line& line);
   /// Throws NotJson if something follows the object in the line.
@@ -127,8 +127,6 @@ struct ExchangeReader::Impl {
     };
     try {
       read_fields<Fields>(line, scene, item);
-    } catch (const json::Error& error) {
-      bad(not_json(line, error.what()));
     } catch (const NotJson& error) {
       bad(not_json(line, error.what()));
     } catch (const InputError& error) {

@@ -132,8 +132,6 @@ bool ExchangeReader::read_answer_line(const LineReader::Line& line, Id& id, Answ
     const bool is_answer = read_answer(impl_->open(line), id, answer, components, impl_->on_unknown_key);
     impl_->close();
     return is_answer;
-  } catch (const json::Error& error) {
-    throw InputError(not_json(line, error.what()));
   } catch (const NotJson& error) {
     throw InputError(not_json(line, error.what()));
   }

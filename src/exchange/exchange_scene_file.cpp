@@ -51,22 +51,17 @@ SceneNode parse_json(const std::string& text) {
   json::Document document;
   try {
     document.open(text);
-  } catch (const json::Error& error) {  // a document that was not begun must not be asked for its line
+  } catch (const NotJson& error) {  // a document that was not begun must not be asked for its line
     throw InputError(std::string("not JSON: ") + error.what());
   }
-  const auto not_json = [&](const char* why) {
-    const auto line = document.line();
-    return InputError((line ? "line " + std::to_string(*line) + ": " : "") + "not JSON: " + why);
-  };
   try {
     SceneNode node = read_node(document.value(), "scene", 0);
     if (!document.ended()) throw NotJson("more than one value");
     const SceneNode* inner = node.member("scene");
     return inner ? SceneNode(*inner) : node;
-  } catch (const json::Error& error) {
-    throw not_json(error.what());
   } catch (const NotJson& error) {
-    throw not_json(error.what());
+    const auto line = document.line();
+    throw InputError((line ? "line " + std::to_string(*line) + ": " : "") + "not JSON: " + error.what());
   }
 }
 

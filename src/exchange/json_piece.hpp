@@ -95,7 +95,7 @@ void read_piece(Value value, T& out) {
       ++next;
     });
     if (next != std::tuple_size_v<std::remove_reference_t<decltype(members)>>)
-      throw Error("a piece of another version");
+      throw NotJson("a piece of another version");
   }
 }
 
@@ -113,7 +113,7 @@ void read_piece(std::string_view piece, T&& out) {
     Document document;
     document.open(piece);
     read_piece(document.value(), out);
-  } catch (const std::runtime_error& error) {  // InputError, NotJson, json::Error
+  } catch (const std::runtime_error& error) {  // InputError, NotJson
     throw InputError(std::string("is not a piece of such a run: ") + error.what());
   }
 }
