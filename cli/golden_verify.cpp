@@ -1,5 +1,4 @@
 // lorentz golden verify: checks that the certificates of sets prove their answers.
-#include <algorithm>
 #include <set>
 
 #include <lorentz/exchange.hpp>

@@ -2,7 +2,6 @@
 #include "cli/app.hpp"
 
 #include <filesystem>
-#include <sstream>
 
 #include <lorentz/exchange.hpp>
 #include <lorentz/geometry.hpp>

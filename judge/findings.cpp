@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <functional>
 #include <tuple>
 
 #include "fuzz/campaign/shrink.hpp"

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <span>
 
 #include <lorentz/exchange.hpp>
 #include "judge/simplest.hpp"

@@ -1,7 +1,6 @@
 #include "judge/judge_report.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <future>
 
 #include <fmt/format.h>

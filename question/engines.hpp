@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <lorentz/answer.hpp>
-#include <lorentz/oracle.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 #include "question/answerer.hpp"

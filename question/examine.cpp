@@ -1,6 +1,5 @@
 #include "question/examine.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <future>

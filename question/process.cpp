@@ -21,8 +21,6 @@
 #include <mutex>
 #include <thread>
 
-#include <lorentz/errors.hpp>
-
 extern char** environ;
 
 namespace lorentz::question {

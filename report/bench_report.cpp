@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include <lorentz/exchange.hpp>
 #include "report/claim_words.hpp"

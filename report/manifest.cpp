@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <sys/utsname.h>
 
-#include <chrono>
 #include <ctime>
 #include <fstream>
 #include <thread>

@@ -1,6 +1,5 @@
 // Other coordinates, units and names for a scene, and one more dimension.
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include "fuzz/campaign/exact_sums.hpp"

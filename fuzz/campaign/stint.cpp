@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <deque>
 #include <set>
 #include <tuple>
 
 #include <lorentz/geometry.hpp>
-#include <lorentz/margin.hpp>
 #include "fuzz/campaign/rewording.hpp"
 #include "fuzz/campaign/variants.hpp"
 

@@ -1,7 +1,6 @@
 #include "fuzz/campaign/store.hpp"
 
 #include <algorithm>
-#include <string>
 
 #include "fuzz/campaign/stint.hpp"
 #include "report/runs/piece_store.hpp"

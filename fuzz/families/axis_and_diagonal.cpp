@@ -4,7 +4,6 @@
 // Velocities are subnormal or near overflow, so that their squares leave the range. All numbers are exact, so
 // every formula that divides by a component, takes the floor of a coordinate, or squares a velocity meets its
 // worst arguments.
-#include <cmath>
 
 #include <lorentz/geometry.hpp>
 #include "fuzz/families/family.hpp"

@@ -5,7 +5,6 @@
 //
 // With A the semiaxes, v = A w and a unit vector n at a right angle to w, the line through p + A n along v
 // touches the ellipsoid { p + A y : |y| < 1 }.
-#include <cmath>
 
 #include <lorentz/geometry.hpp>
 #include "fuzz/families/family.hpp"

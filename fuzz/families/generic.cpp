@@ -1,7 +1,6 @@
 // generic-2d, generic-3d: not aimed at anything. Uniform starts in the free part of a cell, isotropic
 // directions, radii from 0.3 down to 1e-6. Among n such queries the one nearest to a wrong decision has a
 // relative margin of 1/n. They show what is often wrong, and measure how much harder the other families are.
-#include <cmath>
 #include <iterator>
 
 #include "fuzz/families/family.hpp"

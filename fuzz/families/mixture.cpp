@@ -2,7 +2,6 @@
 // many cells, and some are 2^13 times as long as wide. An engine that keeps lists by lattice, by atom and by
 // shape has to keep them apart here. If obstacles of many cells contain the start, the answer is the smallest
 // of a thousand.
-#include <cmath>
 
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>

@@ -5,7 +5,6 @@
 // most steps. In space v ~ a g_1 + b g_2 lies near a lattice plane, at distance 1 / |g_1 x g_2| from the
 // next. Radii bring the corridors (channels) of g within 2^-10 to 2^-50 of closing, relatively, or close them
 // by as much.
-#include <cmath>
 #include <utility>
 
 #include <lorentz/geometry.hpp>

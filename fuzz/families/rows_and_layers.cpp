@@ -3,7 +3,6 @@
 // A row or a layer is cut from a crystal: it keeps the first primitive vectors. Its hard cases differ from
 // those of a crystal, where something is always hit in the end. A flight beside a row is long, and one away
 // from it hits nothing. A flight in the plane of a layer is a flight in two dimensions, exactly or nearly.
-#include <cmath>
 
 #include <lorentz/geometry.hpp>
 #include "fuzz/families/family.hpp"

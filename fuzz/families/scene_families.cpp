@@ -7,7 +7,6 @@
 // An ellipsoid is a ball in another metric: slender ones stretch the cell by as much as they are slender, and
 // a poorly reduced cell then loses digits. Grazing flights are drawn ones that are moved across until the
 // first obstacle is passed or met within 2^-10 to 2^-50 of its size from its edge.
-#include <cmath>
 
 #include <lorentz/geometry.hpp>
 #include "fuzz/families/family.hpp"

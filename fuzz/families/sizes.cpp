@@ -4,7 +4,6 @@
 // dimensions take turns, and so do the octaves of each, by steps that have no common factor with their
 // number. The first few scenes are then as widely spread as possible, and no octave comes twice before each
 // has come once.
-#include <cmath>
 
 #include <lorentz/geometry.hpp>
 #include "fuzz/families/family.hpp"

@@ -12,7 +12,6 @@
 // (s - q) / v^2. These two numbers are nearly equal; (d^2 - r^2) / (s + q) loses nothing. The difference
 // loses a roundoff of the radius, half of what an ulp in the start may change. So only a tolerance of less
 // than an ulp tells the two formulas apart.
-#include <array>
 #include <cmath>
 
 #include <lorentz/geometry.hpp>

@@ -3,7 +3,6 @@
 // are differences of terms 2^24 times as large, and a bound that is right for discs is too small by the
 // condition number. The line passes the obstacle's end, or its flank, from which it leans away by 2^-40 to
 // 2^-4.
-#include <cmath>
 
 #include <lorentz/geometry.hpp>
 #include "fuzz/families/family.hpp"

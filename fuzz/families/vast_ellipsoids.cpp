@@ -1,7 +1,6 @@
 // vast-ellipsoids: tilted ellipsoids of hundreds to thousands of cells; nearly every start is in many of
 // them. The answer is the smallest of those that contain it. An engine that finds it without looking at all
 // of them walks the rows of the lattice in order, and has to see lattice and start in the same coordinates.
-#include <cmath>
 
 #include <lorentz/geometry.hpp>
 #include "fuzz/families/family.hpp"

@@ -1,7 +1,6 @@
 #include <lorentz/prover.hpp>
 
 #include <algorithm>
-#include <stdexcept>
 #include <variant>
 
 #include <lorentz/errors.hpp>

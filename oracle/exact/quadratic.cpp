@@ -1,7 +1,6 @@
 #include "oracle/exact/quadratic.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "oracle/integers/dyadic.hpp"

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <compare>
-#include <stdexcept>
 #include <string>
 #include <utility>
 

@@ -1,9 +1,7 @@
 #include "oracle/exact/stretches.hpp"
 
-#include <optional>
 #include <vector>
 
-#include "oracle/exact/exact_line.hpp"
 #include "oracle/exact/short_basis.hpp"
 
 namespace lorentz::oracle {

@@ -1,7 +1,6 @@
 #include "oracle/margin/perturbation.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <lorentz/errors.hpp>
 #include <lorentz/margin.hpp>

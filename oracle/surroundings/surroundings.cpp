@@ -2,7 +2,6 @@
 // obstacles around them are enumerated exactly.
 #include <lorentz/surroundings.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <variant>

@@ -1,7 +1,5 @@
 #include "question/starts/surface.hpp"
 
-#include <cmath>
-
 #include <lorentz/geometry.hpp>
 #include "src/problem/scene_geometry.hpp"
 

@@ -1,7 +1,5 @@
 #include "question/starts/varied_starts.hpp"
 
-#include <cmath>
-
 #include <lorentz/geometry.hpp>
 
 namespace lorentz::starts {

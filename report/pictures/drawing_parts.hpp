@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 #include <set>
 #include <string>

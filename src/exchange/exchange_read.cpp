@@ -1,6 +1,4 @@
 // Lines of query and answer streams.
-#include <algorithm>
-#include <cmath>
 
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_line.hpp"

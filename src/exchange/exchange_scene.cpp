@@ -1,9 +1,7 @@
 #include "src/exchange/exchange_scene.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_number.hpp"
 
 namespace lorentz {

@@ -1,8 +1,6 @@
 // Scene files: TOML, or JSON with the same keys.
 #include <toml++/toml.h>
 
-#include <algorithm>
-
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_json.hpp"
 

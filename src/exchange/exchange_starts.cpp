@@ -1,6 +1,5 @@
 // Lines of streams of starts: like queries, but with numbers that may be rational, and directions that may be
 // irrational.
-#include <algorithm>
 
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_line.hpp"

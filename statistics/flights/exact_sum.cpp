@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
-#include <stdexcept>
 
 namespace lorentz::flights {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "question/engines.hpp"
 #include "src/exchange/exchange_number.hpp"
 
 namespace lorentz::rival {

@@ -1,7 +1,6 @@
 // The problem of a certificate in integers: a flight as each atom sees it. Private to certificate_check.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <limits>
-#include <memory>
 
 #include <lorentz/engine_base.hpp>
 #include <lorentz/reduction.hpp>
