@@ -82,8 +82,9 @@ void check(const lorentz_queries& queries, const QueryColumns& columns, const lo
   if (queries.count > 0 && !answers.outcome) throw InputError("the column outcome is missing");
   for (const ArithmeticCheck& check : arithmetic_checks())
     if (!check.fit)
-      throw InputError(fmt::format("this thread's floating point: {} is {}, needs {}", check.name,
-                                   check.found, check.expected));
+      throw InputError(
+          fmt::format("the arithmetic of this thread is unfit: {}: {}, not {}; link without -ffast-math",
+                      check.name, check.found, check.expected));
 }
 
 void ask(lorentz_asker& asker, const QueryColumns& some) {

@@ -21,7 +21,7 @@ extern "C" {
 enum {
   LORENTZ_LATER = 5,  /* enters no obstacle before max_time */
   LORENTZ_FAR = 6,    /* as a hit or inside; the cell is beyond 64 bits */
-  LORENTZ_INVALID = 7 /* is no query: lorentz_why says why */
+  LORENTZ_INVALID = 7 /* the row is not a query: lorentz_why says why */
 };
 
 /* What lorentz_first_hits returns. */
@@ -29,7 +29,7 @@ enum {
   LORENTZ_DONE = 0,     /* all queries are answered */
   LORENTZ_BAD_ROWS = 1, /* all but those with the outcome LORENTZ_INVALID; lorentz_why tells of the first */
   LORENTZ_REFUSED = 2,  /* nothing is answered: lorentz_why tells what to change */
-  LORENTZ_FAILED = 3    /* memory or a device failed: what the answers hold is no answer */
+  LORENTZ_FAILED = 3    /* memory or a device failed: ignore what was written */
 };
 
 /* A scene, an engine, and what was wrong with the last call. */
@@ -55,7 +55,7 @@ LORENTZ_ENGINE_EXPORT int32_t lorentz_first_hits(lorentz_asker* asker, const lor
  * the next call with this asker. */
 LORENTZ_ENGINE_EXPORT const char* lorentz_why(const lorentz_asker* asker);
 
-/* Frees the asker; NULL is no mistake. */
+/* Frees the asker; does nothing for NULL. */
 LORENTZ_ENGINE_EXPORT void lorentz_close(lorentz_asker* asker);
 
 #ifdef __cplusplus

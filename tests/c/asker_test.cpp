@@ -1,6 +1,7 @@
 // <lorentz/lorentz.h> as a program in C sees it: exact answers, each error, threads.
 #include <lorentz/lorentz.h>
 #include <catch2/catch.hpp>
+#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -231,6 +232,11 @@ TEST_CASE("From C: scenes and engines that are refused, with the place", "[c]") 
       refusal(
           R"({"dimension":2,"lattices":[{"vectors":[[1,0],[2,0]],"atoms":[{"position":[0,0],"radius":1}]}]})"),
       Contains("linearly dependent"));
+  CHECK_THAT(
+      refusal(
+          R"({"dimension":2,"lattices":[{"vectors":[[1,0],[2,0]],"atoms":[{"position":[0,0],"radius":1}]}]})",
+          "reduction"),
+      Contains("linearly dependent"));
   CHECK_THAT(refusal(kSquare, "orcale"),
              Contains("engine: \"orcale\" is not one of classical") && Contains("oracle, walk"));
   CHECK_THAT(refusal(kSquare, "cmd:./mine"), Contains("cmd:./mine"));
@@ -242,7 +248,7 @@ TEST_CASE("From C: scenes and engines that are refused, with the place", "[c]") 
   CHECK(lorentz_interface() == LORENTZ_INTERFACE);
 }
 
-TEST_CASE("From C: a row that is no query is named, and the others are answered", "[c]") {
+TEST_CASE("From C: a row that is not a query is named, and the others are answered", "[c]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Query good{{0.5, 0.5, 0}, {1, 1e-3, 0}, {}};
   const Asker asker = asker_for(kSquare);
@@ -291,6 +297,17 @@ TEST_CASE("From C: columns that are missing are named", "[c]") {
   const lorentz_queries queries = columns.queries();
   CHECK(lorentz_first_hits(asker.get(), &queries, nullptr, nullptr) == LORENTZ_REFUSED);
   CHECK(why(asker) == "queries and answers: must not be NULL");
+}
+
+TEST_CASE("From C: arithmetic that would void the answers is refused", "[c]") {
+  const Asker asker = asker_for(kSquare);
+  Columns columns;
+  columns.add({{0.5, 0.5, 0}, {1, 1e-3, 0}, {}});
+  std::fesetround(FE_UPWARD);
+  const std::int32_t status = columns.ask(asker);
+  std::fesetround(FE_TONEAREST);
+  CHECK(status == LORENTZ_REFUSED);
+  CHECK_THAT(why(asker), Catch::Contains("rounding mode: upward, not to nearest"));
 }
 
 TEST_CASE("From C: several threads, each with an asker", "[c][threads]") {
