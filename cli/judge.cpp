@@ -1,6 +1,4 @@
 // lorentz judge: the full report of this program on one engine, and a verdict.
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,5 @@
 #include "statistics/flights/card_flights.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <type_traits>

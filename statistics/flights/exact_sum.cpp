@@ -1,7 +1,5 @@
 #include "statistics/flights/exact_sum.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
