@@ -22,10 +22,6 @@ static_assert(std::size(kPartTimes) == static_cast<std::size_t>(JudgePart::speed
 // The largest number of flights of a drawn row; a hard row in the same scenes has twice as many.
 constexpr std::size_t kDrawn = 4000, kDrawnQuickly = 500;
 
-std::size_t number_of_flights(const JudgeOrder& order) {
-  return order.questions ? *order.questions : order.quick ? kDrawnQuickly : kDrawn;
-}
-
 // The scenes of the catalogue that are examined, and their radii; scenes without radii keep their own sizes.
 using Scenery = std::pair<const char*, std::vector<double>>;
 const std::vector<Scenery> kSceneries{{"square", {0.3, 0.1, 0.01, 0.001, 1e-6}},
@@ -96,7 +92,7 @@ constexpr const char* kRetold[] = {"square, r = 0.1", "square, r = 0.01", "cubic
 // golden sets.
 JudgePlan::JudgePlan(const JudgeOrder& order) : order_(order) {
   for (const Scenery& scenery : kSceneries) sceneries_.push_back(places_of(scenery, order_.claim));
-  const std::size_t number = number_of_flights(order_);
+  const std::size_t number = order_.questions.value_or(order_.quick ? kDrawnQuickly : kDrawn);
   for (const auto& scenery : sceneries_) places_.insert(places_.end(), scenery.begin(), scenery.end());
   for (const char* name : kRetold)
     plain_places_.push_back(*std::ranges::find(places_, name, &NamedPlace::name));

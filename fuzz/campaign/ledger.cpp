@@ -34,10 +34,6 @@ double most_shrinking(const Plan& plan, const Bounds& bounds, std::size_t thread
   return std::min(kShareOfOne * of_target, kMostSecondsOfOne);
 }
 
-bool is_wrong(int rank) {
-  return rank < rank_of(name_of(Kind::undecided).words);
-}
-
 }  // namespace
 
 Ledger::Ledger(const Plan& plan, const Bounds& bounds, std::size_t threads, std::vector<TargetTally>& tallies,
@@ -87,7 +83,8 @@ Ledger::Queue* Ledger::next_queue() {
 
 bool Ledger::shrinks_next(const Queue& queue) const {
   if (queue.due.empty() || !has_cases(queue)) return !queue.due.empty();
-  const double share = is_wrong(queue.due.begin()->first) ? kShareOfWrong : kShareOfOthers;
+  const double share =
+      queue.due.begin()->first < rank_of(name_of(Kind::undecided).words) ? kShareOfWrong : kShareOfOthers;
   return queue.in_shrinking == 0 && queue.shrinking_seconds <= share * queue.seconds;
 }
 

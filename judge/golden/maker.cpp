@@ -194,11 +194,6 @@ double smallest_radius(const Scene& scene) {
   return smallest;
 }
 
-// The sine of the angle between two vectors; NaN for a zero vector.
-double sine_between(const Vec& a, const Vec& b) {
-  return length(cross(a, b)) / length(a) / length(b);
-}
-
 // True if v is along a small vector of a lattice, or nearly.
 bool is_near_rational(const Scene& scene, const Vec& v) {
   for (const Lattice& lattice : scene.lattices) {
@@ -211,7 +206,8 @@ bool is_near_rational(const Scene& scene, const Vec& v) {
           Vec sum{};
           const std::array<int, 3> n{i, j, k};
           for (int m = 0; m < rank; ++m) sum = plus(sum, n[m], lattice.vectors[m]);
-          if (sine_between(sum, v) < kNear) return true;
+          const double sine = length(cross(sum, v)) / length(sum) / length(v);  // NaN for a zero vector
+          if (sine < kNear) return true;
         }
   }
   return false;

@@ -26,15 +26,6 @@ struct Made {
 
 using Batch = std::vector<Made>;
 
-// The number of questions.
-std::uint64_t number_in(const Order& order) {
-  return order.given ? order.given->questions.size() : order.set->most;
-}
-
-SetQuestion posed(const Order& order, std::uint64_t index) {
-  return order.given ? order.given->questions[index] : order.set->question(order.seed, index);
-}
-
 NumberFormat precision_of(const Order& order) {
   return order.given ? order.given->header.precision : order.set->precision;
 }
@@ -61,9 +52,11 @@ std::optional<MadeRecord> make_record(const Maker& maker, const Order& order, co
 Batch make_batch(const Order& order, std::uint64_t number) {
   Batch batch;
   std::optional<Maker> maker;
-  const std::uint64_t end = std::min(number_in(order), (number + 1) * kBatch);
+  const std::uint64_t all = order.given ? order.given->questions.size() : order.set->most;
+  const std::uint64_t end = std::min(all, (number + 1) * kBatch);
   for (std::uint64_t index = number * kBatch; index < end; ++index) {
-    const SetQuestion question = posed(order, index);
+    const SetQuestion question =
+        order.given ? order.given->questions[index] : order.set->question(order.seed, index);
     const std::string scene_line = lorentz::scene_line(question.scene);
     if (!maker || maker->scene_line() != scene_line)
       maker.emplace(question.scene, Others{}, precision_of(order));

@@ -68,10 +68,6 @@ std::vector<Vec> normals_of_ways(const Lattice& lattice, int dimension) {
   return found;
 }
 
-double angle_between(const Vec& a, const Vec& b) {
-  return length(cross(a, b));
-}
-
 }  // namespace
 
 bool commensurable(const Lattice& a, const Lattice& b, int dimension) {
@@ -112,7 +108,7 @@ std::optional<double> nearly_common_way(const Scene& scene) {
     double largest = 0;  // of the angles to the nearest normal of each other lattice
     for (const std::vector<Vec>& normals : others) {
       double nearest = 1;
-      for (const Vec& other : normals) nearest = std::min(nearest, angle_between(normal, other));
+      for (const Vec& other : normals) nearest = std::min(nearest, length(cross(normal, other)));
       largest = std::max(largest, nearest);
     }
     if (largest > 0 && largest <= kCoincidence) least = std::min(least.value_or(largest), largest);
