@@ -76,7 +76,9 @@ export function histograms(report, looks) {
         }),
         Plot.text(sums, {
           fy: "engine",
-          text: (s) => `${shortened(s.engine, 24)} · 99 %: ${number(s.sum.p99)} · max: ${number(s.sum.max)}`,
+          text: (s) =>
+            shortened(s.engine, 24) +
+            (width < 480 ? "" : ` · 99 %: ${number(s.sum.p99)} · max: ${number(s.sum.max)}`),
           frameAnchor: "top-right",
           dx: -6,
           dy: 5,
