@@ -30,11 +30,10 @@ constexpr std::chrono::seconds kBetweenStores{3};
 constexpr std::uint64_t kMostFlights = std::uint64_t{1} << 52;
 
 struct FlightsOptions : ScanOptions {
-  std::string engine = "batch", from = "uniform", shard = "0/1";
+  std::string engine = "batch", from = "uniform";
   std::uint64_t count = 1'000'000;
   std::optional<double> seconds;
   std::optional<std::string> html;
-  std::vector<std::string> parts;
 };
 
 FlightsPlan plan_of(const FlightsOptions& options, const Scene& scene) {
@@ -60,10 +59,8 @@ std::vector<FlightsReport> tasks_of(const FlightsOptions& options) {
     tasks.push_back({place.name, place.radius, plan, Account::begun(plan), {}});
   }
   if (tasks.size() == 1) tasks[0].radius.reset();
-  if (tasks.size() > 1 &&
-      (options.store || !options.parts.empty() || options.shard != FlightsOptions().shard))
-    throw InputError(
-        "--store, --add and --shard: counts are kept of one scene at one radius; run several one by one");
+  if (tasks.size() > 1 && options.store)
+    throw InputError("--store: counts are kept of one scene at one radius; run several one by one");
   return tasks;
 }
 
@@ -71,24 +68,21 @@ flights::FlightBounds bounds_of(const FlightsOptions& options) {
   flights::FlightBounds bounds;
   bounds.jobs = static_cast<unsigned>(options.jobs);
   bounds.seconds = options.seconds.value_or(0);
-  std::tie(bounds.shard, bounds.shards) = shard_in(options.shard);
   if (question::engine_named(options.engine).traits.needs_card) bounds.card = 0;
   return bounds;
 }
 
-// Adds the counts of a store, and reports how many there are.
-void add_store(const runs::PieceStore& store, const std::string& file, const FlightsPlan& plan,
-               Account& account) {
-  const std::uint64_t before = account.done.size();
+// Adds the counts that the store has.
+void resume(FlightsReport& task, const runs::PieceStore& store, const std::string& file) {
   store.each([&](const std::string& piece) {
     try {
-      account.add(Account::of(piece));
+      task.account.add(Account::of(piece));
     } catch (const std::invalid_argument& error) {
       throw InputError(fmt::format("cannot be added: {}", error.what()));
     }
   });
-  if (account.done.size() > before)
-    say("{}: {} of {} blocks are done", file, account.done.size() - before, plan.blocks());
+  if (task.account.done.size() > 0)
+    say("{}: {} of {} blocks are done", file, task.account.done.size(), task.plan.blocks());
 }
 
 // A function that is true at once, and then every few seconds.
@@ -113,14 +107,12 @@ void fly_share(const FlightsPlan& plan, flights::FlightBounds bounds, flights::R
   ranks.report(own, true);
 }
 
-// Flies a task, resumed from its store and the stores of other shards.
+// Flies a task, resumed from its store.
 void fly(FlightsReport& task, const flights::FlightBounds& bounds, const FlightsOptions& options,
          flights::Ranks* ranks) {
   const FlightsPlan& plan = task.plan;
   runs::PieceStore store(options.store, "flights", plan.words());
-  add_store(store, options.store.value_or(""), plan, task.account);
-  for (const std::string& part : options.parts)
-    add_store(runs::PieceStore(part, "flights", plan.words(), runs::Access::read), part, plan, task.account);
+  resume(task, store, options.store.value_or(""));
   if (ranks) ranks->share(task.account);
   const auto start = std::chrono::steady_clock::now();
   {
@@ -168,11 +160,11 @@ int run_flights(const FlightsOptions& options) {
   flights::FlightBounds bounds = bounds_of(options);
   const Interrupt interrupt;
   bounds.stop = &Interrupt::came();
-  const std::unique_ptr<flights::Ranks> ranks = runs::join<flights::Ranks>("--jobs, or --shard and --add");
+  const std::unique_ptr<flights::Ranks> ranks = runs::join<flights::Ranks>("--jobs");
   if (!ranks) return fly_all(std::move(tasks), bounds, options, nullptr);
   try {
-    bounds.shard += bounds.shards * static_cast<std::uint64_t>(ranks->rank());
-    bounds.shards *= static_cast<std::uint64_t>(ranks->size());
+    bounds.shard = static_cast<std::uint64_t>(ranks->rank());
+    bounds.shards = static_cast<std::uint64_t>(ranks->size());
     if (bounds.card) bounds.card = static_cast<unsigned>(ranks->rank());
     if (ranks->rank() == 0) return fly_all(std::move(tasks), bounds, options, ranks.get());
     for (const FlightsReport& task : tasks) fly_share(task.plan, bounds, *ranks);
@@ -199,10 +191,6 @@ Command flights_command() {
             fmt::format("one of {}", fmt::join(question::own_names(), ", "))},
            {"--count", Whole{&options->count, 1, kMostFlights}, "N", "how many"},
            {"--time", Positive{&options->seconds}, "SECONDS", "stop after SECONDS (each scene and radius)"},
-           {"--add", &options->parts, "FILE",
-            "stores of other shards of the same run, whose counts are added"},
-           {"--shard", &options->shard, "I/N",
-            "only the blocks of flights I modulo N, into --store; --add joins them"},
            {"--html", &options->html, "FILE",
             "a page that opens offline: P(free path > t) and theory, with numbers on hover", kOutput}}),
 

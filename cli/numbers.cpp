@@ -52,15 +52,6 @@ std::uint64_t whole_number(const std::string& text, const char* option, std::uin
   return value;
 }
 
-std::pair<std::uint64_t, std::uint64_t> shard_in(const std::string& text) {
-  const auto slash = text.find('/');
-  if (slash == std::string::npos)
-    throw InputError(
-        fmt::format("--shard: {} is not I/N, like 0/4 for the first of four", json_quoted(text)));
-  const std::uint64_t shards = whole_number(text.substr(slash + 1), "--shard", 1, 1'000'000);
-  return {whole_number(text.substr(0, slash), "--shard", 0, shards - 1), shards};
-}
-
 std::optional<double> positive_number(const std::optional<std::string>& text, const char* option) {
   if (!text) return std::nullopt;
   const double value = number(*text, option);

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cli/command.hpp"
@@ -15,9 +14,6 @@ namespace lorentz::cli {
 /// name.
 std::uint64_t whole_number(const std::string& text, const char* option, std::uint64_t least,
                            std::uint64_t most);
-
-/// I and N of a shard I/N; "0/4" is the first of four. Throws InputError.
-std::pair<std::uint64_t, std::uint64_t> shard_in(const std::string& text);
 
 /// A finite number above zero, decimal or hexadecimal; empty if the option was not given. Throws InputError.
 std::optional<double> positive_number(const std::optional<std::string>& text, const char* option);

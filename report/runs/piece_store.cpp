@@ -40,17 +40,16 @@ Plan whole_plan(const std::string& command, const Plan& plan) {
 
 }  // namespace
 
-PieceStore::PieceStore(const std::optional<std::string>& path, const std::string& command, const Plan& plan,
-                       Access access)
+PieceStore::PieceStore(const std::optional<std::string>& path, const std::string& command, const Plan& plan)
     : is_file_(path.has_value()),
-      database_(path.value_or(Database::kMemory), access, kind()),
+      database_(path.value_or(Database::kMemory), Access::write, kind()),
       begin_(check_of_plan(whole_plan(command, plan))),
       check_(begin_) {
-  begin_or_check(whole_plan(command, plan), access);
+  begin_or_check(whole_plan(command, plan));
   check_all();
 }
 
-void PieceStore::begin_or_check(const Plan& plan, Access access) {
+void PieceStore::begin_or_check(const Plan& plan) {
   Statement row(database_.connection(), "SELECT name, value FROM plan ORDER BY place");
   std::size_t same = 0;
   for (; row.step(); ++same) {
@@ -64,8 +63,7 @@ void PieceStore::begin_or_check(const Plan& plan, Access access) {
                                            json_quoted(value), json_quoted(plan[same].second)));
   }
   if (same == plan.size()) return;
-  if (same > 0 || access != Access::write)
-    refuse(database_.path(), same > 0 ? "is of another version of this program" : "holds no run yet");
+  if (same > 0) refuse(database_.path(), "is of another version of this program");
   database_.begin();
   Statement word(database_.connection(), "INSERT INTO plan (name, value) VALUES (?, ?)");
   for (const auto& [name, value] : plan) word.bind(name).bind(value).done();

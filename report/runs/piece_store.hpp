@@ -42,8 +42,7 @@ class PieceStore {
   /// if it does not exist. `command`: the command of the run ("flights"). The program's version is put in
   /// front of `plan`. Throws InputError for a file of another plan or command, or with damaged pieces;
   /// FileError for a file of another kind, or one that another process writes.
-  PieceStore(const std::optional<std::string>& path, const std::string& command, const Plan& plan,
-             Access access = Access::write);
+  PieceStore(const std::optional<std::string>& path, const std::string& command, const Plan& plan);
 
   /// Reads all pieces. Throws InputError.
   void each(const ReadPiece& read) const;
@@ -57,7 +56,7 @@ class PieceStore {
   void add(const std::vector<std::string>& pieces);
 
  private:
-  void begin_or_check(const Plan& plan, Access access);
+  void begin_or_check(const Plan& plan);
   void check_all();
   void append(const std::string& piece);
 

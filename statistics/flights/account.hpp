@@ -1,5 +1,5 @@
 // A run of flights: its plan, and its state, which is the finished blocks and their tally. A run is resumed
-// from this state in JSON, and the shards of one run are added up from it.
+// from this state in JSON, and the ranks of one run are added up from it.
 #pragma once
 
 #include <boost/icl/closed_interval.hpp>

@@ -18,7 +18,7 @@ struct FlightsReport {
   Account account;
   std::optional<double> seconds;  ///< of this run
 
-  /// False if the run was stopped early or is one shard.
+  /// False if the run was stopped early.
   bool is_whole() const { return account.done.size() == plan.blocks(); }
 
   std::string table() const;

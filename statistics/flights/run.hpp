@@ -24,7 +24,7 @@ struct FlightBounds {
 /// Called from one thread at a time, several times a second, and at the end.
 using OnProgress = std::function<void(const Account&)>;
 
-/// Adds the missing blocks of this shard to the account, until all are done or the bounds are reached. The
+/// Adds the missing blocks of this share to the account, until all are done or the bounds are reached. The
 /// account contains a block as a whole or not at all, so that at every call of `on_progress` the run can be
 /// resumed from the account. Throws InputError if the plan cannot be flown; InputError without a graphics
 /// card, and std::runtime_error if some flights on it are not those of the processor.

@@ -35,7 +35,7 @@ std::string account_in(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("Flights: the same words for threads, shards and processes", "[flights][flights_command]") {
+TEST_CASE("Flights: the same words for threads and processes", "[flights][flights_command]") {
   const Folder folder;
   const std::string what = "flights --scene square --radius 0.2 --from surface --count 3e5 --seed 7501 ";
   const Run one = folder.lorentz(what + "--store " + folder.file("one"));
@@ -45,19 +45,7 @@ TEST_CASE("Flights: the same words for threads, shards and processes", "[flights
   CHECK(contains(one.out, "exact 2.185840735"));
   const std::string account = account_in(folder.file("one"));
   CHECK(folder.lorentz(what + "--jobs 3").out == one.out);
-  for (const char* shard : {"0/2", "1/2"})
-    CHECK(
-        folder.lorentz(what + "--shard " + shard + " --store " + folder.file(std::string("part") + shard[0]))
-            .status == 0);
-  const Run sum = folder.lorentz(what + "--add " + folder.file("part0") + " " + folder.file("part1") +
-                                 " --store " + folder.file("sum"));
-  INFO(sum.err);
-  CHECK(sum.status == 0);
-  CHECK(sum.out == one.out);
-  CHECK(account_in(folder.file("sum")) == account);
-  const Run twice = folder.lorentz(what + "--add " + folder.file("part0") + " " + folder.file("part0"));
-  CHECK(twice.status == 2);
-  CHECK(contains(twice.err, "is there twice"));
+  CHECK(folder.lorentz(what + "--time 1e-9 --store " + folder.file("begun")).status == 0);
 #ifdef LORENTZ_MPIRUN
   const Run ranks =
       folder.run(std::string(LORENTZ_MPIRUN) + " --allow-run-as-root --oversubscribe --quiet -n 2 " +
@@ -66,14 +54,14 @@ TEST_CASE("Flights: the same words for threads, shards and processes", "[flights
   CHECK(ranks.status == 0);
   CHECK(ranks.out == one.out);
   CHECK(account_in(folder.file("ranks")) == account);
-  // Ranks go on with what a shard has done.
+  // Ranks go on with what one process has begun.
   const Run rest =
       folder.run(std::string(LORENTZ_MPIRUN) + " --allow-run-as-root --oversubscribe --quiet -n 2 " +
-                 LORENTZ_PROGRAM + " " + what + "--store " + folder.file("part0"));
+                 LORENTZ_PROGRAM + " " + what + "--store " + folder.file("begun"));
   INFO(rest.err);
   CHECK(rest.status == 0);
   CHECK(rest.out == one.out);
-  CHECK(account_in(folder.file("part0")) == account);
+  CHECK(account_in(folder.file("begun")) == account);
 #endif
 }
 
@@ -370,12 +358,9 @@ TEST_CASE("Flights: bad input is named, with the remedy", "[flights][flights_com
       {"--radius 0.75 --engine certified", "no free start"},
       {"--radius -1", "--radius"},
       {"--scene sqare", "square"},
-      {"--shard 3", "I/N"},
-      {"--shard 2/2", "--shard"},
-      {"--add /no/such/file", "/no/such/file"},
-      {"--add /dev/zero", "/dev/zero: is not a regular file"},
+      {"--store /no/such/file", "/no/such/file"},
+      {"--store /dev/zero", "/dev/zero: is not a regular file"},
       {"--radius 0.1,0.2 --store store", "run several one by one"},
-      {"--radius 0.1,0.2 --shard 0/2", "run several one by one"},
       {"--radius 0.1,0", "--radius"},
   };
   for (const auto& [arguments, words] : bad) {

@@ -141,10 +141,10 @@ TEST_CASE("Two processes or more are several, and need MPI", "[flights]") {
       ::setenv(name, size, 1);
       INFO(name << "=" << size);
       if (!several || runs::has_mpi())
-        CHECK(runs::are_several("--shard") == several);
+        CHECK(runs::are_several("--jobs") == several);
       else
-        CHECK_THROWS_WITH(runs::are_several("--shard"), Catch::EndsWith("--shard"));
+        CHECK_THROWS_WITH(runs::are_several("--jobs"), Catch::EndsWith("--jobs"));
       ::unsetenv(name);
     }
-  CHECK_FALSE(runs::are_several("--shard"));
+  CHECK_FALSE(runs::are_several("--jobs"));
 }
