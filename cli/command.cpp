@@ -2,19 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 namespace {
 
 std::vector<std::string> names_with(const std::string& names, const std::string& dashes) {
   std::vector<std::string> result;
-  for (std::size_t begin = 0; begin < names.size();) {
-    const std::size_t end = std::min(names.find(',', begin), names.size());
-    const std::string name = names.substr(begin, end - begin);
+  for (const std::string& name : items_of(names, "an option"))
     if (name.starts_with(dashes) && !name.substr(dashes.size()).starts_with('-')) result.push_back(name);
-    begin = end + 1;
-  }
   return result;
 }
 

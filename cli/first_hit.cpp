@@ -63,28 +63,6 @@ class AnswerOrder {
   std::deque<WaitingLine> waiting_;
 };
 
-Vec vector_in(const std::string& list, const char* option, int dimension) {
-  const std::vector<double> numbers = numbers_in(list, option);
-  if (numbers.size() != static_cast<std::size_t>(dimension))
-    throw InputError(
-        fmt::format("{}: has {} numbers; the scene has dimension {}", option, numbers.size(), dimension));
-  Vec vector{};
-  std::ranges::copy(numbers, vector.begin());
-  return vector;
-}
-
-// The queries of the stream, or the one of --x and --v.
-QueryStream queries_of(const FirstHitOptions& options, const std::optional<Scene>& scene,
-                       UnknownKeys unknown) {
-  if (!options.x) return QueryStream(options.queries, scene, unknown);
-  std::string line;
-  append_query_line(
-      line, "null",
-      {vector_in(*options.x, "--x", scene->dimension), vector_in(*options.v, "--v", scene->dimension), {}},
-      *scene);
-  return QueryStream(line, "--x and --v", scene, unknown);
-}
-
 constexpr std::size_t kMaxWaiting = 100'000;  // lines: bounds the bad lines behind a query
 
 oracle::Request request_of(const FirstHitOptions& options, const EngineInfo& engine) {
@@ -147,7 +125,9 @@ int act_on_lines(const FirstHitOptions& options) {
     GivenQueries queries(options.queries, initial, unknown);
     return write_records(queries, options.queries);
   }
-  QueryStream stream = queries_of(options, initial, unknown);
+  const auto one = one_query(options.x, options.v, initial.has_value(), options.queries);
+  QueryStream stream = one ? QueryStream(*one, "--x and --v", initial, unknown)
+                           : QueryStream(options.queries, initial, unknown);
   if (options.prove) return answer_with_proofs(stream, *answerer);
   Output output;
   AnswerOrder order(output.buffer());
@@ -189,16 +169,11 @@ void check_proving(const FirstHitOptions& options) {
                      ": not with --prove, which proves the whole answer, with 40 digits");
 }
 
-void check_one_query(const FirstHitOptions& options) {
-  if (ask_one_query(options.x, options.v, options.scene.has_value(), options.queries) &&
-      (options.format != "ndjson" || options.records))
-    throw InputError("--x and --v: ask one query, without columns or records; leave " +
-                     std::string(options.records ? "--records" : "--format") + " out");
-}
-
 int run_first_hit(const FirstHitOptions& options) {
   check_proving(options);
-  check_one_query(options);
+  if (options.x && (options.format != "ndjson" || options.records))
+    throw InputError("--x and --v: ask one query, without columns or records; leave " +
+                     std::string(options.records ? "--records" : "--format") + " out");
   const std::size_t format = index_of_name(options.format, {"ndjson", "csv", "npy"}, "--format");
   using Format = ColumnOrder::Format;
   return format == 0 ? act_on_lines(options)

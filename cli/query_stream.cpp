@@ -4,8 +4,11 @@
 
 #include <lorentz/itinerary.hpp>
 #include <lorentz/scene_check.hpp>
+#include "cli/numbers.hpp"
 #include "report/files/messages.hpp"
 #include "report/files/scene_file.hpp"
+#include "src/exchange/json_writer.hpp"
+#include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
 
@@ -113,14 +116,19 @@ bool SceneStream<AnItem, AScene>::next(AnItem& item) {
   return true;
 }
 
-bool ask_one_query(const std::optional<std::string>& x, const std::optional<std::string>& v, bool has_scene,
-                   const std::string& file) {
+std::optional<std::string> one_query(const std::optional<std::string>& x, const std::optional<std::string>& v,
+                                     bool has_scene, const std::string& file, bool as_texts) {
   if (x.has_value() != v.has_value())
     throw InputError(x ? "--x: needs --v, the velocity" : "--v: needs --x, the position");
-  if (!x) return false;
+  if (!x) return std::nullopt;
   if (!has_scene) throw InputError("--x and --v: need --scene");
   if (file != "-") throw InputError("--x and --v: ask one query; leave them out, or the file " + file);
-  return true;
+  return json::line_of([&](json::Members& line) {
+    if (as_texts)
+      line.add("x", items_of(*x, "--x"), "v", items_of(*v, "--v"));
+    else
+      line.add("x", numbers_in(*x, "--x"), "v", numbers_in(*v, "--v"));
+  });
 }
 
 template class SceneStream<StreamItem, Scene>;

@@ -56,10 +56,11 @@ class SceneStream {
 using QueryStream = SceneStream<StreamItem, Scene>;
 using StartStream = SceneStream<StartItem, RationalScene>;
 
-/// Whether options --x and --v ask one query of --scene, in place of the stream in `file`. Throws InputError if only
-/// one of them does, or if there is no scene, or a stream besides.
-bool ask_one_query(const std::optional<std::string>& x, const std::optional<std::string>& v, bool has_scene,
-                   const std::string& file);
+/// The line of the one query that the options --x and --v ask in --scene, in place of the stream in `file`;
+/// nothing without them. `as_texts`: the numbers are quoted, which readers of starts take exactly. Throws
+/// InputError if only one of them is given, or no scene, or a stream besides.
+std::optional<std::string> one_query(const std::optional<std::string>& x, const std::optional<std::string>& v,
+                                     bool has_scene, const std::string& file, bool as_texts = false);
 
 extern template class SceneStream<StreamItem, Scene>;
 extern template class SceneStream<StartItem, RationalScene>;

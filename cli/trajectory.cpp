@@ -69,23 +69,11 @@ std::optional<RationalScene> scene_of(const TrajectoryOptions& options) {
       options.radius ? std::optional(positive_rational(*options.radius, "--radius")) : std::nullopt, unknown);
 }
 
-// The parts of a list, each a text for the reader, which takes it exactly.
-std::vector<std::string> texts_in(const std::string& list) {
-  std::vector<std::string> parts;
-  std::istringstream rest(list + ',');
-  for (std::string part; std::getline(rest, part, ',');) parts.push_back(part);
-  return parts;
-}
-
-// The starts of the stream, or the one of --x and --v.
 StartStream starts_of(const TrajectoryOptions& options) {
   const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
-  if (!ask_one_query(options.x, options.v, options.scene.has_value(), options.starts))
-    return StartStream(options.starts, scene_of(options), unknown);
-  std::string line;
-  json::append(
-      line, [&](json::Members& start) { start.add("x", texts_in(*options.x), "v", texts_in(*options.v)); });
-  return StartStream(line, "--x and --v", scene_of(options), unknown);
+  const auto one = one_query(options.x, options.v, options.scene.has_value(), options.starts, true);
+  return one ? StartStream(*one, "--x and --v", scene_of(options), unknown)
+             : StartStream(options.starts, scene_of(options), unknown);
 }
 
 // One column per dimension. For a lattice with fewer vectors the last ones are empty.

@@ -233,8 +233,8 @@ TEST_CASE("first-hit --x --v asks one query", "[cli][first_hit_command]") {
   refused(asked + folder.file("q"), "leave them out, or the file " + folder.file("q"));
   refused(asked + "--format csv", "leave --format out");
   refused(asked + "--prove --records", "leave --records out");
-  refused(square + "--x 0,0.5,0 --v 1,0", "--x: has 3 numbers; the scene has dimension 2");
-  refused(square + "--x 0,0.5 --v 1", "--v: has 1 numbers; the scene has dimension 2");
+  refused(square + "--x 0,0.5,0 --v 1,0", "--x and --v:1: x: has 3 components, the scene has dimension 2");
+  refused(square + "--x 0,0.5 --v 1", "--x and --v:1: v: has 1 components, the scene has dimension 2");
   refused(square + "--x 0,soon --v 1,0", "--x: ");
   refused(square + "--x 0,0.5 --v 0,0", "--x and --v:1: ");
 }

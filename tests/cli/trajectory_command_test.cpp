@@ -32,6 +32,26 @@ TEST_CASE("trajectory: a line a collision, and the end", "[cli][trajectory]") {
   CHECK(contains(end, R"("distance":"0.995262919443354160890311809427"})"));
 }
 
+TEST_CASE("trajectory --x --v follows one start, exactly", "[cli][trajectory]") {
+  const Folder folder;
+  const std::string scene = "trajectory --scene square --radius 1/3 --collisions 20 --detail ";
+  const Run asked = folder.lorentz(scene + "--x 1/2,0.1 --v 1,golden");
+  CHECK(asked.status == 0);
+  CHECK(lines(asked.out) == 21);
+  CHECK(asked.out ==
+        folder.lorentz(scene + folder.write("q", R"({"x":["1/2","1/10"],"v":[1,"golden"]})")).out);
+  CHECK(asked.out != folder.lorentz(scene + folder.write("q", R"({"x":[0.5,0.1],"v":[1,"golden"]})")).out);
+  for (const auto& [options, why] : {std::pair{"--x 1/2,0.1", "--x: needs --v"},
+                                     {"--x 1/2,0.1 --v 1,golden q", "leave them out, or the file q"},
+                                     {"--x 1/2 --v 1,golden", "x: has 1 components"},
+                                     {"--x 1/2,1/0 --v 1,golden", "is not a rational number"}}) {
+    const Run refused = folder.lorentz(scene + options);
+    INFO(options << refused.err);
+    CHECK(refused.status == 2);
+    CHECK(contains(refused.err, why));
+  }
+}
+
 TEST_CASE("trajectory: a radius below all of binary64 is a radius", "[cli][trajectory]") {
   const Folder folder;
   const std::string starts = folder.write("starts", R"({"x":["1/2",0],"v":[1,0]})");
