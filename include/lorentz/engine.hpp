@@ -68,9 +68,6 @@ class Engine {
   Scene scene_;
 };
 
-/// The names that make_engine knows.
-std::vector<std::string> engine_names();
-
 /// Makes the engine of this name for a scene; null if the name is unknown. If the engine does not support the
 /// scene, the result is an engine that answers every valid query with `unsupported`. Throws InputError if the
 /// scene is invalid (flaw_of).

@@ -49,12 +49,6 @@ constexpr EngineEntry kEngines[] = {
 
 }  // namespace
 
-std::vector<std::string> engine_names() {
-  std::vector<std::string> names;
-  for (const EngineEntry& entry : kEngines) names.push_back(entry.name);
-  return names;
-}
-
 std::unique_ptr<Engine> make_engine(std::string_view name, const Scene& scene) {
   for (const EngineEntry& entry : kEngines) {
     if (entry.name != name) continue;

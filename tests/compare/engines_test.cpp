@@ -25,9 +25,9 @@ using Names = std::vector<std::string>;
 }  // namespace
 
 TEST_CASE("The engines come first among the answerers, in their order", "[compare][engines]") {
-  const Names all = own_names(), engines = engine_names();
-  REQUIRE(all.size() >= engines.size());
-  CHECK(Names(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(engines.size())) == engines);
+  const Names all = own_names();
+  REQUIRE(all.size() > 4);
+  CHECK(Names(all.begin(), all.begin() + 4) == Names{"classical", "published", "golse", "reduction"});
 }
 
 TEST_CASE("Answerers are told apart by their traits, of another program nothing is known",

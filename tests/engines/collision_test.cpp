@@ -61,7 +61,7 @@ TEST_CASE("An answer that held another one is as a new one", "[engines]") {
                       a.unsupported);
   };
   const double endless = std::numeric_limits<double>::infinity();
-  for (const std::string& name : engine_names()) {
+  for (const char* name : {"classical", "published", "golse", "reduction"}) {
     const auto engine = make_engine(name, unit_scene(2, 0.1));
     for (const Query& query : {Query{{0.3, 0.2, 0}, {0.61, 0.23, 0}, {}}, Query{{0.5, 0.5, 0}, {1, 0, 0}, {}},
                                Query{{0.05, 0, 0}, {1, 0.3, 0}, {}}, Query{{0, 0.5, 0}, {0, 0, 0}, {}}})
