@@ -43,13 +43,6 @@ std::string microseconds(double ns) {
   return fmt::format("{:.{}f}", ns / 1000, ns < 1e5 ? 2 : 0);
 }
 
-// Queries of a mean time.
-struct Time {
-  double ns = 0, queries = 0;
-
-  std::string mean() const { return microseconds(ns / queries); }
-};
-
 // Each answer is in one of the columns from "right" to "undecided".
 report::Table table(std::vector<std::string> columns, const std::vector<std::string>& times) {
   for (const char* column :
@@ -93,43 +86,47 @@ class DemoReport {
       const Tally& t = one.row->tally;
       const std::string& engine = one.examination.name();
       const bool is_first = &one == &lineup_.all().front();
-      const auto queries = static_cast<double>(t.queries);
       flights_.add(row({is_first ? what : "", is_first ? std::to_string(t.queries) : "", engine}, t,
                        {microseconds(one.speed.ns_per_query)}));
-      for (Time* time : {&times_[engine][dimension], &times_[engine][0]})
-        time->ns += one.speed.ns_per_query * queries, time->queries += queries;
+      for (const int of : {dimension, 0})
+        ns_[engine][of] += one.speed.ns_per_query * static_cast<double>(t.queries);
     }
+    for (const int of : {dimension, 0}) queries_[of] += static_cast<double>(part.questions.size());
   }
 
   void show(bool all) {
     lineup_.finish();
     print(fmt::format(
-        "Of {} first hits the published algorithm gets {}, the exact oracle {}, certified-batch {}.\n\n",
-        lineup_.all().front().total().queries, wrong_of("published"), wrong_of("oracle"),
-        wrong_of("certified-batch")));
+        "The published algorithm gets {} of {} first hits wrong ({} us each), the exact oracle {} ({} us), "
+        "certified-batch {} ({} us).\n\n",
+        wrong_of("published"), queries_[0], mean("published"), wrong_of("oracle"), mean("oracle"),
+        wrong_of("certified-batch"), mean("certified-batch")));
     if (all) print(flights_.text() + '\n');
     report::Table engines = table({}, {"2D, us each", "3D, us each"});
     for (const LineupEntry& one : lineup_.all()) {
-      auto& times = times_[one.examination.name()];
-      engines.add(row({one.examination.name()}, one.total(), {times[2].mean(), times[3].mean()}));
+      const std::string& engine = one.examination.name();
+      engines.add(row({engine}, one.total(), {mean(engine, 2), mean(engine, 3)}));
     }
     print(engines.text() + kWords);
   }
 
  private:
-  // "53 wrong (0.91 us each)"
-  std::string wrong_of(const std::string& engine) {
-    const auto one = std::ranges::find(lineup_.all(), engine,
-                                       [](const LineupEntry& its) { return its.examination.name(); });
-    const std::size_t wrong = one->total()[Count::wrong];
-    return fmt::format("{} ({} us each)", wrong == 0 ? "none" : fmt::format("{} wrong", wrong),
-                       times_[engine][0].mean());
+  std::string wrong_of(const std::string& engine) const {
+    for (const LineupEntry& one : lineup_.all())
+      if (one.examination.name() == engine && one.total()[Count::wrong] > 0)
+        return std::to_string(one.total()[Count::wrong]);
+    return "none";
+  }
+
+  std::string mean(const std::string& engine, int dimension = 0) {
+    return microseconds(ns_[engine][dimension] / queries_[dimension]);
   }
 
   const ExaminationOptions options_;
   Lineup lineup_;
   report::Table flights_ = table({"flights", "number"}, {"us each"});
-  std::map<std::string, std::map<int, Time>> times_;  // by engine and dimension; of both: 0
+  std::map<std::string, std::map<int, double>> ns_;  // by engine and dimension; of both: 0
+  std::map<int, double> queries_;
 };
 
 int run_demo(bool all) {

@@ -299,7 +299,7 @@ TEST_CASE("demo: one sentence, a row for each engine whose counts add up, and co
   const Folder folder;
   const Run demo = folder.lorentz("demo");
   REQUIRE(demo.status == 0);
-  CHECK(demo.out.starts_with("Of 95189 first hits the published algorithm gets 53 wrong ("));
+  CHECK(demo.out.starts_with("The published algorithm gets 53 of 95189 first hits wrong ("));
   CHECK(contains(demo.out, ", the exact oracle none ("));
   CHECK(contains(demo.out, ", certified-batch none ("));
   std::map<std::string, std::vector<std::size_t>> rows;  // right, wrong time, ill-posed, wrong, undecided
@@ -319,7 +319,7 @@ TEST_CASE("demo: one sentence, a row for each engine whose counts add up, and co
   }
   CHECK(rows["published"] == std::vector<std::size_t>{62088, 33047, 1, 53, 0});
   CHECK(rows["certified"] == std::vector<std::size_t>{95189, 0, 0, 0, 0});
-  // Of the commands at the end the first takes minutes.
+  // The first of the commands at the end takes minutes.
   std::istringstream rest(demo.out.substr(demo.out.find("  lorentz first-hit")));
   std::string first_hit, trajectory;
   std::getline(rest, first_hit), std::getline(rest, trajectory);
