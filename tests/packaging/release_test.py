@@ -62,6 +62,13 @@ class Release(unittest.TestCase):
         self.assertEqual({each["name"] for each in bill["components"]} & {"libgmp10", "libboost-dev", "pybind11-dev"},
                          {"libgmp10", "libboost-dev", "pybind11-dev"})
 
+    def test_it_has_the_packages_of_the_page_if_there_is_one(self):
+        page = self.folder / "page.html"
+        subprocess.run([PROGRAM, "flights", "--count", "100", "--html", page], capture_output=True)
+        names = {each["name"] for each in json.loads(bill_of(wheel_in(self.folder)))["components"]}
+        self.assertEqual("@observablehq/plot" in names, page.exists())
+        self.assertNotIn("esbuild", names)
+
     def test_it_has_what_its_format_requires(self):
         bill = json.loads(bill_of(wheel_in(self.folder)))
         self.assertEqual((bill["bomFormat"], bill["specVersion"], bill["version"]), ("CycloneDX", "1.5", 1))
