@@ -325,7 +325,7 @@ TEST_CASE("demo: one sentence, a row for each engine whose counts add up, and co
   std::getline(rest, first_hit), std::getline(rest, trajectory);
   CHECK(
       contains(folder.lorentz(first_hit.substr(10, first_hit.find("   ", 10) - 10)).out, "\"cell\":[27,1]"));
-  CHECK(folder.run("cd " + folder.file("") + " && " + lorentz + trajectory.substr(9)).status == 0);
+  CHECK(folder.run("cd " + folder.file("") + " && " LORENTZ_PROGRAM + trajectory.substr(9)).status == 0);
   CHECK(folder.read("path.svg").starts_with("<svg"));
 }
 
