@@ -32,7 +32,7 @@ TEST_CASE("What the system says of a file is said with its name, and in no funct
   const Folder folder;
   std::filesystem::create_symlink("loop", folder.file("loop"));
   for (const std::string& name : {folder.file("loop"), folder.file(std::string(300, 'x'))})
-    for (const char* command : {"flights --count 1 --add ", "golden verify ", "fuzz --count 1 --store "}) {
+    for (const char* command : {"flights --count 1 --store ", "golden verify ", "fuzz --count 1 --store "}) {
       const Run run = folder.lorentz(command + name);
       INFO(command << name << "\n" << run.err);
       CHECK(run.status == 3);
