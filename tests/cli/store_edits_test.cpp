@@ -228,13 +228,11 @@ TEST_CASE("A file that is not a store is refused, and stays as it is", "[cli][st
   for (const auto& [file, why] : {std::pair{"notes", "is not a store of lorentz, nor any database"},
                                   {"mine", "is a database, but no store of a run of lorentz"}}) {
     const std::string before = folder.read(file);
-    for (const char* option : {"--store ", "--add "}) {
-      const Run run = folder.lorentz("flights --count 1000 " + (option + folder.file(file)));
-      INFO(run.err);
-      CHECK(run.status == 3);
-      CHECK(contains(run.err, std::string(file) + ": " + why));
-      CHECK(folder.read(file) == before);
-    }
+    const Run run = folder.lorentz("flights --count 1000 --store " + folder.file(file));
+    INFO(run.err);
+    CHECK(run.status == 3);
+    CHECK(contains(run.err, std::string(file) + ": " + why));
+    CHECK(folder.read(file) == before);
   }
 }
 
