@@ -44,7 +44,7 @@ std::string microseconds(double ns) {
 }
 
 // Each answer is in one of the columns from "right" to "undecided".
-report::Table table(std::vector<std::string> columns, const std::vector<std::string>& times) {
+report::Table table_with(std::vector<std::string> columns, const std::vector<std::string>& times) {
   for (const char* column :
        {"engine", "right", "wrong time", "ill-posed", "wrong obstacle", "undecided", "mean error, ulps"})
     columns.push_back(column);
@@ -102,7 +102,7 @@ class DemoReport {
         wrong_of("published"), queries_[0], mean("published"), wrong_of("oracle"), mean("oracle"),
         wrong_of("certified-batch"), mean("certified-batch")));
     if (all) print(flights_.text() + '\n');
-    report::Table engines = table({}, {"2D, us each", "3D, us each"});
+    report::Table engines = table_with({}, {"2D, us each", "3D, us each"});
     for (const LineupEntry& one : lineup_.all()) {
       const std::string& engine = one.examination.name();
       engines.add(row({engine}, one.total(), {mean(engine, 2), mean(engine, 3)}));
@@ -124,7 +124,7 @@ class DemoReport {
 
   const ExaminationOptions options_;
   Lineup lineup_;
-  report::Table flights_ = table({"flights", "number"}, {"us each"});
+  report::Table flights_ = table_with({"flights", "number"}, {"us each"});
   std::map<std::string, std::map<int, double>> ns_;  // by engine and dimension; of both: 0
   std::map<int, double> queries_;
 };
