@@ -46,8 +46,8 @@ bool has_page() {
 std::string page(std::string_view report_json) {
   if (!has_page())
     throw FileError(
-        "this program was built without the page of reports; install node and npm, run ./run build, and ask "
-        "again (--json writes the same report as text)");
+        "this program was built without the page of reports; ./run build builds it with the page, and ./run "
+        "wheel then has it, too (--json writes the same report as text)");
   const std::size_t place = page_text.find(kPlace);
   std::string out(page_text.substr(0, place));
   out += embedded(report_json);
