@@ -496,6 +496,25 @@ TEST_CASE("Dependence and flaws of lattices with fewer vectors", "[oracle][ranks
   CHECK(flaw_of(Query{{}, {1, 0, 0}, cell(1)}, lone_ball(3, 1)));  // a cell of a lattice without vectors
 }
 
+TEST_CASE("A crystal's rank may be the scene's dimension, or 3 in the plane: the answers are the same",
+          "[oracle][ranks]") {
+  for (const int dimension : {2, 3}) {
+    const Scene scene = unit_scene(dimension, 0.1);
+    Scene said = scene;
+    said.lattices[0].rank = dimension;
+    CHECK_FALSE(flaw_of(said));
+    CHECK(is_crystal(said));
+    CHECK(Components(said).of_cells(0) == dimension);
+    for (const Vec& v : {Vec{1, 0.0175, 0}, Vec{-0.3, 1, 0}, Vec{1, 0, 0}}) {
+      const Query query{{0, 0.445, dimension == 3 ? 0.05 : 0}, v, {}};
+      const Answer exact = oracle::Oracle(scene).first_hit(query),
+                   same = oracle::Oracle(said).first_hit(query);
+      CHECK((same.outcome == exact.outcome && same.obstacle == exact.obstacle && same.time == exact.time));
+      CHECK(oracle::Walk(said).first_hit(query).outcome == oracle::Walk(scene).first_hit(query).outcome);
+    }
+  }
+}
+
 TEST_CASE("Fewer directions: answers are proved, and others are not", "[oracle][ranks][prover]") {
   INFO("seed 36");
   Draw draw(36);
