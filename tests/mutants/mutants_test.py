@@ -120,7 +120,10 @@ class Schemata(unittest.TestCase):
 
         those = [(1, change(b"total += a[i]", "total -= a[i]", b"total +=")), (2, change(b"a[i] < 0", "false", b"if (a[i]"))]
         text = schemata.cpp(source, those)
-        self.assertEqual(sorted(set(schemata.owners(text).values())), [1, 2])
+        owners, lines = schemata.owners(text), text.decode().split("\n")
+        self.assertEqual(sorted(set(owners.values())), [1, 2])
+        last = max(n for n, line in enumerate(lines, 1) if "LORENTZ_REACHED" in line)  # of the body as it is
+        self.assertEqual([owners.get(last), owners.get(len(lines) - 1)], [2, None])
         (self.path / "a.cpp").write_bytes(text)
         program = str(self.path / "a")
         subprocess.run(["c++", "-std=c++20", "-o", program, str(self.path / "a.cpp")], check=True)

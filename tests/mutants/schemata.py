@@ -49,15 +49,18 @@ def cpp(source, mutants):
 
 
 def owners(text):
-    """{line: number} of those lines that belong to a mutant."""
-    result, inside, lines = {}, 0, []
+    """{line: number} of those lines that belong to a mutant. The body as it is belongs to the last mutant before it: where
+    all bodies together make no function, such as one that returns a closure, the compiler complains of the last."""
+    result, inside, began, last, left = {}, 0, 0, 0, 0
     for n, line in enumerate(text.decode().split("\n"), 1):
         if line.startswith("if (LORENTZ_MUTANT("):
-            inside = int(line[len("if (LORENTZ_MUTANT("):].split(")")[0])
+            inside, began = int(line[len("if (LORENTZ_MUTANT("):].split(")")[0]), n
         if inside:
             result[n] = inside
+        elif left > 0:
+            result[n], left = last, left - 1
         if inside and line.endswith(f"//mutant {inside}"):
-            inside = 0
+            last, left, inside = inside, n - began, 0
     return result
 
 
