@@ -1,6 +1,7 @@
 #include "cli/command.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "src/exchange/nearest_name.hpp"
 
