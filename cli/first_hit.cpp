@@ -34,14 +34,18 @@ class AnswerOrder {
  public:
   explicit AnswerOrder(std::string& out) : out_(out) {}
 
-  void expect(const Id& id, const Components& components) { waiting_.push_back({id, components, {}}); }
-  void answered(const Answer& answer) {
-    append_answer_line(out_, waiting_.front().id, answer, waiting_.front().components);
+  /// A finite `limit` is applied to the answer: that of an engine which knows no limits.
+  void expect(const Id& id, const Components& components, double limit) {
+    waiting_.push_back({id, components, limit, {}});
+  }
+  void answered(Answer& answer) {
+    const WaitingLine& line = waiting_.front();
+    append_answer_line(out_, line.id, limited(std::move(answer), line.limit), line.components);
     waiting_.pop_front();
     put_bad_lines();
   }
   void bad_line(const Id& id, const std::string& message) {
-    waiting_.push_back({id, 0, message});
+    waiting_.push_back({id, 0, kForEver, message});
     put_bad_lines();
   }
   std::size_t waiting() const { return waiting_.size(); }
@@ -50,6 +54,7 @@ class AnswerOrder {
   struct WaitingLine {
     Id id;
     Components components;
+    double limit;
     std::optional<std::string> message;  // of a bad line
   };
 
@@ -131,7 +136,10 @@ int act_on_lines(const FirstHitOptions& options) {
   if (options.prove) return answer_with_proofs(stream, *answerer);
   Output output;
   AnswerOrder order(output.buffer());
-  answerer->on_reply([&](const question::Reply& reply) { order.answered(reply.answer); });
+  answerer->on_reply([&](question::Reply& reply) { order.answered(reply.answer); });
+  const auto limit_of = [&](double max_time) {
+    return answerer->takes_limits() ? kForEver : std::min(max_time, options.max_time.value_or(kForEver));
+  };
   // While the input pauses, answers continue to arrive.
   stream.lines().before_waiting([&] {
     do output.flush();
@@ -144,7 +152,7 @@ int act_on_lines(const FirstHitOptions& options) {
         answerer->set_scene(item.scene);
         break;
       case StreamItem::Kind::query:
-        order.expect(item.id, *stream.scene());
+        order.expect(item.id, *stream.scene(), limit_of(item.max_time));
         answerer->ask_until(item.id, item.query, item.max_time);
         break;
       default:

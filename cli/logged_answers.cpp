@@ -86,7 +86,7 @@ void LoggedAnswers::ask(const Id& id, const Query&) {
   ++matched_;
   if (const std::string flaw = flaw_of_cell(logged); !flaw.empty()) {
     complain(logged.line, flaw);
-    logged.answer = Answer::error("cell: has another dimension");
+    return deliver({Answer::error("cell: has another dimension"), question::Origin::fault});
   }
   deliver({std::move(logged.answer)});
 }

@@ -480,7 +480,6 @@ class CommandEngine final : public Answerer {
     if (run.outstanding == 0 && !run.ending) manner_ = Manner::line_by_line;
     if (manner_ == Manner::line_by_line) run.greeting = false;
     const OpenQuery& asked = open_.front();
-    answer = limited(std::move(answer), asked.max_time);
     if (options_.request.detail) add_detail(asked.query, *asked.scene, answer);
     deliver_first({std::move(answer), origin});
   }

@@ -37,20 +37,22 @@ class Earliest {
   }
 
   /// In a view with this v2, an obstacle whose centre has an s above this cannot be entered before or
-  /// together with the earliest one: such an entry needs (s - rho) / v2 < s_best / v2_best.
+  /// together with the earliest one: such an entry needs (s - rho) / v2 < t_best.
   Z reach(const Z& rho_above, const Z& v2) const {
-    return (v2 == entry_->v2 ? entry_->s : ceil_div(entry_->s * v2, entry_->v2)) + rho_above;
+    return (v2 == entry_->v2 ? until_ : ceil_div(until_ * v2, entry_->v2)) + rho_above;
   }
 
   /// `order` is the order of its time (order_of), and must not be positive.
   void offer(ExactEntry<D> other, int order) {
     if (order == 0 && key(*entry_) <= key(other)) return;
+    until_ = other.s - root_below(other.d);
     entry_ = std::move(other);
   }
 
  private:
   static auto key(const ExactEntry<D>& e) { return std::tie(e.lattice, e.atom, e.n); }
   std::optional<ExactEntry<D>> entry_;
+  Z until_;  // v2 times its t, rounded up
 };
 
 /// The data that the search for one atom's first obstacle needs throughout.

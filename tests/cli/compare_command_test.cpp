@@ -267,6 +267,7 @@ TEST_CASE("compare accuses no engine where it cannot judge", "[cli][compare_comm
   CHECK(flat.status == 2);
   CHECK(contains(flat.err, "a:1: cell: has 2 components"));
   CHECK(contains(flat.out, R"("agree":0,"ill_posed":0,"wrong":0)"));
+  CHECK(contains(flat.out, R"("error":0,"missing":1)"));  // as a program's invalid line
   // Answers to drawn queries there cannot be.
   CHECK(folder.lorentz("compare --count 5 --answers mine=" + answers).status == 2);
   // Bad input counts more than a wrong answer.
@@ -610,6 +611,22 @@ TEST_CASE("Logged answers keep up with more queries than are judged together", "
   CHECK(whole.status == 0);
   CHECK(contains(whole.out, "20100 given queries"));
   CHECK(contains(whole.out, "mine: no wrong answer in 20100"));
+}
+
+TEST_CASE("A program's hit is judged as it was said, also beyond a limit", "[cli][compare_command]") {
+  const Folder folder;
+  const std::string queries = folder.write("q", R"({"id":0,"x":[0.3,0.01],"v":[1,0],"max_time":0.9}
+{"id":1,"x":[0.3,0.01],"v":[1,0],"max_time":0.3}
+)");
+  const std::string program = folder.write(
+      "engine",
+      "exec sed -u -n 's/^{\"id\":\\([0-9]*\\),.*/{\"id\":\\1,\"outcome\":\"hit\",\"lattice\":0,\"atom\":0,"
+      "\"cell\":[1,0],\"time\":5}/p'\n");
+  const Run run = folder.lorentz("compare --json --scene square --radius 0.1 --queries " + queries +
+                                 " -e 'cmd:sh " + program + "'");
+  INFO(run.out << run.err);
+  CHECK(contains(run.out, R"("agree":2,"ill_posed":0,"wrong":0)"));
+  CHECK(contains(run.out, R"("wrong_time":2,"other_quantity":2)"));
 }
 
 TEST_CASE("compare: questions outside of the declared domain are counted, not asked",

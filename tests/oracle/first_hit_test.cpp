@@ -383,6 +383,23 @@ TEST_CASE("A start inside balls of very many cells is no question by the rules t
   }
 }
 
+// What is left of a flight that ends at once is short, however large the obstacle is at which it ends. The fine
+// lattice had been searched as far as the centre of the ball, row by row: years.
+TEST_CASE("A large ball is hit at once, from between very many small ones", "[oracle][first_hit]") {
+  const double step = 0x1p-45;
+  for (const int dimension : {2, 3}) {
+    Scene scene = unit_scene(dimension, step / 8);
+    for (Vec& vector : scene.lattices[0].vectors)
+      for (double& component : vector) component *= step;
+    scene.lattices.insert(scene.lattices.begin(), Lattice{{}, {Atom{{}, 1, {}}}, 0});
+    const Vec v{1, 0.2, dimension == 3 ? 0.3 : 0};
+    const Answer answer = first_hit(scene, {{-1 - step / 2, step / 2, dimension == 3 ? step / 2 : 0}, v, {}});
+    CHECK(answer.outcome == Outcome::hit);
+    CHECK(answer.obstacle.lattice == 0);
+    CHECK(*answer.time == Approx(step / 2).margin(0).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("Subnormal and huge velocities and places", "[oracle][first_hit]") {
   CHECK(first_hit(kQuarter, {{0.5, 0}, {0x1p-1000, 0}, {}}, false).time == 0x1p998);
   CHECK(std::isinf(*first_hit(kQuarter, {{0.5, 0}, {0x1p-1074, 0}, {}}, false).time));
