@@ -195,8 +195,8 @@ Command program() {
           "  lorentz first-hit --scene square --radius 0.1 --x 0,0.445 --v 1,0.0175",
       {},
       {first_hit_command(), compare_command(), judge_command(), convergents_command(), horizon_command(),
-       sample_command(), demo_command(), bench_command(), scene_command(), golden_command(), fuzz_command(),
-       flights_command(), trajectory_command(), lyapunov_command(), diffusion_command()}};
+       sample_command(), demo_command(), doctor_command(), bench_command(), scene_command(), golden_command(),
+       fuzz_command(), flights_command(), trajectory_command(), lyapunov_command(), diffusion_command()}};
   add_help(program);
   program.options.push_back({"--version", {}, "", "Display program version information and exit"});
   return program;

@@ -15,6 +15,7 @@ Command convergents_command();
 Command horizon_command();
 Command sample_command();
 Command demo_command();
+Command doctor_command();
 Command bench_command();
 Command scene_command();
 Command flights_command();

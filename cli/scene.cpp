@@ -41,31 +41,22 @@ std::size_t atoms_in(const Scene& scene) {
   return atoms;
 }
 
-int list(const SceneOptions& options) {
+int show_catalogue() {
   report::Table table({"scene", "dimension", "lattices", "atoms", "what it is"});
   table.with_prose();
-  std::vector<std::string> json;
-  bool bad = false;
   const std::map<std::string, std::string> scenes = catalogue();
   if (scenes.empty()) throw FileError("no catalogue of scenes; looked for in " + data_places("scenes"));
-  for (const auto& [name, file] : scenes) {
-    try {
+  int status = kDone;
+  for (const auto& [name, file] : scenes) try {
       const Scene scene = read_scene(file, std::nullopt);
-      const std::string what = description_in(file);
       table.add({name, std::to_string(scene.dimension), std::to_string(scene.lattices.size()),
-                 std::to_string(atoms_in(scene)), what});
-      json.push_back(json::text_of([&](json::Members& one) {
-        one.add("name", name, "dimension", scene.dimension, "lattices", scene.lattices.size(), "atoms",
-                atoms_in(scene), "description", what, "file", file);
-      }));
+                 std::to_string(atoms_in(scene)), description_in(file)});
     } catch (const InputError& error) {
       say("{}", error.what());
-      bad = true;
+      status = kBadInput;
     }
-  }
-  print(options.json ? json::line_of([&](json::Members& object) { object.add("scenes", json::raw(json)); })
-                     : table.text());
-  return bad ? kBadInput : kDone;
+  print(table.text());
+  return status;
 }
 
 constexpr std::size_t kMostLooks =
@@ -238,26 +229,21 @@ void show_json(const std::string& name, const std::string& file, const Scene& sc
 }
 
 int show(const SceneOptions& options) {
+  if (!options.scene && (options.radius || options.json))
+    throw InputError("name a scene, or leave options out");
+  if (!options.scene) return show_catalogue();
   const Scene scene = read_scene(*options.scene, options.radius);
   const SceneFacts findings = findings_on(scene);
   (options.json ? show_json : show_text)(*options.scene, find_scene(*options.scene), scene, findings);
   return kDone;
 }
 
-Command scene_list_command() {
-  auto options = std::make_shared<SceneOptions>();
-  return {"list",
-          "The catalogue.",
-          {{"--json", &options->json, "", "as one JSON object"}},
-          "Example:\n  lorentz scene list",
-          [options] { return list(*options); }};
-}
-
 Command scene_show_command() {
   auto options = std::make_shared<SceneOptions>();
   return {"show",
-          "Cell, obstacles, which of them touch or overlap, filling fraction, mean free path, horizon.",
-          {{"scene", &options->scene, "SCENE", "a name of the catalogue, or a file", kRequired},
+          "Cell, obstacles, which of them touch or overlap, filling fraction, mean free path, horizon; "
+          "without a scene the catalogue.",
+          {{"scene", &options->scene, "SCENE", "a name of the catalogue, or a file"},
            {"--radius", Positive{&options->radius}, "R", "radius of every ball"},
            {"--json", &options->json, "", "as one JSON object"}},
           "Example:\n  lorentz scene show fcc --radius 0.35",
@@ -269,7 +255,7 @@ Command scene_show_command() {
 Command scene_command() {
   return {"scene", "The catalogue of scenes, what is known of one, and its picture.",
           {},      "Example:\n  lorentz scene show fcc --radius 0.35",
-          {},      {scene_list_command(), scene_show_command(), scene_draw_command()}};
+          {},      {scene_show_command(), scene_draw_command()}};
 }
 
 }  // namespace lorentz::cli

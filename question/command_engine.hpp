@@ -7,6 +7,7 @@
 #include <string>
 
 #include "question/answerer.hpp"
+#include "question/process.hpp"
 
 namespace lorentz::question {
 
@@ -14,5 +15,10 @@ namespace lorentz::question {
 /// silent is started again for the queries after the one at fault.
 std::unique_ptr<Answerer> command_engine(const std::string& command, const AnswererOptions& options);
 std::unique_ptr<Answerer> library_engine(const std::string& file, const AnswererOptions& options);
+
+/// The program that makes a `cmd:` engine of a shared library (question/library_host/main.cpp).
+/// `threads`: for the library. `row_by_row`: it gets one query a call, so that the one that it dies of shows.
+/// Throws FileError if there is no room for the program.
+Executable library_program(const std::string& file, int threads, bool row_by_row);
 
 }  // namespace lorentz::question

@@ -7,7 +7,6 @@
 #include <lorentz/engine.hpp>
 #include <lorentz/exchange.hpp>
 #include "question/command_engine.hpp"
-#include "question/library_program.hpp"
 #include "src/exchange/nearest_name.hpp"
 #include "src/problem/safe_text.hpp"
 

@@ -1,4 +1,4 @@
-#include "question/library_program.hpp"
+#include "question/command_engine.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

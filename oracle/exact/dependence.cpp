@@ -24,7 +24,7 @@ bool are_dependent(const std::array<Vec, 3>& vectors, int dimension, int count) 
 
 }  // namespace
 
-std::optional<std::string> dependence_of(const Scene& scene) {
+std::optional<std::string> dependence_in(const Scene& scene) {
   for (std::size_t l = 0; l < scene.lattices.size(); ++l) {
     const Lattice& lattice = scene.lattices[l];
     const std::string where = "lattice " + std::to_string(l);
@@ -44,7 +44,7 @@ std::optional<std::string> dependence_of(const Scene& scene) {
 
 const Scene& checked_exactly(const Scene& scene) {
   lorentz::checked(scene);
-  if (const auto dependence = dependence_of(scene)) throw InputError("scene: " + *dependence);
+  if (const auto dependence = dependence_in(scene)) throw InputError("scene: " + *dependence);
   return scene;
 }
 

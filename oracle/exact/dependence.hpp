@@ -8,9 +8,8 @@
 
 namespace lorentz::oracle {
 
-/// For a scene that is otherwise valid: names the primitive vectors or semiaxes that are linearly dependent,
-/// or nothing.
-std::optional<std::string> dependence_of(const Scene& scene);
+/// As <lorentz/scene_check.hpp> says.
+std::optional<std::string> dependence_in(const Scene& scene);
 
 /// Returns the scene if it is valid and its vectors are independent; else throws InputError, which names the
 /// place.

@@ -45,14 +45,19 @@ class Earliest {
   /// `order` is the order of its time (order_of), and must not be positive.
   void offer(ExactEntry<D> other, int order) {
     if (order == 0 && key(*entry_) <= key(other)) return;
-    until_ = other.s - root_below(other.d);
+    until_ = other.s;
     entry_ = std::move(other);
+  }
+
+  /// Before the search for another atom, whose obstacles may be much smaller: v2 t, rounded up.
+  void tighten() {
+    if (entry_) until_ = entry_->s - root_below(entry_->d);
   }
 
  private:
   static auto key(const ExactEntry<D>& e) { return std::tie(e.lattice, e.atom, e.n); }
   std::optional<ExactEntry<D>> entry_;
-  Z until_;  // v2 times its t, rounded up
+  Z until_;  // at least v2 times its t
 };
 
 /// The data that the search for one atom's first obstacle needs throughout.

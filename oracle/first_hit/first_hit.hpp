@@ -29,6 +29,7 @@ inline void search_only_row(const Search<3>& search) {
 template <std::size_t D>
 void search_first_hit(const View<D>& view, int lattice, int atom, const ZVec<D>* from,
                       Earliest<D>& earliest) {
+  earliest.tighten();
   const Z rho2 = view.radius2 * view.velocity.v2;
   if (view.rank == D)
     return search_first_hit(

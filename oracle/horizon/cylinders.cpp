@@ -9,7 +9,6 @@
 #include "oracle/exact/quadratic.hpp"
 #include "oracle/exact/shape.hpp"
 #include "oracle/exact/short_basis.hpp"
-#include "oracle/horizon/hole_centre.hpp"
 #include "oracle/horizon/shadow.hpp"
 #include "oracle/integers/dyadic.hpp"
 

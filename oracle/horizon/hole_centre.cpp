@@ -1,4 +1,4 @@
-#include "oracle/horizon/hole_centre.hpp"
+#include "oracle/horizon/shadow.hpp"
 
 #include <algorithm>
 #include <array>

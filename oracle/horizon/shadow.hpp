@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "oracle/exact/quadratic.hpp"
 #include "oracle/horizon/channel_scene.hpp"
 
 namespace lorentz::oracle {
@@ -54,5 +55,15 @@ std::optional<HolePoint> hole_of_largest(const Shadow& shadow, unsigned long bit
 /// A point on the boundary of a hole, if there is one. Adds to `work` the number of points and discs
 /// compared.
 std::optional<HolePoint> hole_of_all(const Shadow& shadow, std::size_t& work, unsigned long bits = kFineBits);
+
+struct HoleCentre {
+  Vec offset{};  ///< from the centre of the ball `disc` of the HolePoint, perpendicular to g, rounded; in
+                 ///< units of the largest ball's radius
+  Quadratic clearance;  ///< distance of the line that `offset` is rounded from to the nearest ball
+};
+
+/// Climbs from a point of the hole, or of its boundary, away from the discs: a line with room around it, found in
+/// binary64; its distance from the discs is exact. It is above 0 unless the hole is too small for the bits of the point.
+HoleCentre centre_of(const Shadow& shadow, const HolePoint& hole);
 
 }  // namespace lorentz::oracle

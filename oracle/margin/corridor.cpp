@@ -1,4 +1,4 @@
-#include "oracle/margin/corridor.hpp"
+#include "oracle/margin/perturbed_query.hpp"
 
 #include "oracle/exact/short_basis.hpp"
 #include "oracle/first_hit/first_hit.hpp"

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "oracle/exact/stretches.hpp"
-#include "oracle/margin/corridor.hpp"
 #include "oracle/margin/perturbed_query.hpp"
 
 namespace lorentz::oracle {

@@ -1,7 +1,7 @@
 // Lists the answers that the judge forgives. Every candidate is searched and judged: obstacles that are met,
 // or missed by at most the tolerance, up to the first one that is entered with more to spare; obstacles that
 // contain x, or nearly; and `never`.
-#include "oracle/margin/excused.hpp"
+#include "oracle/margin/perturbed_query.hpp"
 
 #include <algorithm>
 #include <set>

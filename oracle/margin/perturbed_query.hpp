@@ -2,11 +2,13 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <lorentz/errors.hpp>
 #include <lorentz/margin.hpp>
-
+#include <lorentz/verdict.hpp>
 #include "oracle/margin/perturbation.hpp"
 
 namespace lorentz::oracle {
@@ -152,5 +154,17 @@ class PerturbedScene {
   NumberFormat precision_;
   AnyExactScene exact_scene_;
 };
+
+/// True if an open corridor or channel contains x (a corridor or planar channel may miss x by `ulps` ulps),
+/// and its direction is within `ulps` ulps of v in every component, where a zero is exact. The directions
+/// tried are those of lattice vectors and (3D) of lattice planes, the shortest few near v. Each is decided
+/// exactly. x must lie in no obstacle by more than `ulps` ulps.
+template <std::size_t D>
+bool open_near(const PerturbedQuery<D>& perturbed, double ulps);
+
+/// As Judge::excused says.
+template <std::size_t D>
+std::optional<std::vector<ExcusedAnswer>> excused_answers(const PerturbedQuery<D>& perturbed,
+                                                          const Answer& exact, double ulps, std::size_t most);
 
 }  // namespace lorentz::oracle

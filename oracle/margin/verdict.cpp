@@ -4,7 +4,6 @@
 
 #include <lorentz/errors.hpp>
 #include "oracle/margin/departure.hpp"
-#include "oracle/margin/excused.hpp"
 
 namespace lorentz::oracle {
 

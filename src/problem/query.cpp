@@ -7,7 +7,7 @@
 #include <lorentz/errors.hpp>
 #include <lorentz/scene.hpp>
 
-#include "src/problem/finite.hpp"
+#include "src/problem/scene_geometry.hpp"
 
 namespace lorentz {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include <lorentz/errors.hpp>
-#include "src/problem/finite.hpp"
+#include "src/problem/scene_geometry.hpp"
 
 namespace lorentz {
 namespace {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,10 @@ std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension);
 inline bool is_one_obstacle(const Scene& scene) {
   const Lattice& first = scene.lattices[0];
   return scene.lattices.size() == 1 && first.atoms.size() == 1 && first.rank_in(scene.dimension) == 0;
+}
+
+inline bool all_finite(const Vec& a) {
+  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
 }
 
 /// The length of the shortest of all primitive vectors; infinite if no lattice repeats.

@@ -110,7 +110,7 @@ TEST_CASE("Without a subcommand the help is shown, every help has an example", "
   CHECK(folder.lorentz("help compair").status == 2);
   for (const char* command :
        {"",       "first-hit",   "compare",      "convergents",   "horizon",        "sample",     "demo",
-        "bench",  "scene",       "scene list",   "scene show",    "scene draw",     "fuzz",       "fuzz show",
+        "bench",  "scene",       "doctor",       "scene show",    "scene draw",     "fuzz",       "fuzz show",
         "golden", "golden make", "golden check", "golden verify", "golden explain", "golden list"}) {
     INFO(command);
     CHECK(contains(folder.lorentz(std::string(command) + " --help").out, "Example"));
@@ -123,7 +123,7 @@ TEST_CASE("A wrong LORENTZ_DATA is an error, without a catalogue it is said wher
   const auto with_data = [&](const std::string& data, const std::string& arguments) {
     return folder.run("LORENTZ_DATA=" + data + " " LORENTZ_PROGRAM " " + arguments);
   };
-  for (const char* arguments : {"scene list", "compare --count 1", "golden list"}) {
+  for (const char* arguments : {"scene show", "compare --count 1", "golden list"}) {
     const Run run = with_data("/no/such/folder", arguments);
     CHECK(run.status == 3);
     CHECK(contains(run.err, "LORENTZ_DATA is /no/such/folder, which has no folder scenes or golden"));

@@ -31,7 +31,7 @@ COMMANDS = {
     "horizon": ([SCENE], []),
     "bench": (["--scene", SCENE, "--radius", "0.1", "-e", "published", "--count", "50",
                "--html", "page.html"], ["page.html"]),
-    "scene list": ([], []),
+    "doctor": ([], []),
     "scene show": ([SCENE], []),
     "golden list": ([], []),
     "golden check": (["ties", "-e", "published", "--first", "40"], []),

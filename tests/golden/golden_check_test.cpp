@@ -85,6 +85,22 @@ TEST_CASE("golden check: a machine that rounds otherwise gives wrong answers", "
   CHECK(contains(run.out, "reduction: wrong in "));
 }
 
+TEST_CASE("The doctor says whether this machine is fit, and why not", "[golden][golden_check]") {
+  const Folder folder;
+  const Run fit = folder.lorentz("doctor");
+  INFO(fit.out << fit.err);
+  CHECK(fit.status == 0);
+  CHECK(contains(fit.out, "Fit: answers here are what they are everywhere."));
+  for (const char* engine : {"walk ", "reduction ", "certified ", "batch ", "certified-batch "})
+    CHECK(contains(fit.out, "first hits: " + std::string(engine)));
+  const Run unfit = folder.run("ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" LORENTZ_TOWARD_ZERO
+                               " " LORENTZ_PROGRAM " doctor");
+  INFO(unfit.out << unfit.err);
+  CHECK(unfit.status == 1);
+  CHECK(contains(unfit.out, "toward zero  NO: expected: to nearest"));
+  CHECK(contains(unfit.out, "NOT FIT"));
+}
+
 TEST_CASE("golden check: tables of numbers as JSON", "[golden][golden_check]") {
   const Folder folder;
   beginning_of_set(folder, "published-faults", 60);

@@ -31,7 +31,7 @@ prints("cell \\(27, 1\\) at 26.95085432627853")
 run(${SCRATCH}/consumer/all_headers)
 run(${SCRATCH}/consumer/ask)
 prints("hit, cell \\(27, 1\\), time 26.950854326278535")
-run(${prefix}/bin/lorentz scene list)
+run(${prefix}/bin/lorentz scene show)
 prints("cubic")
 # A library of an author's, by the installed header alone.
 run(${COMPILER} -x c -std=c99 -Wall -Wextra -Wpedantic -Werror -O1 -shared -fPIC -I ${prefix}/include
