@@ -115,6 +115,7 @@ std::optional<Introduction> introduction_in(std::string_view line) {
 FirstWords first_words_of(const Executable& program, double seconds) {
   using Clock = std::chrono::steady_clock;
   Process process(program);
+  process.hide_errors();  // its complaints are shown when it is asked queries
   process.close_input();
   LineBuffer lines;
   LineReader::Line line;
@@ -127,7 +128,7 @@ FirstWords first_words_of(const Executable& program, double seconds) {
     if (left.count() <= 0) return {{}, fmt::format("gave no answer within {:.4g} s", seconds)};
     pollfd pipes[2] = {{process.output(), POLLIN, 0}, {process.errors(), POLLIN, 0}};
     ::poll(pipes, 2, static_cast<int>(left.count()));
-    process.pass_on_errors(false);  // its complaints are shown when it is asked queries
+    process.pass_on_errors();
     if (lines.read_from(process.output()) != LineBuffer::Read::end) continue;
     if (lines.next(line)) return {std::string(line.text)};
     return {{}, fmt::format("died ({})", process.end(kToEnd).text())};

@@ -211,13 +211,13 @@ Process::~Process() {
 
 constexpr int kMostErrorPieces = 16;  // of 4096 bytes: what a pipe holds
 
-void Process::pass_on_errors(bool shown) {
+void Process::pass_on_errors() {
   std::array<char, 4096> piece;
   ssize_t count = 0;
   for (int pieces = 0; errors_ >= 0; ++pieces) {
     if (pieces == kMostErrorPieces) return;  // a program that never stops must not keep us
     if ((count = read(errors_, piece.data(), piece.size())) <= 0) break;
-    for (ssize_t sent = 0, n = 0; shown && sent < count; sent += n)
+    for (ssize_t sent = 0, n = 0; shows_errors_ && sent < count; sent += n)
       if ((n = ::write(STDERR_FILENO, piece.data() + sent, static_cast<std::size_t>(count - sent))) <= 0)
         break;
     for (const char c : std::string_view(piece.data(), static_cast<std::size_t>(count))) {

@@ -76,10 +76,11 @@ class Process {
   int output() const { return output_; }  ///< the descriptor to read from, never blocking
   int errors() const { return errors_; }  ///< the same for its standard error; -1 once that has ended
 
-  /// Passes on what it wrote to its standard error, as much as a pipe holds at most, or drops it unless it is
-  /// `shown`, and keeps the last line that is not blank. The line with which the shell reports a signal does
-  /// not count.
-  void pass_on_errors(bool shown = true);
+  /// From now on what it writes to its standard error is dropped, but for its last words.
+  void hide_errors() { shows_errors_ = false; }
+  /// Passes on what it wrote to its standard error, as much as a pipe holds at most, and keeps the last line
+  /// that is not blank. The line with which the shell reports a signal does not count.
+  void pass_on_errors();
   /// That line, without its end and at most kMostWords bytes of it; empty if there was none since the last
   /// call.
   std::string take_last_words();
@@ -102,6 +103,7 @@ class Process {
 
   pid_t pid_ = -1;
   int input_ = -1, output_ = -1, errors_ = -1;
+  bool shows_errors_ = true;
   std::string line_, last_words_, words_before_;  // the unfinished line; the last two that are not blank
   double spent_ = 0;                              // processor_seconds() at the end
 };

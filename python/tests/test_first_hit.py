@@ -302,6 +302,13 @@ def test_an_interrupt_comes_through(work):
     assert time.monotonic() - begin[0] < 5  # soon; a machine may be busy
 
 
+def test_a_far_cell_is_left_by_its_own_row_only():
+    count, far = 200, 2**70  # more rows than are asked together; the first leaves a cell beyond 64 bits
+    x, v = np.tile([float(far), 0.0625], (count, 1)), np.tile([0.0, -1.0], (count, 1))
+    answers = lorentz.first_hit("square", x, v, 0.25, engine="oracle", start_from=[(0, 0, [far, 0])] + [None] * (count - 1))
+    assert answers.outcome[0] == Outcome.HIT and (answers.outcome[1:] == Outcome.INSIDE).all()
+
+
 def test_cells_of_rows_and_single_obstacles():
     row = {"dimension": 2, "lattices": [{"vectors": [[1, 0]], "atoms": [{"position": [0, 0], "radius": 0.25}]}]}
     for cell in ([3], [3, 0]):

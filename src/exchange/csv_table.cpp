@@ -97,7 +97,6 @@ std::size_t CsvTable::split_quoted(std::string_view text, std::size_t begin) {
 }
 
 void CsvTable::split(std::string_view text) {
-  fields_.clear(), unquoted_.clear();
   for (std::size_t begin = 0;;) {
     const std::size_t first = text.find_first_not_of(kSpaces, begin);
     std::size_t end;
@@ -113,7 +112,7 @@ void CsvTable::split(std::string_view text) {
 }
 
 bool CsvTable::next() {
-  fields_.clear();
+  fields_.clear(), unquoted_.clear();
   while (lines_.next(line_))
     if (line_.too_long || !trimmed(without_line_end(line_.text)).empty()) return true;
   return false;

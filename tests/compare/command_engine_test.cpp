@@ -118,6 +118,19 @@ TEST_CASE("A program may answer line by line, in blocks, or when its input ends"
   }
 }
 
+TEST_CASE("An error without an id answers nothing when no query waits", "[compare][command_engine]") {
+  const Folder folder;
+  const std::string program =
+      folder.write("engine",
+                   "sed -u -n 's/^{\"id\":\\([0-9]*\\),.*/{\"id\":\\1,\"outcome\":\"never\"}/p'\n"
+                   "echo '{\"id\":null,\"outcome\":\"error\",\"message\":\"too late\"}'\n");
+  const Run run =
+      folder.lorentz("first-hit --engine 'cmd:sh " + program + "' " + folder.write("q", stream()));
+  INFO(run.out << run.err);
+  CHECK(contains(run.err, "gave an answer with an id that no query has, null"));
+  CHECK_FALSE(contains(run.out, "too late"));
+}
+
 TEST_CASE("A key that no answer has is told of once, and of twenty at the most",
           "[compare][command_engine]") {
   const Folder folder;
@@ -590,12 +603,10 @@ TEST_CASE("A flood of bad lines ends a program at 1 MiB", "[compare][command_eng
   for (const std::string flood :
        {"exec yes", "exec tr 0 x </dev/zero", "while read -r line; do :; done; yes"}) {
     INFO(flood);
-    const auto start = std::chrono::steady_clock::now();
-    const Run run = folder.lorentz("first-hit --engine 'cmd:" + flood + "' " + queries);
+    const Run run = folder.lorentz("first-hit --timeout 3600 --engine 'cmd:" + flood + "' " + queries);
     CHECK(run.status == 3);
     CHECK(contains(run.out, error_to(1, "cmd wrote more than 1 MiB that is not an answer")));
     CHECK(run.err.size() < 10'000);
-    CHECK(seconds_since(start) < 30);  // 60 is the timeout
   }
 }
 

@@ -227,6 +227,8 @@ TEST_CASE("Tail exponent: nothing where there is too little", "[flights][fit]") 
   CHECK_FALSE(tail_exponent(edges, Counts{0, 0, 900, 0, 0, 0}));  // one bin says nothing of its scatter
   CHECK_FALSE(tail_exponent_from(2, edges, Counts{0, 200, 100, 50, 25, 25}));
   CHECK_THROWS_AS(tail_exponent(edges, Counts{1, 2}), std::invalid_argument);
+  // Also where there are too few paths for an exponent.
+  CHECK_THROWS_AS(tail_exponent(std::vector<double>{2, 1}, Counts{1, 1, 1}), std::invalid_argument);
 }
 
 TEST_CASE("Tail constant: extrapolated, and its error is one", "[flights][fit]") {

@@ -290,6 +290,25 @@ TEST_CASE("Questions about far cells are told from others", "[judge][circumstanc
   CHECK_FALSE(circumstance_of(failing, right));
 }
 
+TEST_CASE("Each part of a finding has its own largest distance in radii", "[judge][findings]") {
+  const Question question = asked(0.25, {0.5, 0, 0}, {2, 0, 0});  // a path of one radius
+  Findings findings;
+  for (int i = 0; i < 6; ++i)
+    for (const double time : {2 * *question.exact.time, *question.exact.time + 10}) {
+      const Answer given = Answer::hit(disc(1, 0), time);
+      const auto judgement = question.place->judge().judge(question.query, question.exact, given);
+      findings.add({question, given, judgement, *diagnosis_of(question, given, judgement)}, "times");
+    }
+  std::deque<question::ExaminedRow> rows(1);
+  rows[0].name = "times", rows[0].tally.queries = 100;
+  std::vector<Finding> all = findings.all(rows);
+  REQUIRE(all.size() == 2);
+  if (all[0].quantity.empty()) std::swap(all[0], all[1]);
+  CHECK(all[0].quantity == kDistance);  // in place of the time
+  CHECK(all[0].by_radii == Approx(1));
+  CHECK(all[1].by_radii == Approx(80));
+}
+
 TEST_CASE("Findings of one cause are one, the simplest case in front, the most frequent cause first",
           "[judge][findings]") {
   const Question plain = asked(0.25, {0.5, 0, 0}, {1, 0, 0}),

@@ -227,6 +227,18 @@ TEST_CASE("Only questions in the engine's domain are asked, and what is too fast
   CHECK(insides == 0);
 }
 
+TEST_CASE("The parts of a run share all of its time, and what is left", "[judge][judging]") {
+  judge::JudgeOrder order;
+  for (const bool quick : {false, true}) {
+    order.quick = quick;
+    double all = 0;
+    for (int part = 0; part <= static_cast<int>(judge::JudgePart::speed); ++part)
+      all += judge::seconds_of(static_cast<judge::JudgePart>(part), order, 1e6);
+    CHECK(all == Approx(order.seconds()));
+    CHECK(judge::seconds_of(judge::JudgePart::speed, order, 0.25) == Approx(0.25));
+  }
+}
+
 TEST_CASE("Two threads of a judge's campaign ask different questions, and all of them count",
           "[judge][judging]") {
   Log asked;

@@ -209,6 +209,7 @@ TEST_CASE("What was unsupported, what there was no time for, and what was given 
   CHECK(contains(report.text(true),
                  "\nunsupported: ellipses\nnot asked, no time: ties\n"
                  "given up in scenes of: far starts (2); cmd died (exit 3) on this query\n"));
+  CHECK_FALSE(contains(report.text(true), "\nellipses "));  // nor is there a row of it in the table
   CHECK(report.line() ==
         "right: no wrong answer in 1002; 5 of 1037 answers missing; given up in 1 of 4 rows");
   for (const char* state : {"asked", "unsupported", "no time", "given up"})

@@ -418,6 +418,19 @@ TEST_CASE("Horizon: three lattices in another order leave the same open", "[orac
   }
 }
 
+TEST_CASE("Horizon: two lattices with a short common period are one, wherever the third stands",
+          "[oracle][horizon]") {
+  const double periods[] = {1 + 0x1p-30, 1, 1.5};
+  for (const auto& [a, b, c] : {std::array{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}) {
+    Scene scene{2, {}};
+    for (const int i : {a, b, c})
+      scene.lattices.push_back({{Vec{1, 0}, Vec{0, periods[i]}}, {{{0, 0}, 0.3, {}}}});
+    const Horizon horizon = horizon_of(scene);
+    CHECK(horizon.channels.size() == 3);
+    CHECK(horizon.undecided.empty());
+  }
+}
+
 TEST_CASE("Horizon: ellipses and ellipsoids are affine images of balls", "[oracle][horizon]") {
   Draw draw(76);
   std::size_t channels = 0, cylinders = 0, inside = 0;
