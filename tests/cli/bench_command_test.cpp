@@ -67,6 +67,19 @@ TEST_CASE("bench counts wrong times apart from wrong answers", "[cli][bench_comm
   CHECK(contains(run.out, " wrong times of right obstacles\n"));
 }
 
+TEST_CASE("bench fails if an engine does, at once or later", "[cli][bench_command]") {
+  const Folder folder;
+  const std::string bench = "bench --scene square --radius 0.1 --difficulty drawn --count ";
+  const Run run = folder.lorentz(bench + "32 --engine 'cmd:exit 3'");
+  CHECK(run.status == 3);
+  CHECK(contains(run.out, "no answer to judge; 32 missing"));
+  // A hundred lines each time that it is started; fewer are asked to see how long an answer takes.
+  const std::string program = folder.write(
+      "engine",
+      "exec sed -u -n -e 's/^{\"id\":\\([0-9]*\\),.*/{\"id\":\\1,\"outcome\":\"never\"}/p' -e 100q\n");
+  CHECK(folder.lorentz(bench + "400 --engine 'cmd:sh " + program + "'").status == 3);
+}
+
 TEST_CASE("bench takes scenes with semiaxes at their own size", "[cli][bench_command]") {
   const Folder folder;
   const Run run = folder.lorentz(

@@ -600,6 +600,13 @@ TEST_CASE("compare: answers may come in any order, and rows without ids are matc
         " --answers mine=" + folder.write("a.csv", rows));
 }
 
+TEST_CASE("Without a hit there is no error of a time", "[cli][compare_command]") {
+  const Folder folder;
+  const std::string queries = folder.write("q", R"({"id":1,"x":[0.5,0.5],"v":[1,0]})");
+  const Run run = folder.lorentz("compare --scene square --radius 0.1 --json --queries " + queries);
+  CHECK(contains(run.out, R"("max_ulp":null,"mean_ulp":null)"));
+}
+
 TEST_CASE("Logged answers keep up with more queries than are judged together", "[cli][compare_command]") {
   const Folder folder;
   const std::string queries = folder.lorentz("sample --count 20100 --radius 0.1").out;

@@ -123,6 +123,8 @@ TEST_CASE("Local exponent: of a power law its own, of a limit law above the last
   const std::vector<double> edges = octaves(0, 40);
   CHECK(local_exponent(edges, 1, [](double t) { return std::pow(t, -1.5); }).value() == Approx(2.5));
   CHECK(local_exponent(edges, 1024, [](double t) { return 7 * std::pow(t, -3); }).value() == Approx(4));
+  const double two[] = {1, 2};  // both count
+  CHECK(local_exponent(two, 1, [](double t) { return 1 / (t * t); }).value() == Approx(3));
   CHECK_FALSE(local_exponent(edges, 1, [](double t) { return t < 1 ? 1.0 : 0.0; }));
   CHECK_FALSE(local_exponent(edges, 1e13, [](double t) { return 1 / t; }));  // no edge is there
   for (const NamedLaw& of : all_laws()) {

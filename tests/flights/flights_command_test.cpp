@@ -318,6 +318,24 @@ TEST_CASE("Flights: the interval of the exponent holds what the law itself has t
 }
 
 // Binary64 has no direction that meets discs so small before its numbers end.
+TEST_CASE("Flights: the exponent stands inside of its interval, and a name has the one radius of all balls",
+          "[flights][flights_command]") {
+  const Folder folder;
+  const std::string out = folder.lorentz("flights --scene square --radius 0.1 --count 200000").out;
+  std::smatch found;
+  REQUIRE(std::regex_search(out, found, std::regex(R"(like t\^-([0-9.]+), 95 % \[([0-9.]+), ([0-9.]+)\])")));
+  CHECK(std::stod(found[2]) < std::stod(found[1]));
+  CHECK(std::stod(found[1]) < std::stod(found[3]));
+  CHECK(contains(out, "square, r = 0.1"));
+  const auto named = [&](const char* scene) {
+    return contains(folder.lorentz("flights --count 1000 --scene " + std::string(scene)).out, ", r = ");
+  };
+  CHECK(named("honeycomb"));
+  CHECK_FALSE(named("ellipse"));
+  CHECK_FALSE(named("perovskite"));       // of the five the last three are equal
+  CHECK_FALSE(named("cesium-chloride"));  // two
+}
+
 TEST_CASE("Flights: where nothing is ever hit it is said, and nothing drawn", "[flights][flights_command]") {
   const Folder folder;
   const std::string what = "flights --radius 1e-300 --engine certified --count 1000 ";

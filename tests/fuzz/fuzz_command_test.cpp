@@ -170,6 +170,16 @@ TEST_CASE("It says which layers decided, and who judged", "[fuzz][fuzz_command]"
   CHECK_FALSE(contains(classical.out, "decided in binary64"));
 }
 
+TEST_CASE("The smallest margin is that of the variants, too", "[fuzz][fuzz_command]") {
+  const Folder folder;
+  const std::string command = "fuzz -e reduction -t corridor --count 40 --reword 0 --json --mutate ";
+  const auto has_none = [&](const char* mutate) {
+    return contains(folder.lorentz(command + mutate).out, "\"smallest_margin\":null");
+  };
+  CHECK(has_none("0"));  // `never` has no margin
+  CHECK_FALSE(has_none("1"));
+}
+
 #ifdef LORENTZ_MPIRUN
 TEST_CASE("Two processes find what one finds, to the bit", "[fuzz][fuzz_command]") {
   const Folder folder;
