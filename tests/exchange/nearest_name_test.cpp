@@ -21,6 +21,9 @@ TEST_CASE("A word that is far from every name has no nearest name", "[compare][n
   for (const char* typed : {"", "w", "position", "help", "xyzzy"}) CHECK(nearest_name(typed, names).empty());
   CHECK(nearest_name(std::string(1000, 'c'), names).empty());
   CHECK(nearest_name("anything", {}).empty());
+  const std::string long_name(100, 'c');  // longer ones are no names
+  CHECK(nearest_name(long_name, {long_name}) == long_name);
+  CHECK(nearest_name(long_name + 'c', {long_name}).empty());
 }
 
 TEST_CASE("A name that stands where it means nothing was not mistyped", "[compare][nearest_name]") {
