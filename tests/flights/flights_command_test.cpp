@@ -327,6 +327,9 @@ TEST_CASE("Flights: the exponent stands inside of its interval, and a name has t
   CHECK(std::stod(found[2]) < std::stod(found[1]));
   CHECK(std::stod(found[1]) < std::stod(found[3]));
   CHECK(contains(out, "square, r = 0.1"));
+  CHECK_FALSE(contains(out, "no law is known"));
+  CHECK(contains(folder.lorentz("flights --count 1000 --scene overlapping").out,
+                 "no law is known: several obstacles"));
   const auto named = [&](const char* scene) {
     return contains(folder.lorentz("flights --count 1000 --scene " + std::string(scene)).out, ", r = ");
   };

@@ -100,6 +100,21 @@ TEST_CASE("Golden: another seed makes other records, and a longer set begins lik
   CHECK((records(order_of("crystals", 100, 1, kSeed + 1)) != some));
 }
 
+TEST_CASE("Golden: a question that comes again adds its tags to its own record",
+          "[golden][golden_production]") {
+  golden::GivenQuestions given{golden::Header{}};
+  const auto add = [&](const char* text, const char* tag) {
+    return given.add({unit_scene(2, 0.25), text, std::nullopt, {tag}});
+  };
+  CHECK(add("one", "a"));
+  CHECK(add("two", "b"));
+  CHECK_FALSE(add("two", "c"));
+  CHECK_FALSE(add("two", "b"));
+  REQUIRE(given.questions.size() == 2);
+  CHECK(given.questions[0].tags == std::vector<std::string>{"a"});
+  CHECK(given.questions[1].tags == std::vector<std::string>{"b", "c"});
+}
+
 TEST_CASE("Golden: an exception while writing ends the production", "[golden][golden_production]") {
   int writes = 0;
   CHECK_THROWS_AS(golden::produce(order_of("ties", 300, 3),
