@@ -394,6 +394,18 @@ TEST_CASE("A domain without a fault is offered if half of the right answers are 
   CHECK_FALSE(domain(2, 0.5, 0, 1));
 }
 
+TEST_CASE("Circumstance: among single obstacles a start is negative by the sign of any coordinate",
+          "[judge][circumstance]") {
+  const Scene ball{3, {Lattice{{}, {Atom{{}, 1, {}}}, 0}}};
+  const auto is_negative = [&](const Vec& x) {
+    return features_of(asked(ball, x, {1, 0, 0})).negative_start;
+  };
+  CHECK_FALSE(is_negative({4, 4, 4}));
+  CHECK(is_negative({-4, 4, 4}));
+  CHECK(is_negative({4, -4, 4}));
+  CHECK(is_negative({4, 4, -4}));
+}
+
 TEST_CASE("Each cause has advice, and each document that it names has the section", "[judge][advice]") {
   const auto has_section = [](const std::string& link) {
     const std::size_t hash = link.find('#');
