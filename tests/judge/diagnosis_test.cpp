@@ -274,10 +274,10 @@ TEST_CASE("False hits from afar are told by the distance in radii", "[judge][cir
   CHECK(features_of(square, disc(-7, 0)).distance == Approx(30));
   CHECK(features_of(square, disc(1, 0)).distance == Approx(2));
   CHECK(features_of(square).flight_in_radii == Approx(1));
-  // How deep the line enters is known of the obstacle that is hit: to the centre here, half a radius higher up.
+  // How deep the line enters is said of the obstacle that is hit, whichever is in question.
   CHECK(features_of(square, disc(1, 0)).depth == Approx(1));
   CHECK(features_of(asked(0.25, {0.5, 0.125, 0}, {1, 0, 0}), disc(1, 0)).depth == Approx(0.5));
-  CHECK(std::isnan(features_of(square, disc(-7, 0)).depth));
+  CHECK(features_of(square, disc(-7, 0)).depth == Approx(1));
 }
 
 TEST_CASE("Questions about far cells are told from others", "[judge][circumstance]") {
