@@ -208,6 +208,10 @@ TEST_CASE("Flights: several scenes in one table", "[flights][flights_command]") 
   while (std::getline(of_square, single) && std::getline(rows, row)) CHECK(row == "square,0.01," + single);
   CHECK_FALSE(std::getline(rows, row));
   CHECK(folder.lorentz(what + "--scene cubic,square --store " + folder.file("store")).status == 2);
+  // Each law has its columns, in all rows.
+  fly("--scene square,superposition-pi-5 --radius 0.01 --csv " + folder.file("laws"));
+  std::istringstream of_laws(folder.read("laws"));
+  while (std::getline(of_laws, row)) CHECK(std::ranges::count(row, ',') == 12);
 }
 
 TEST_CASE("Flights: the limit law is not rejected, from surfaces too, and a wrong one is",
