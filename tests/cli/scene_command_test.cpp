@@ -326,6 +326,10 @@ TEST_CASE("scene draw: window, size, title, legend, channels", "[cli][scene_comm
   CHECK(contains(run.out, "corridor [1 0]: width 0.6"));
   CHECK_FALSE(contains(run.out, "corridor [0 1]"));
   CHECK(times(run.out, "<circle") == 9 + 1);
+  const std::string tiny = folder.write(  // what is too narrow to be seen depends on the unit
+      "tiny.json",
+      R"({"dimension":2,"lattices":[{"vectors":[[1e-9,0],[0,1e-9]],"atoms":[{"position":[0,0],"radius":1e-10}]}]})");
+  CHECK(contains(folder.lorentz("scene draw " + tiny + " --channels 1").out, "width 8e-10"));
   const Run solid = folder.lorentz("scene draw fcc --channels 1");
   CHECK(is_well_formed(solid.out));
   CHECK(contains(solid.out, "channel (1 1 1): width 0.01735"));
