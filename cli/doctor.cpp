@@ -1,10 +1,13 @@
 // lorentz doctor: is this machine fit? Its arithmetic, its libraries, and first hits that are known exactly.
+#include <algorithm>
+
 #include <lorentz/batch.hpp>
 #include <lorentz/environment.hpp>
 #include "cli/app.hpp"
 #include "cli/output.hpp"
 #include "question/engines.hpp"
 #include "question/examine.hpp"
+#include "question/starts/free_starts.hpp"
 #include "report/manifest.hpp"
 #include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"

@@ -37,7 +37,8 @@ int answer_with_proofs(QueryStream& stream, question::Answerer& answerer) {
   Output output;
   Answer answer;
   long unproved = 0;
-  answerer.on_reply([&](const question::Reply& reply) { answer = reply.answer; });
+  double limit = question::kForEver;  // of an engine that knows none
+  answerer.on_reply([&](const question::Reply& reply) { answer = limited(reply.answer, limit); });
   std::optional<golden::Maker> maker;  // of the scene's proofs
   for (StreamItem item; stream.next(item); output.flush_if_due()) {
     if (item.kind == StreamItem::Kind::scene) {
@@ -51,6 +52,7 @@ int answer_with_proofs(QueryStream& stream, question::Answerer& answerer) {
     const Scene& scene = *stream.scene();
     if (!maker) maker.emplace(scene);
     if (!answerer.is_in(scene)) answerer.set_scene(scene);
+    if (!answerer.takes_limits()) limit = item.max_time;
     answerer.ask_until(item.id, item.query, item.max_time);
     answerer.drain();
     const std::optional<golden::Proved> proved = proved_by(*maker, item.query);

@@ -634,6 +634,12 @@ TEST_CASE("A program's hit is judged as it was said, also beyond a limit", "[cli
   INFO(run.out << run.err);
   CHECK(contains(run.out, R"("agree":2,"ill_posed":0,"wrong":0)"));
   CHECK(contains(run.out, R"("wrong_time":2,"other_quantity":2)"));
+  // As an answer to a user it is `later`, with proofs or without.
+  for (const char* prove : {"", " --prove"})
+    CHECK(folder
+              .lorentz("first-hit --scene square --radius 0.1 " + queries + prove + " -e 'cmd:sh " + program +
+                       "'")
+              .out == "{\"id\":0,\"outcome\":\"later\"}\n{\"id\":1,\"outcome\":\"later\"}\n");
 }
 
 TEST_CASE("compare: questions outside of the declared domain are counted, not asked",
