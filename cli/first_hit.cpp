@@ -137,9 +137,6 @@ int act_on_lines(const FirstHitOptions& options) {
   Output output;
   AnswerOrder order(output.buffer());
   answerer->on_reply([&](question::Reply& reply) { order.answered(reply.answer); });
-  const auto limit_of = [&](double max_time) {
-    return answerer->takes_limits() ? kForEver : std::min(max_time, options.max_time.value_or(kForEver));
-  };
   // While the input pauses, answers continue to arrive.
   stream.lines().before_waiting([&] {
     do output.flush();
@@ -152,7 +149,9 @@ int act_on_lines(const FirstHitOptions& options) {
         answerer->set_scene(item.scene);
         break;
       case StreamItem::Kind::query:
-        order.expect(item.id, *stream.scene(), limit_of(item.max_time));
+        order.expect(item.id, *stream.scene(),
+                     answerer->takes_limits() ? kForEver
+                                              : std::min(item.max_time, options.max_time.value_or(kForEver)));
         answerer->ask_until(item.id, item.query, item.max_time);
         break;
       default:

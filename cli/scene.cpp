@@ -229,8 +229,7 @@ void show_json(const std::string& name, const std::string& file, const Scene& sc
 }
 
 int show(const SceneOptions& options) {
-  if (!options.scene && (options.radius || options.json))
-    throw InputError("name a scene, or leave options out");
+  if (!options.scene && (options.radius || options.json)) throw InputError("scene: name one to use options");
   if (!options.scene) return show_catalogue();
   const Scene scene = read_scene(*options.scene, options.radius);
   const SceneFacts findings = findings_on(scene);

@@ -16,7 +16,6 @@
 #include <lorentz/exchange.hpp>
 #include "question/complaints.hpp"
 #include "question/engines.hpp"
-#include "question/process.hpp"
 #include "question/scene_engine.hpp"
 #include "src/exchange/json_writer.hpp"
 #include "src/problem/safe_text.hpp"
