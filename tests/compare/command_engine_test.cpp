@@ -601,7 +601,8 @@ TEST_CASE("A flood of bad lines ends a program at 1 MiB", "[compare][command_eng
   const Folder folder;
   const std::string queries = folder.write("q", stream(3));
   for (const std::string flood :
-       {"exec yes", "exec tr 0 x </dev/zero", "while read -r line; do :; done; yes"}) {
+       {"exec yes a line of words, which is not an answer, nor is it JSON", "exec tr 0 x </dev/zero",
+        "while read -r line; do :; done; yes so is this one, which comes when all queries have been read"}) {
     INFO(flood);
     const Run run = folder.lorentz("first-hit --timeout 3600 --engine 'cmd:" + flood + "' " + queries);
     CHECK(run.status == 3);
