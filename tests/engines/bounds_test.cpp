@@ -309,19 +309,23 @@ TEST_CASE("Ranges of rows and of balls leave out none that a line meets", "[engi
   long met = 0, looked_at = 0, met_rows = 0, rows = 0;
   for (int i = 0; i < 20'000; ++i) {
     const int dimension = draw.one_in(2) ? 2 : 3;
-    const Vec b = draw.vec(dimension, -1, 1), e = draw.vec(dimension, -1, 1),
-              aside = draw.vec(dimension, -1, 1);
-    Vec v = draw.vec(dimension, -1, 1), d{};
+    const Vec b = draw.vec(dimension, -1, 1), aside = draw.vec(dimension, -1, 1);
+    Vec e = draw.vec(dimension, -1, 1), v = draw.vec(dimension, -1, 1), d{};
     if (draw.one_in(2))
       for (int k = 0; k < 3; ++k) v[k] = b[k] + std::exp2(draw.between(-20, -1)) * v[k];
+    if (draw.one_in(4))  // a plane that is nearly parallel to the line
+      for (int k = 0; k < 3; ++k) e[k] = v[k] - 0.25 * b[k] + std::exp2(draw.between(-30, -1)) * e[k];
+    const double speed = std::exp2(std::round(draw.between(-10, 10)));
+    for (int k = 0; k < 3; ++k) v[k] *= speed;
     double r = length(b) * draw.between(0.01, 0.5);
     const double far = std::round(std::exp2(draw.between(0, 30)));
-    for (int k = 0; k < 3; ++k) d[k] = far * v[k] - 4 * b[k] + r * aside[k];
+    for (int k = 0; k < 3; ++k) d[k] = far / speed * v[k] - 4 * b[k] + r * aside[k];
     const ExactVec c = exact_cross(exact(v), exact(b));
-    const double number = static_cast<double>(draw.below(9));
+    const double number = static_cast<double>(draw.below(9)),
+                 row_number = draw.one_in(2) ? number : std::round(std::exp2(draw.between(4, 30)));
     const Exact of_ball =
                     exact_square(exact_cross(exact(v), exact_sum(d, number, b))) / exact_square(exact(v)),
-                of_row = abs(exact_dot(exact_sum(d, number, e), c)) / sqrt(exact_square(c));
+                of_row = abs(exact_dot(exact_sum(d, row_number, e), c)) / sqrt(exact_square(c));
     const auto touching = draw.below(3);
     if (touching > 0)
       r = std::nextafter((touching == 1 ? sqrt(of_ball) : of_row).convert_to<double>(), 1e300);
@@ -332,15 +336,16 @@ TEST_CASE("Ranges of rows and of balls leave out none that a line meets", "[engi
     if (range.known) looked_at += static_cast<long>(std::clamp(range.last - range.first + 1, 0.0, 25.0));
     if (planes.known) rows += static_cast<long>(std::clamp(planes.last - planes.first + 1, 0.0, 25.0));
     for (double n = -8; n <= 16; ++n) {
-      const ExactVec ball = exact_sum(d, n, b), start = exact_sum(d, n, e);
-      const Exact across = exact_square(exact_cross(exact(v), ball)), distance = exact_dot(start, c);
+      const Exact across = exact_square(exact_cross(exact(v), exact_sum(d, n, b)));
       if (range.known && across < Exact(r) * Exact(r) * exact_square(exact(v))) {
         ++met;
         CHECK((range.first <= n && n <= range.last));
       }
+      const double k = n < 16 ? n : row_number;
+      const Exact distance = exact_dot(exact_sum(d, k, e), c);
       if (planes.known && distance * distance < Exact(r) * Exact(r) * exact_square(c)) {
         ++met_rows;
-        CHECK((planes.first <= n && n <= planes.last));
+        CHECK((planes.first <= k && k <= planes.last));
       }
     }
   }
