@@ -31,6 +31,7 @@ TEST_CASE("bench measures, concludes, and writes its figures", "[cli][bench_comm
   CHECK(contains(run.out, "reduction: "));
   CHECK(contains(run.out, "no wrong answer in 192"));
   CHECK_FALSE(contains(run.out, " unsupported\n"));
+  CHECK(contains(run.out, " ns; times at worst "));
   const std::string csv = folder.read("speed.csv");
   CHECK(lines(csv) == 7);
   CHECK(contains(csv, "path_mean,ill_posed,undecided_low,"));
