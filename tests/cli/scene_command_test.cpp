@@ -402,6 +402,12 @@ TEST_CASE("horizon: verdicts, tables, JSON and refusals", "[cli][scene_command]"
   CHECK(square.status == 0);
   CHECK(square.err.empty());
   CHECK(square.out.starts_with("infinite horizon: 2 corridor directions\n"));
+  CHECK(contains(square.out, "\ndirection  width  vector  through\n"));
+  CHECK(contains(square.out, "\n[1 0]        0.2     1 0    0 0.5\n"));
+  CHECK(contains(folder.lorentz("horizon cubic --radius 0.45").out,
+                 "\nplanes   width  normal  through\n"
+                 "-------  -----  ------  -------\n"
+                 "(1 0 0)    0.1   1 0 0  0.5 0 0\n"));
   CHECK(contains(square.out, "C = 0.0512014"));
   CHECK(folder.lorentz("horizon square --radius 0.5").out.starts_with("finite horizon"));
   CHECK(contains(folder.lorentz("horizon cubic").out,

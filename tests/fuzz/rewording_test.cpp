@@ -283,8 +283,10 @@ TEST_CASE("Rewording: a start that is said to be moved is, and a velocity", "[fu
         for (int i = 0; i < 3; ++i)
           REQUIRE(reworded->query.v[i] == std::ldexp(one.query.v[i], reworded->speed));
         if (std::abs(reworded->speed) <= 8) speeds.insert(reworded->speed);
-        for (const std::int64_t k : reworded->periods)
+        for (const std::int64_t k : reworded->periods) {
+          REQUIRE(std::abs(k) <= std::int64_t{1} << 50);
           met["back"] += k < 0 && (-k & (-k - 1)) != 0;  // and by no power of two
+        }
         met["moved"] += moved, met["rounded"] += rounded, met["sped"] += sped, ++met["asked"];
       }
     }
