@@ -71,12 +71,14 @@ void set_once(std::optional<T>& said, const T& value, const char* option) {
 }  // namespace
 
 std::vector<std::optional<question::Introduction>> ClaimOptions::ask(
-    const std::vector<question::EngineInfo>& engines) {
+    const std::vector<question::EngineInfo>& engines, UnknownKeys policy) {
   std::vector<std::optional<question::Introduction>> all;
   claim();  // reports errors of the options first
   for (const question::EngineInfo& engine : engines) {
     const auto& said = all.emplace_back(engine.introduce ? engine.introduce() : std::nullopt);
     if (!said) continue;
+    KeyCheck keys(engine.name, policy);
+    for (const std::string& key : said->unknown) keys("engine." + key);
     if (said->precision && (!said_precision_ || bits_of(*said->precision) < bits_of(*said_precision_)))
       said_precision_ = said->precision;
     if (said->time_tolerance) said_tolerance_ = std::max(*said->time_tolerance, said_tolerance_.value_or(0));

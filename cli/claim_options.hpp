@@ -8,6 +8,7 @@
 #include <lorentz/claim.hpp>
 #include "cli/command.hpp"
 #include "question/engines.hpp"
+#include "report/files/unknown_keys.hpp"
 
 namespace lorentz::cli {
 
@@ -20,7 +21,8 @@ struct ClaimOptions {
   /// Asks the engines for their own claims. They apply where the options do not set a value; the coarsest
   /// claim applies if there are several; their domains and rules for starts inside must be the same. Returns the
   /// claim of each engine. Throws InputError.
-  std::vector<std::optional<question::Introduction>> ask(const std::vector<question::EngineInfo>& engines);
+  std::vector<std::optional<question::Introduction>> ask(const std::vector<question::EngineInfo>& engines,
+                                                         UnknownKeys policy = UnknownKeys::warned);
 
   /// `otherwise`: the precision if neither the options nor the engines set one. Throws InputError.
   Claim claim(NumberFormat otherwise = NumberFormat::binary64) const;

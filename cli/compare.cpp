@@ -104,7 +104,8 @@ class ComparedQuestions {
       say("the query id {} comes twice: answers cannot be matched to its queries", id);
     }
     const Question question{.place = place_, .query = query, .id = id, .max_time = max_time};
-    if (!place_->has_numbers_for(query)) return pass_over(question, not_asked_);
+    if (!place_->has_numbers_for(query) || rounded(max_time, place_->claim().precision) != max_time)
+      return pass_over(question, not_asked_);
     const bool is_limit_taken = claim_.domain.limits || !question.has_limit();
     if (!is_limit_taken || !place_->takes(query)) return pass_over(question, outside_domain_);
     scenes_ += std::exchange(is_new_, false);
@@ -262,7 +263,7 @@ int run_compare(ExaminationOptions options) {
   const std::vector<EngineInfo> engines = options.named_engines();
   if (!options.queries && !options.answers.empty())
     throw InputError("--answers needs --queries: the queries that were answered");
-  options.claim.ask(engines);
+  options.claim.ask(engines, options.unknown_keys());
   Lineup lineup(options, engines);
   ComparedQuestions questions(options, lineup.disagreements());
   for (const std::string& argument : options.answers)

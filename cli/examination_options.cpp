@@ -65,8 +65,9 @@ std::vector<Option> rows_of_engines(O& o) {
       o.claim.starts_inside_row(),
       {"--times", &o.times, "", "wrong times are failures, too: exit status 1"},
       {"--strict", &o.strict, "",
-       "ill-posed and undecided answers, and answers to invalid questions, are failures: exit status 1; "
-       "unknown keys are errors"},
+       "ill-posed and undecided answers (of judge answers to invalid questions, too) are failures: exit "
+       "status "
+       "1; unknown keys are errors"},
   };
 }
 

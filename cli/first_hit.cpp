@@ -128,7 +128,9 @@ int act_on_lines(const FirstHitOptions& options) {
   }
   if (options.records) {
     GivenQueries queries(options.queries, initial, unknown);
-    return write_records(queries, options.queries);
+    return write_records(queries, (options.scene ? " --scene " + shell_quoted(*options.scene) : "") +
+                                      (options.radius ? fmt::format(" --radius {} ", *options.radius) : " ") +
+                                      shell_quoted(options.queries));
   }
   const auto one = one_query(options.x, options.v, initial.has_value(), options.queries);
   QueryStream stream = one ? QueryStream(*one, "--x and --v", initial, unknown)
@@ -216,7 +218,7 @@ Command first_hit_command() {
            "of queries and answers: ndjson (a stream), or columns of numbers: csv, npy (NumPy; "
            "docs/formats.md), which need --scene"},
           {"--jobs", Whole{&options->jobs, 1, 1024}, "N",
-           "threads, of batch, certified-batch and a library: the same answers"},
+           "threads, of batch, certified-batch, gpu and a library: the same answers"},
           {"--strict", &options->strict, "", kStrictKeysHelp},
           {"--timeout", Positive{&options->timeout}, "SECONDS", kTimeoutHelp},
       },

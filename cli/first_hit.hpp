@@ -31,8 +31,8 @@ int answer_columns(const ColumnOrder& order);
 /// written without them and counted. Returns the exit status.
 int answer_with_proofs(QueryStream& stream, question::Answerer& answerer);
 
-/// --records: writes a golden set of the exact answers. `source` is the source of the queries. Returns the
-/// exit status.
-int write_records(GivenQueries& queries, const std::string& source);
+/// --records: writes a golden set of the exact answers. `arguments` follow in its generator. Returns the exit
+/// status.
+int write_records(GivenQueries& queries, const std::string& arguments);
 
 }  // namespace lorentz::cli

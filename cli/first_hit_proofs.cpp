@@ -71,10 +71,10 @@ int answer_with_proofs(QueryStream& stream, question::Answerer& answerer) {
   return unproved > 0 ? kDisagreement : kDone;
 }
 
-int write_records(GivenQueries& queries, const std::string& source) {
+int write_records(GivenQueries& queries, const std::string& arguments) {
   golden::Header header{.name = "queries",
                         .description = "Given queries, answered exactly.",
-                        .generator = "lorentz first-hit --prove --records " + shell_quoted(source),
+                        .generator = "lorentz first-hit --prove --records" + arguments,
                         .version = LORENTZ_VERSION,
                         .tags = {{"given", "a query that was given"}}};
   std::size_t others = 0;

@@ -125,7 +125,7 @@ std::vector<Option> rows_of(FuzzOptions& options) {
         fmt::format("targets of the campaign (default: all): {}", fmt::join(names, ", ")), kCommas},
        {"--scenes", &options.scope, "unit|lattice|ball|any",
         "only scenes that the engine supports: unit (the square or cubic lattice with spacing 1 and one "
-        "ball), lattice (one lattice with one ball), ball (a single one), any"},
+        "ball), lattice (one crystal with one ball), ball (a single one), any"},
        {"--time", Positive{&options.seconds}, "SECONDS",
         "length of the campaign (default: 60, or until --count)"},
        {"--count", Whole{&options.cases, 1, kMostCases}, "N",

@@ -216,10 +216,20 @@ golden::GivenQuestions given_questions(const MakeOptions& options, golden::Heade
   return given;
 }
 
+std::string generator_of(const MakeOptions& options) {
+  std::string text = "lorentz golden make --queries " + shell_quoted(*options.queries);
+  if (options.scene) text += " --scene " + shell_quoted(*options.scene);
+  if (options.radius) text += fmt::format(" --radius {}", *options.radius);
+  for (const std::string& tag : options.tags) text += " --tag " + shell_quoted(tag);
+  if (options.precision) text += " --precision " + *options.precision;
+  return text +
+         (options.output == "-" ? "" : " -o " + shell_quoted(fs::path(options.output).filename().string()));
+}
+
 int make_of_queries(golden::Order order, const MakeOptions& options) {
   const golden::Header header{.name = set_name_for(options.output),
                               .description = "Given queries, answered exactly.",
-                              .generator = "lorentz golden make --queries " + shell_quoted(*options.queries),
+                              .generator = generator_of(options),
                               .version = LORENTZ_VERSION,
                               .precision = precision_of(options)};
   bool had_bad_input = false;
@@ -282,8 +292,8 @@ Command golden_make_command() {
           {"-o,--output", &options->output, "FILE", "file to write (- is standard output)",
            kOutput | kTakesStdout},
           {"--all", &options->folder, "FOLDER",
-           "make all sets in this folder as they are committed, index.json, smoke/smoke.ndjson (a few "
-           "records of each tag) and SHA256SUMS"},
+           "make all sets in this folder as they are committed, index.json, smoke/smoke.ndjson (a "
+           "hundred of their records) and SHA256SUMS"},
       },
 
       "Every record was agreed by two oracles: walk, where it can go, and the checked certificate.\n"

@@ -44,7 +44,10 @@ bool LoggedAnswers::read_line(Id& id, Logged& logged) {
   for (LineReader::Line line; lines_->lines.next(line);) {
     lines_->keys.line = logged.line = line.number;
     try {
-      if (lines_->reader.read_answer_line(line, id, logged.answer, logged.components)) return true;
+      if (const auto time = question::own_time_in(line.text))
+        own_time_ = time;
+      else if (lines_->reader.read_answer_line(line, id, logged.answer, logged.components))
+        return true;
     } catch (const InputError& error) {
       is_empty_ = false;
       complain(line.number, error.what());

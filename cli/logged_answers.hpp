@@ -25,6 +25,7 @@ class LoggedAnswers final : public question::Answerer {
   /// is most likely the wrong file.
   void finish() override;
   bool had_bad_input() const { return bad_input_; }
+  std::optional<question::OwnTime> own_time() const override { return own_time_; }
 
  private:
   void enter(const Scene&) override {}
@@ -54,6 +55,7 @@ class LoggedAnswers final : public question::Answerer {
   std::unordered_map<Id, Logged> early_;
   std::unordered_set<Id> ids_;  // all ids that were read
   std::size_t matched_ = 0;
+  std::optional<question::OwnTime> own_time_;
   bool is_empty_ = true, is_broken_ = false, bad_input_ = false;
 };
 

@@ -7,7 +7,6 @@
 #include <set>
 
 #include <lorentz/geometry.hpp>
-#include "question/radii.hpp"
 #include "src/exchange/exchange_number.hpp"
 #include "src/problem/same_answer.hpp"
 #include "src/problem/scene_geometry.hpp"

@@ -6,7 +6,6 @@
 #include <cstdlib>
 
 #include "fuzz/campaign/examiner.hpp"
-#include "question/radii.hpp"
 #include "src/problem/same_answer.hpp"
 
 namespace lorentz::judge {

@@ -54,11 +54,15 @@ std::vector<NamedPlace> places_of(const Scenery& scenery, const Claim& claim) {
 
 // The committed sets that an engine is asked about. Sets in binary32 are for engines in binary32 only; for
 // other engines the same families are harder in binary64.
-std::vector<std::string> golden_sets_for(NumberFormat precision) {
+// Only a program reads invalid questions by itself.
+std::vector<std::string> golden_sets_for(const JudgeOrder& order) {
   std::vector<std::string> files = golden::committed_sets();
-  if (precision == NumberFormat::binary64)
-    std::erase_if(
-        files, [&](const std::string& file) { return golden::Reader(file).header().precision != precision; });
+  std::erase_if(files, [&](const std::string& file) {
+    const golden::Header header = golden::Reader(file).header();
+    const bool is_other =
+        order.claim.precision == NumberFormat::binary64 && header.precision != order.claim.precision;
+    return is_other || (header.name == "bad-queries" && !order.engine.is_command());
+  });
   return files;
 }
 
@@ -130,7 +134,7 @@ JudgePlan::JudgePlan(const JudgeOrder& order) : order_(order) {
       if (judged.question.place == flown_places_[i].place)
         flown_[i].add(judged.question, judged.reply.answer);
   };
-  for (const std::string& file : golden_sets_for(order_.claim.precision)) {
+  for (const std::string& file : golden_sets_for(order_)) {
     const golden::Header header = golden::Reader(file).header();
     add(JudgePart::golden,
         {.name = "golden " + std::filesystem::path(file).stem().string(),

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "question/radii.hpp"
 #include "src/problem/same_answer.hpp"
 
 namespace lorentz::judge {

@@ -72,13 +72,19 @@ void read_shapes(json::Value value, Domain& domain) {
   });
 }
 
-Domain domain_in(json::Value value) {
+void note(std::vector<std::string>& unknown, std::string_view key,
+          std::initializer_list<std::string_view> known) {
+  if (std::ranges::find(known, key) == known.end()) unknown.emplace_back(key);
+}
+
+Domain domain_in(json::Value value, std::vector<std::string>& unknown) {
   Domain domain;
   json::each_member(value, [&](std::string_view key, json::Value its) {
     for (const NamedRange& named : kDomainRanges)
       if (key == named.name) domain.*named.range = range_in(its, key);
     if (key == "shapes") read_shapes(its, domain);
     if (key == "limits") domain.limits = its.boolean();
+    note(unknown, key, {"speed", "coordinates", "radius", "flight", "shapes", "limits"});
   });
   return domain;
 }
@@ -99,8 +105,10 @@ std::optional<Introduction> introduction_in(std::string_view line) {
     if (key == "time_tolerance" && !value.is_null())
       made.time_tolerance = not_negative(value, "time_tolerance");
     if (key == "dimensions") made.dimensions = dimensions_in(value);
-    if (key == "domain") made.domain = domain_in(value);
+    if (key == "domain") made.domain = domain_in(value, made.unknown);
     if (key == "inside") made.inside = rule_called(value.text());
+    note(made.unknown, key,
+         {"name", "version", "precision", "time_tolerance", "dimensions", "domain", "inside"});
   });
   if (!made.dimensions.empty()) {
     Domain& domain = made.domain ? *made.domain : made.domain.emplace();

@@ -22,6 +22,7 @@ struct Introduction {
   std::vector<int> dimensions = {};           ///< empty: not stated
   std::optional<Domain> domain = {};          ///< with the dimensions
   std::optional<StartInside> inside = {};
+  std::vector<std::string> unknown = {};  ///< keys that no introduction has
 };
 
 /// Reads an introduction. Returns nothing if the line is not an object whose first key is "engine". Throws

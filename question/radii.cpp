@@ -1,4 +1,4 @@
-#include "question/radii.hpp"
+#include "question/question.hpp"
 
 #include <cmath>
 

@@ -37,7 +37,7 @@ NumberFormat read_precision(json::Value value, const std::string& key) {
   throw InputError(key + ": " + json_quoted(name) + " is unknown; expected binary64 or binary32");
 }
 
-Header read_header(json::Value value) {
+Header read_header(json::Value value, const OnUnknownKey& on_unknown_key) {
   Header header;
   const std::map<std::string_view, std::string*> texts{{"name", &header.name},
                                                        {"description", &header.description},
@@ -62,6 +62,7 @@ Header read_header(json::Value value) {
         header.tags.emplace_back(tag, read_text(note, "tags"));
       });
     } else {
+      if (on_unknown_key) on_unknown_key(key);
       skip(member);
     }
   });
@@ -180,9 +181,14 @@ void check_members(const std::set<std::string>& keys, const Answer& answer, bool
 }  // namespace
 
 struct Reader::Impl {
-  explicit Impl(const std::string& path) : lines(path) {}
+  Impl(const std::string& path, OnUnknownKey on_unknown_key)
+      : lines(path), unknown(std::move(on_unknown_key)) {
+    exchange.on_unknown_key([this](const std::string& key) { odd.push_back(key); });
+  }
 
   LineReader lines;
+  OnUnknownKey unknown;
+  std::vector<std::string> odd;  // keys of the line
   ExchangeReader exchange;
   json::Document document;
   Header header;
@@ -235,7 +241,7 @@ struct Reader::Impl {
         throw InputError("a golden set begins with its header, {\"golden\":{...}}");
       each_member_of(line, [&](std::string_view key, json::Value value) {
         if (key == "golden")
-          header = read_header(value);
+          header = read_header(value, unknown);
         else
           skip(value);
       });
@@ -277,7 +283,7 @@ struct Reader::Impl {
     Id id;
     std::size_t components = 0;
     Answer answer;
-    if (!read_answer(object, id, answer, components, {}, &keys, ulps))
+    if (!read_answer(object, id, answer, components, unknown, &keys, ulps))
       throw InputError(fmt::format("{}: is not an answer", key));
     check_members(keys, answer, !ulps);
     if (names_obstacle(answer) &&
@@ -345,7 +351,10 @@ struct Reader::Impl {
     if (std::find(keys.begin(), keys.end(), "golden") != keys.end())
       throw InputError("a golden set has one header, its first line");
     StreamItem item;
+    odd.clear();
     exchange.read_query_line(line, scene ? &*scene : nullptr, item);
+    if (unknown && item.kind != StreamItem::Kind::bad)  // those of an invalid question are odd on purpose
+      for (const std::string& key : odd) unknown(key);
     if (item.kind == StreamItem::Kind::bad && item.bad_scene) throw InputError(item.message);
     // A query that is invalid for another reason does not report a missing scene.
     if (item.kind == StreamItem::Kind::bad && !scene) throw InputError("no scene before this record");
@@ -365,7 +374,8 @@ struct Reader::Impl {
   }
 };
 
-Reader::Reader(const std::string& path) : impl_(std::make_unique<Impl>(path)) {
+Reader::Reader(const std::string& path, OnUnknownKey on_unknown_key)
+    : impl_(std::make_unique<Impl>(path, std::move(on_unknown_key))) {
   impl_->read_first_line();
 }
 Reader::~Reader() = default;

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include <lorentz/exchange.hpp>
 #include "judge/golden/record.hpp"
 #include "question/question.hpp"
 
@@ -22,8 +23,9 @@ struct ReadRecord {
 
 class Reader {
  public:
-  /// Opens a set and reads its header. Throws FileError, or InputError with the line.
-  explicit Reader(const std::string& path);
+  /// Opens a set and reads its header. The listener gets each key that no set has. Throws FileError, or InputError
+  /// with the line.
+  explicit Reader(const std::string& path, OnUnknownKey on_unknown_key = {});
   ~Reader();
 
   const std::string& path() const;

@@ -7,7 +7,6 @@
 
 #include <lorentz/scene_check.hpp>
 #include "oracle/contacts/ellipsoid_pair.hpp"
-#include "oracle/exact/dependence.hpp"
 #include "oracle/exact/exact_problem.hpp"
 #include "oracle/exact/shape.hpp"
 #include "oracle/exact/short_basis.hpp"

@@ -1,9 +1,8 @@
-#include "oracle/exact/dependence.hpp"
+#include "oracle/exact/exact_problem.hpp"
 
 #include <algorithm>
 
 #include <lorentz/errors.hpp>
-#include "oracle/integers/dyadic.hpp"
 
 namespace lorentz::oracle {
 namespace {

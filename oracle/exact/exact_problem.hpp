@@ -7,12 +7,14 @@
 #include <vector>
 
 #include <lorentz/scene.hpp>
-
-#include "oracle/exact/dependence.hpp"
 #include "oracle/integers/dyadic.hpp"
 #include "oracle/integers/integer.hpp"
 
 namespace lorentz::oracle {
+
+/// Returns the scene if it is valid and its vectors are independent; else throws InputError, which names the
+/// place.
+const Scene& checked_exactly(const Scene& scene);
 
 /// A lattice vector or point: p in Cartesian coordinates, and n, its coordinates in the scene's primitive
 /// vectors.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include <lorentz/horizon.hpp>
 #include "oracle/exact/exact_problem.hpp"
 #include "oracle/horizon/circle_gaps.hpp"
 
@@ -75,6 +76,14 @@ std::size_t points_in_ball(Basis<D> basis, const Z& bound2, std::size_t most);
 template <std::size_t D>
 bool visit_primitive(Basis<D> basis, const Z& bound2, std::size_t most, const NormalVisitor<D>& visit,
                      const std::function<void(std::size_t done, std::size_t total)>& step = {});
+
+/// The normals, up to a factor, along which both lattices have rows so far apart that they may leave a way between
+/// them, and perhaps further normals: at most two. Nothing if there may be many, because the lattices are
+/// commensurable or the obstacles large.
+std::optional<std::vector<ZVec<2>>> common_normals(const ObstacleLattice<2>& a, const ObstacleLattice<2>& b);
+
+/// Sets horizon.cylinders, families and no_cylinders: channels along lines that lie in no planar channel.
+void find_cylinders(const ChannelScene<3>& scene, Horizon& horizon, const SearchProgress& progress);
 
 /// log2 |a|, roughly. It serves to choose between methods with the same result, and to refuse searches that
 /// are too long.

@@ -3,7 +3,7 @@
 // All integer X that do so form a lattice of three dimensions; n and m, and so X, are bounded by a box. If
 // the other vectors of a short basis are long enough, the points in the box are in the span of one or two
 // basis vectors, and there det X = 0 has at most two solutions, up to a factor.
-#include "oracle/horizon/common_rows.hpp"
+#include "oracle/horizon/channel_scene.hpp"
 
 #include <algorithm>
 

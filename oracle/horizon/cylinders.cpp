@@ -1,4 +1,4 @@
-#include "oracle/horizon/cylinders.hpp"
+#include "oracle/horizon/channel_scene.hpp"
 
 #include <algorithm>
 #include <cmath>

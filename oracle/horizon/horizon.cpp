@@ -7,11 +7,10 @@
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
 #include <lorentz/scene_check.hpp>
-#include "oracle/exact/dependence.hpp"
 #include "oracle/exact/exact_query.hpp"
 #include "oracle/exact/quadratic.hpp"
 #include "oracle/exact/root_sums.hpp"
-#include "oracle/horizon/cylinders.hpp"
+#include "oracle/horizon/channel_scene.hpp"
 #include "oracle/horizon/slabs.hpp"
 #include "oracle/integers/dyadic.hpp"
 

@@ -6,7 +6,7 @@
 #include "oracle/exact/quadratic.hpp"
 #include "oracle/exact/root_sums.hpp"
 #include "oracle/exact/shape.hpp"
-#include "oracle/horizon/common_rows.hpp"
+#include "oracle/horizon/channel_scene.hpp"
 
 namespace lorentz::oracle {
 namespace {

@@ -11,7 +11,7 @@ namespace lorentz::starts {
 /// What VariedStarts are, in a few words.
 inline constexpr const char* kVariedWords =
     "starts up to 2^10 cells away (1 in 16: 2^30), at speeds of 2^-10 to 2^10; 1 in 16 each from a surface, "
-    "with a zero component of v, with a limit";
+    "with a zero component of v, with a limit; those that meet nothing have one, too";
 
 /// A start, and the limit of its flight.
 struct VariedStart {

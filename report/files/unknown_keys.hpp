@@ -21,14 +21,12 @@ class KeyCheck {
   KeyCheck(std::string name, UnknownKeys policy) : name_(std::move(name)), policy_(policy) {}
 
   /// Called by a reader (ExchangeReader::on_unknown_key). Throws InputError if unknown keys are errors; else
-  /// warns once about each of the first kMost keys.
+  /// warns once about each of the first 20 keys.
   void operator()(const std::string& key);
 
   std::size_t line = 0;  ///< where the reader is; 0: unknown
 
  private:
-  static constexpr std::size_t kMost = 20;
-
   std::string name_;
   UnknownKeys policy_;
   std::set<std::string> seen_;

@@ -185,6 +185,25 @@ TEST_CASE("compare judges answers that were logged elsewhere", "[cli][compare_co
             .status == 0);
 }
 
+TEST_CASE("compare: answers that a program wrote may end with the time of its own calls",
+          "[cli][compare_command]") {
+  const Folder folder;
+  const std::string queries = folder.write("q", kScene + kGood);
+  const auto with = [&](const std::string& seconds) {
+    const std::string answers =
+        std::string(kGoodAnswer) + "{\"engine_time\":{\"seconds\":" + seconds + ",\"queries\":1}}\n";
+    return folder.lorentz("compare --json --queries " + queries +
+                          " --answers mine=" + folder.write("a", answers));
+  };
+  const Run run = with("0.5");
+  CHECK(run.status == 0);
+  CHECK(run.err.empty());
+  CHECK(contains(run.out, "\"engine_ns\":5e+08,"));
+  const Run bad = with("-1");
+  CHECK(bad.status == 2);
+  CHECK(contains(bad.err, "a:2: engine_time: seconds is below zero"));
+}
+
 TEST_CASE("compare and golden check judge by what an engine claims", "[cli][compare_command]") {
   const Folder folder;
   // The time is right in binary32, and has an error of 2^25 ulps of binary64; the third query has other numbers.
@@ -209,6 +228,12 @@ TEST_CASE("compare and golden check judge by what an engine claims", "[cli][comp
       R"("precision":"binary32","time_tolerance":null,"not_asked":1,"outside_domain":0,"engines":[{"engine":"mine","queries":1,"agree":1,)"));
   CHECK(contains(single.out, R"("wrong_time":0,)"));
   CHECK(contains(said(" --precision binary32").out, "1 given queries, in binary32\n1 more were not asked"));
+  const auto limited =
+      folder.write("limited", kScene + R"({"id":1,"x":[0.5,0.125],"v":[1,0],"max_time":0.1})"
+                                       "\n"
+                                       R"({"id":2,"x":[0.5,0.125],"v":[1,0],"max_time":0.125})");
+  CHECK(contains(folder.lorentz("compare --json -e oracle --precision binary32 --queries " + limited).out,
+                 R"("not_asked":1,)"));
   CHECK(contains(said(" --time-tolerance 1e-6 --json").out, R"("time_tolerance":1e-06,)"));
   CHECK(contains(said(" --time-tolerance 1e-6 --json").out, R"("wrong_time":0,)"));
   CHECK(contains(said(" --time-tolerance 1e-9 --json").out, R"("wrong_time":1,)"));

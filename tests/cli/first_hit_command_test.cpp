@@ -256,6 +256,12 @@ TEST_CASE("Answers with their proofs, and golden sets of them", "[cli][first_hit
   CHECK(contains(run.out, R"("to":"inf","basis":[[1]]}]}})"));
   const auto records = folder.write("set", folder.lorentz("first-hit --prove --records " + queries).out);
   CHECK(contains(folder.lorentz("golden verify " + records).out, "2 records, all verified"));
+  // What the header says made it makes it.
+  const auto plain = folder.write("plain", missed);
+  const Run set = folder.lorentz("first-hit --prove --records --scene square --radius 0.3 " + plain);
+  CHECK(set.status == 0);
+  CHECK(contains(set.out, "\"generator\":\"lorentz first-hit --prove --records --scene square --radius 0.3 " +
+                              plain + "\""));
   CHECK(folder.run("python3 " LORENTZ_SOURCE_DIR "/data/check.py " + records).status == 0);
   // Another answer has none, and says so; a bad line has none either.
   const Run other = folder.lorentz("first-hit --prove --engine 'cmd:" LORENTZ_NAIVE_ENGINE "' " + queries);

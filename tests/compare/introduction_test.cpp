@@ -44,6 +44,7 @@ TEST_CASE("An introduction is read, whatever is left out", "[compare][introducti
   CHECK(whole->precision == NumberFormat::binary32);
   CHECK(whole->time_tolerance == 1e-4);
   CHECK(whole->dimensions == std::vector{2, 3});
+  CHECK(whole->unknown == std::vector<std::string>{"new"});
   const auto empty = introduction_in(R"( { "engine" : {"time_tolerance":null}} )");
   REQUIRE(empty);
   CHECK_FALSE((empty->precision || empty->time_tolerance));
@@ -163,6 +164,17 @@ TEST_CASE("An impossible introduction is bad input, and a missing one is not a f
   const Run bad = folder.lorentz("compare --count 8" + engine_of(folder, said(R"("precision":"binary16")")));
   CHECK(bad.status == 2);
   CHECK(contains(bad.err, R"(says of itself: precision is binary64 or binary32, not "binary16")"));
+  const std::string misspelt = engine_of(folder, said(R"("precison":"binary32","domain":{"sped":[0,1]})"));
+  for (const char* command : {"compare --count 8", "golden check --first 8 ball-2d", "judge --questions 1"}) {
+    const Run warned = folder.lorentz(command + misspelt),
+              strict = folder.lorentz(command + misspelt + "--strict");
+    INFO(warned.err << strict.err);
+    CHECK(contains(warned.err,
+                   R"(the key "engine.precison" is not known (did you mean precision?), and is ignored)"));
+    CHECK(contains(warned.err, R"("engine.sped")"));
+    CHECK(strict.status == 2);
+    CHECK(contains(strict.err, R"(the key "engine.precison" is not known)"));
+  }
   for (const char* other : {"", "usage: engine FILE"}) {
     const Run none = folder.lorentz("compare --json --count 8" + engine_of(folder, other));
     CHECK(none.status == 0);

@@ -326,6 +326,27 @@ TEST_CASE("golden verify: numbers that the set's precision does not have, and ma
   CHECK(contains(other.err, "its margin is another one"));
 }
 
+TEST_CASE("golden verify and check warn of keys that no set has, by name", "[golden][golden_check]") {
+  const Folder folder;
+  beginning_of_set(folder, "ties", 4);
+  std::string text = folder.read("ties.ndjson");
+  for (const auto& [key, fresh] : {std::pair{"\"count\":", "\"one\":1,\"count\":"},
+                                   {"\"dimension\":", "\"two\":2,\"dimension\":"},
+                                   {"\"outcome\":", "\"three\":3,\"outcome\":"},
+                                   {",\"margin\":", ",\"four\":4,\"margin\":"}})
+    text = replaced(text, key, fresh);
+  const std::string set = folder.write("odd.ndjson", text);
+  for (const char* command : {"golden verify ", "golden check -e oracle "}) {
+    const Run run = folder.lorentz(command + set);
+    INFO(run.err);
+    for (const char* key : {"one", "two", "three", "four"})
+      CHECK(contains(run.err, std::string("the key \"") + key + "\" is not known"));
+  }
+  const Run strict = folder.lorentz("golden check --strict -e oracle " + set);
+  CHECK(strict.status == 2);
+  CHECK(contains(strict.err, "odd.ndjson:1: the key \"one\" is not known"));
+}
+
 TEST_CASE("golden: a folder stands for its sets, the beginning of an id for the id",
           "[golden][golden_check]") {
   const Folder folder;

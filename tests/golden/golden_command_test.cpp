@@ -64,6 +64,17 @@ TEST_CASE("golden make: to a file and to standard output, with one thread and se
   // What the header says made it makes it.
   const std::string generator = between(out.out, "\"generator\":\"lorentz ", "\"");
   CHECK((folder.lorentz(generator).out == out.out));
+  const std::string given = folder.write("given", R"({"id":1,"x":[0.5,0.5],"v":[1,0.25]})"
+                                                  "\n");
+  const std::string make = "cd " + folder.file("") + " && " LORENTZ_PROGRAM " ",
+                    line = "golden make --queries " + given +
+                           " --scene square --radius 0.3 --tag mine=mine -o mine.ndjson";
+  CHECK(folder.run(make + line).status == 0);
+  const std::string mine = folder.read("mine.ndjson"), its = between(mine, "\"generator\":\"lorentz ", "\"");
+  CHECK(its == line);
+  fs::remove(folder.file("mine.ndjson"));
+  CHECK(folder.run(make + its).status == 0);
+  CHECK(folder.read("mine.ndjson") == mine);
   CHECK(folder.lorentz("golden verify " + folder.file("set")).status == 0);
   CHECK(python_check(folder, folder.file("set")) == 0);
 }

@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 
 #include "judge/findings.hpp"
-#include "question/radii.hpp"
 
 using namespace lorentz;
 using namespace lorentz::judge;

@@ -76,6 +76,9 @@ TEST_CASE("judge --questions: the same is asked and found, however long the engi
   const std::string fast = found(""), slow = found("sleep 0.01; ");
   CHECK(contains(fast, R"({"name":"campaign","explanation":)"));
   CHECK_FALSE(contains(fast, R"("queries":9,)"));
+  // Only a program is asked what is invalid.
+  CHECK(contains(fast, "golden bad-queries"));
+  CHECK_FALSE(contains(folder.lorentz("judge --questions 1 --json -e certified").out, "golden bad-queries"));
   CHECK(fast == slow);
   CHECK(folder.lorentz("judge --questions 8 --time 3 --engine classical").status == 2);
   CHECK(folder.lorentz("judge --questions 8 --jobs 2 --engine classical").status == 2);

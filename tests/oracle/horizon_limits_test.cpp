@@ -10,7 +10,7 @@
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
-#include "oracle/horizon/common_rows.hpp"
+#include "oracle/horizon/channel_scene.hpp"
 #include "oracle/integers/dyadic.hpp"
 #include "tests/oracle/horizon_support.hpp"
 #include "tests/support/scenes.hpp"

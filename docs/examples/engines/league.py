@@ -95,7 +95,7 @@ def sums(result, kind):
         if kind_of(row["name"]) == kind:
             for key in COUNTS:
                 total[key] += row[key]
-    total["answered"] = total["queries"] - total["unsupported"] - total["missing"]
+    total["answered"] = total["agree"] + total["wrong"] + total["ill_posed"]  # that name an outcome
     return total
 
 
@@ -110,14 +110,19 @@ def two_digits(value):
     return f"{float(f'{value:.2g}'):,.0f}".replace(",", " ")
 
 
+def in_percent(share):
+    return f"{100 * share:.2g}" if share < 0.995 else "100"
+
+
 def percent(total, key="wrong"):
     if total["answered"] == 0:
         return "–"
     count, number = total[key], total["answered"]
     low, high = interval(count, number)
+    few = f", of {number} / {total['queries']}" if number < 0.5 * total["queries"] else ""
     if count == 0:
-        return f"0 (< {100 * high:.2g})"
-    return f"{100 * count / number:.2g} ({100 * low:.2g} to {100 * high:.2g})"
+        return f"0 (< {in_percent(high)}){few}"
+    return f"{in_percent(count / number)} ({in_percent(low)} to {in_percent(high)}){few}"
 
 
 def largest_radii(result):
