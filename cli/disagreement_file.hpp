@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "question/examine.hpp"
 #include "report/files/whole_file.hpp"

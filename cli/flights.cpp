@@ -1,7 +1,6 @@
 // lorentz flights: large numbers of free flights from drawn starts, their statistics, and theory for
 // comparison.
 #include <chrono>
-#include <tuple>
 
 #include <lorentz/exchange.hpp>
 #include "cli/app.hpp"

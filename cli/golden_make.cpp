@@ -78,7 +78,7 @@ std::vector<std::pair<std::string, std::string>> tags_in(const std::vector<std::
 // The name of a set of given queries: that of its file, if it can be one.
 std::string set_name_for(const std::string& output) {
   const std::string stem = fs::path(output).stem().string();
-  return is_set_name(stem) ? stem : "queries";
+  return output != "-" && is_set_name(stem) ? stem : "queries";
 }
 
 // Says which set was made. `origin`: for example " (seed 5)".
@@ -121,7 +121,7 @@ std::string smoke_of(const std::vector<std::string>& files) {
   constexpr std::size_t kRecords = 100;
   return golden::smoke_of(files, kRecords,
                           {.name = "smoke",
-                           .description = "A few records of each tag of the sets in binary64.",
+                           .description = "Records of the sets in binary64, in turn one of each tag.",
                            .generator = "lorentz golden make --all data/golden",
                            .version = LORENTZ_VERSION});
 }

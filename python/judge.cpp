@@ -3,7 +3,6 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <set>
 
 #include "judge/judge_report.hpp"
 #include "python/lines.hpp"

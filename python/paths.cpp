@@ -1,6 +1,5 @@
 // Trajectories of many particles as arrays, and certified itineraries.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <lorentz/itinerary.hpp>

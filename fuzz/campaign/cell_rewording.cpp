@@ -8,7 +8,6 @@
 // them is tried as large as it was drawn and then made smaller until the vectors are binary64 values. A power
 // of two always works where the components do not meet; any number works where they have few bits.
 #include <algorithm>
-#include <cstdlib>
 
 #include "fuzz/campaign/exact_sums.hpp"
 #include "fuzz/campaign/rewording_steps.hpp"

@@ -80,7 +80,7 @@ void add_set(json::Members& object, const std::string& folder, const std::string
       dimensions.insert(reader.scene().dimension);
     }
     scene = reader.scene_number();
-    see_notation(read.text, notations);
+    see_notation(read.text.substr(read.text.find("],")), notations);  // ids and tags may hold 9e
     see_cells(read, notations);
     ++outcomes[read.record.expect.outcome];
     with_others += !read.record.acceptable.empty();
@@ -108,10 +108,12 @@ std::string index_of(const std::string& folder, const std::vector<std::string>& 
 void write_index(const std::string& folder, const std::vector<std::string>& names) {
   const auto path_of = [&](const std::string& name) { return (fs::path(folder) / name).string(); };
   write_whole(path_of("index.json"), index_of(folder, names));
+  std::set<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files.insert(entry.path().lexically_relative(folder).string());
+  std::erase_if(files, [](auto& name) { return name == "SHA256SUMS" || name.starts_with("itineraries/"); });
   std::string sums;
-  const auto add_sum = [&](const std::string& name) { sums += sum_of(path_of(name)) + "  " + name + '\n'; };
-  std::ranges::for_each(names, add_sum);
-  add_sum("index.json");
+  for (const std::string& name : files) sums += sum_of(path_of(name)) + "  " + name + '\n';
   write_whole(path_of("SHA256SUMS"), sums);
 }
 

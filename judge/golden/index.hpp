@@ -12,10 +12,10 @@ namespace lorentz::golden {
 /// checksum, counts, tags, kinds of scenes, notations. Throws as Reader does.
 std::string index_of(const std::string& folder, const std::vector<std::string>& names);
 
-/// Writes this index.json, and SHA256SUMS of the sets and the index. Throws FileError.
+/// Writes this index.json, and SHA256SUMS of all files in the folder (itineraries/ has its own). Throws FileError.
 void write_index(const std::string& folder, const std::vector<std::string>& names);
 
-/// A set of at most `count` records of these sets in binary64, several of each tag, none of which needs a judge.
+/// A set of at most `count` records of these sets in binary64, in turn one of each tag, none of which needs a judge.
 /// `header`: its name, description and generator.
 std::string smoke_of(const std::vector<std::string>& files, std::size_t count, Header header);
 

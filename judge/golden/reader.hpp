@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include <lorentz/exchange.hpp>
 #include "judge/golden/record.hpp"

@@ -73,19 +73,23 @@ class ExcusedSearch {
   void look_around() {
     for (const Uncertain<D>& atom : query_.atoms()) {
       const View<D>& view = atom.view();
+      const auto look = [&](const Centre<D>& centre) {
+        if (query_.is_from(atom, centre.point.n)) return false;
+        const bool is_near = is_excused(atom.margin_of_containing(centre)),
+                   contains = centre.c2 < view.radius2;
+        is_inside_ |= contains && !is_near;
+        if (contains || is_near) judge(Answer::inside(query_.id_of(atom, centre.point.n)));
+        return false;
+      };
       const Z wide = ceiling(real(view.radius) + Real(ulps_) * atom.largest_change(Real(0)));
-      visit_ball<D>(view.basis, view.offset, wide * wide,
-                    [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
-                      look_at_row(view, first, step, last, [&](const Centre<D>& centre) {
-                        if (query_.is_from(atom, centre.point.n)) return false;
-                        const bool is_near = is_excused(atom.margin_of_containing(centre));
-                        const bool contains = centre.c2 < view.radius2;
-                        is_inside_ |= contains && !is_near;
-                        if (contains || is_near) judge(Answer::inside(query_.id_of(atom, centre.point.n)));
-                        return false;
-                      });
-                      return is_too_much_;
-                    });
+      const auto look_there = [&](const LatticePoint<D>& first, const LatticePoint<D>& step, const Z& last) {
+        look_at_row(view, first, step, last, look);
+        return is_too_much_;
+      };
+      if (view.rank == 0)  // what completes the lattice may be shorter than `wide`
+        look(query_.centre_of({atom.lattice(), atom.atom(), {}}));
+      else
+        visit_ball<D>(view.basis, view.offset, wide * wide, look_there);
     }
   }
 

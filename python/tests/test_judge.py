@@ -38,6 +38,11 @@ def test_a_right_function_is_right():
     assert len(report["difficulties"]) > 20 and "right: no wrong answer" in report["text"]
 
 
+def test_the_largest_seed():
+    report = lorentz.judge(one_by_one, questions=1, seed=2**64 - 1)
+    assert int(report["manifest"]["seed"]) == 2**64 - 1
+
+
 def test_a_vectorized_function_is_the_same():
     report = lorentz.judge(Certified(), vectorized=True, time=SHORT)
     assert report["engine"] == "Certified" and report["queries"] > 200

@@ -135,6 +135,28 @@ TEST_CASE("compare shows the requested number of wrong answers", "[cli][compare_
   }
 }
 
+TEST_CASE("compare: the share of wrong answers, and nothing else where there is nothing",
+          "[cli][compare_command]") {
+  const Folder folder;
+  const auto queries = folder.write("q", kScene + kGood +
+                                             R"({"id":2,"x":[0.5,0],"v":[-1,0]})"
+                                             "\n");
+  const auto answers =
+      folder.write("a", kGoodAnswer + R"({"id":2,"outcome":"hit","lattice":0,"atom":0,"cell":[9,9]})"
+                                      "\n");
+  const std::string out = folder.lorentz("compare --queries " + queries + " --answers mine=" + answers).out;
+  INFO(out);
+  CHECK(contains(out, " 1 (50 %) "));
+  CHECK(contains(out, "mine: wrong in 1 of 2 answers\n"));
+}
+
+TEST_CASE("compare asks all that it is told to, in scene after scene", "[cli][compare_command]") {
+  const Run run =
+      Folder().lorentz("compare -e reduction --scene square --radius 0.1,0.2 --count 20001 --json");
+  CHECK(run.status == 0);
+  CHECK(contains(run.out, "\"queries\":40002,"));
+}
+
 TEST_CASE("compare judges answers that were logged elsewhere", "[cli][compare_command]") {
   const Folder folder;
   const auto queries = folder.write("q", kScene + kGood +

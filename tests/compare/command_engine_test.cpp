@@ -772,6 +772,27 @@ TEST_CASE("When this program is killed, so is the other", "[compare][command_eng
   CHECK_FALSE(goes_on_running(pid));
 }
 
+TEST_CASE("A signal that ends a caller without handlers ends the program that it asks, too",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const std::string pid = folder.file("pid");
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    signal(SIGTERM, SIG_DFL);
+    const auto program =
+        lorentz::question::engine_named("cmd:echo $$ > " + pid + "; exec sleep 1000").answerer({});
+    asked(*program, lorentz::unit_scene(2, 0.25), 1);
+    _exit(1);
+  }
+  while (folder.read("pid").empty()) usleep(10'000);
+  kill(child, SIGTERM);
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK((WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM));
+  CHECK_FALSE(goes_on_running(pid));
+}
+
 TEST_CASE("Names: commands with commas, none, and who else there is", "[compare][command_engine]") {
   const Folder folder;
   CHECK(folder.lorentz("compare --engine cmd:").status == 2);

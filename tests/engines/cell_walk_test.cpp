@@ -106,6 +106,14 @@ TEST_CASE("Classical equals the oracle in any cell, with any motif, in superposi
   }
 }
 
+TEST_CASE("Classical names the first one among obstacles that are entered at once", "[engines][cell_walk]") {
+  Lattice twice = hexagonal(0.25);
+  twice.atoms.push_back(twice.atoms[0]);
+  const Answer answer = CellWalk(scene_with(2, {twice, twice})).first_hit({{0.5, 0, 0}, {1, 0, 0}, {}});
+  CHECK(answer.outcome == Outcome::hit);
+  CHECK(answer.obstacle == ObstacleId{0, 0, {1, 0, 0}});
+}
+
 TEST_CASE("Classical through cells that are much smaller than the obstacles, and through skewed ones",
           "[engines][cell_walk]") {
   Draw draw(1404);

@@ -228,6 +228,11 @@ TEST_CASE("Nesting is bounded, in lines and in scene files", "[exchange]") {
     CHECK(item.kind == StreamItem::Kind::bad);
     CHECK(item.message.find("nested deeper") != std::string::npos);
   }
+  std::string objects = "1";
+  for (int i = 0; i < 60; ++i) objects = "{\"a\":" + objects + "}";
+  const std::string square =
+      R"({"dimension":2,"lattices":[{"vectors":[],"atoms":[{"position":[0,0],"radius":1}]}],"a":)";
+  CHECK(read_scene_text(square + objects + "}").dimension == 2);
   std::string dotted = "a";
   for (int i = 0; i < 100'000; ++i) dotted += ".a";
   const std::string path = test::temporary_file();

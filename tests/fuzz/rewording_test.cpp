@@ -259,6 +259,16 @@ TEST_CASE("Rewording: each step that is counted changes what it says", "[fuzz][r
   for (const char* name : {"axes", "scene", "semiaxes", "order"}) CHECK(none[name] > 20);
 }
 
+TEST_CASE("Rewording: a sum is a binary64 value, or none", "[fuzz][rewording]") {
+  CHECK(fuzz::to_binary64(1, 1023) == 0x1p1023);
+  CHECK(fuzz::to_binary64(oracle::Z((1UL << 53) - 1), 971) == std::numeric_limits<double>::max());
+  CHECK(fuzz::to_binary64(4, 1021) == 0x1p1023);
+  CHECK_FALSE(fuzz::to_binary64(1, 1024));
+  CHECK(fuzz::to_binary64(1, -1074) == 0x1p-1074);
+  CHECK_FALSE(fuzz::to_binary64(3, -1075));
+  CHECK_FALSE(fuzz::to_binary64(oracle::Z((1UL << 53) + 1), 0));
+}
+
 TEST_CASE("Rewording: a start that is said to be moved is, and a velocity", "[fuzz][rewording]") {
   std::map<std::string, int> met;
   std::set<int> speeds;  // those near 1, as powers of two

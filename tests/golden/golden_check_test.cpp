@@ -347,6 +347,21 @@ TEST_CASE("golden verify and check warn of keys that no set has, by name", "[gol
   CHECK(contains(strict.err, "odd.ndjson:1: the key \"one\" is not known"));
 }
 
+TEST_CASE("golden verify: how many records a header may promise", "[golden][golden_check]") {
+  const Folder folder;
+  beginning_of_set(folder, "ties", 4);
+  const std::string text = folder.read("ties.ndjson"),
+                    count = "\"count\":" + between(text, "\"count\":", ",") + ",";
+  const auto said = [&](const std::string& number) {
+    return folder
+        .lorentz("golden verify " +
+                 folder.write("w.ndjson", replaced(text, count, "\"count\":" + number + ",")))
+        .err;
+  };
+  CHECK(contains(said("1000000000000"), "the header says 1000000000000 records"));
+  CHECK(contains(said("1000000000001"), "count: is out of range"));
+}
+
 TEST_CASE("golden: a folder stands for its sets, the beginning of an id for the id",
           "[golden][golden_check]") {
   const Folder folder;

@@ -88,6 +88,22 @@ TEST_CASE("The index of the committed sets is what the program makes of them", "
   CHECK(golden::index_of(folder, names) == text);
 }
 
+TEST_CASE("The index says how numbers are written", "[golden][own_sets]") {
+  const Folder folder;
+  const std::string scene =
+      R"({"scene":{"dimension":2,"lattices":[{"vectors":[],"atoms":[{"position":[0,0],"radius":1}]}]}})";
+  const auto notations = [&](const std::string& x) {
+    const std::string query = "{\"id\":1,\"x\":[" + x + ",3],\"v\":[1,0]}\n";
+    fs::remove(folder.file("mine.ndjson"));
+    folder.lorentz("golden make --queries " + folder.write("q", scene + "\n" + query) + " -o " +
+                   folder.file("mine.ndjson"));
+    const std::string index = golden::index_of(folder.file(""), {"mine.ndjson"});
+    return index.substr(index.find("\"notations\""), index.find("\"tags\"") - index.find("\"notations\""));
+  };
+  CHECK_FALSE(contains(notations("-4.5"), "exponent"));
+  CHECK(contains(notations("-4.5e30"), "exponent"));
+}
+
 TEST_CASE("golden make sees small directions in space, and flights beyond 10^6 cells", "[golden][own_sets]") {
   const Scene cubic = unit_scene(3, 0.1), square = unit_scene(2, 0.1);
   const auto tags = [](const Scene& scene, const Query& query, const char* time) {

@@ -121,6 +121,12 @@ TEST_CASE("The verdict line names the first fault that condemns, and counts the 
             main);
 }
 
+TEST_CASE("Without an answer to a drawn question nothing is said of these", "[judge][verdict_line]") {
+  JudgeReport report = report_of({row(false, 100), row(true, 10)});
+  turn(report.rows[0], Count::unsupported, 100);
+  CHECK(contains(report.text(false), "\nworst:   nothing wrong was found\n"));
+}
+
 TEST_CASE("Three lines come first: what, how bad, and the worst of it", "[judge][verdict_line]") {
   JudgeReport report = report_of({row(false, 46000), row(true, 3210)});
   const auto begins = [&](const std::string& how_bad, const std::string& worst) {

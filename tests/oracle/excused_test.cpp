@@ -181,3 +181,14 @@ TEST_CASE("A single ball is excused, and has a margin, however far the line miss
   CHECK(excused->front().answer.outcome == Outcome::hit);
   CHECK(excused->front().ulps == Approx(decision->margin));
 }
+
+TEST_CASE("A far start is near no copy of a single ball", "[oracle][excused]") {
+  Scene scene = unit_scene(2, 1);
+  scene.lattices[0].vectors = {};
+  scene.lattices[0].rank = 0;
+  const Query query{{-4.5e30, 3, 0}, {1, 0, 0}, {}};  // an ulp of x is 10^14 times the distance from the line
+  const Answer exact = oracle::Oracle(scene).first_hit(query);
+  REQUIRE(exact.outcome == Outcome::never);
+  const auto excused = Judge(scene).excused(query, exact, kUlps, kMost);
+  CHECK((excused && excused->empty()));
+}

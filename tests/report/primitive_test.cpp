@@ -27,6 +27,25 @@ TEST_CASE("A line that touches a ball is said to miss it, by nothing", "[report]
   CHECK(dispute->text == "the line misses lattice 0, atom 0, cell (1, 0) by 0 of its radii");
 }
 
+TEST_CASE("What no obstacle decides has no reason", "[report][reason]") {
+  const Scene square = unit_scene(2, 0.25);
+  const Query along{{0.5, 0.5, 0}, {1, 0, 0}, {}};
+  CHECK_FALSE(
+      report::dispute_of(oracle::Margins(square), square, along, Answer::never(), Answer::undecided(), {}));
+}
+
+TEST_CASE("A scene has a radius if all its obstacles are balls of this radius", "[report][reason]") {
+  Scene scene = unit_scene(2, 0.25);
+  CHECK(report::name_with_radius("mine", scene) == "mine, r = 0.25");
+  scene.lattices[0].atoms.push_back(scene.lattices[0].atoms[0]);
+  CHECK(report::name_with_radius("mine", scene) == "mine, r = 0.25");
+  scene.lattices[0].atoms[1].radius = 0.125;
+  CHECK(report::name_with_radius("mine", scene) == "mine");
+  scene.lattices[0].atoms.resize(1);
+  scene.lattices[0].atoms[0].semiaxes = {Vec{0.25, 0, 0}, Vec{0, 0.125, 0}, Vec{}};
+  CHECK(report::name_with_radius("mine", scene) == "mine");
+}
+
 TEST_CASE("The one question has the ball's exact centre, the sign of the discriminant, and the entry",
           "[report][primitive]") {
   const Scene square = unit_scene(2, 0.25);
