@@ -155,6 +155,19 @@ def test_integers_of_numpy_are_what_lists_of_ints_are(kind: Any) -> None:
     assert float(told.exact_time) == told.time and told.exact_time.decimal(15) is not None
 
 
+def test_the_largest_integers_are_held() -> None:
+    scene = lorentz.unit_scene(2, 0.125)
+    far = np.array([[2**63 - 1, 0]])
+    answer = lorentz.Engine(scene, "oracle").first_hit([[0.5, 0]], [[1, 0]], start_from=(np.array([0]), np.array([0]), far))
+    assert answer.cell[0].tolist() == [1, 0]
+    with pytest.raises(lorentz.Error, match="int32 does not hold"):
+        lorentz.Engine(scene, "oracle").first_hit([[0.5, 0]], [[1, 0]], start_from=(np.array([2**31]), np.array([0]), far))
+
+
+def test_errors_are_of_the_package() -> None:
+    assert lorentz.Error.__module__ == "lorentz"
+
+
 def test_equal_times_are_equal() -> None:
     scene = lorentz.unit_scene(2, 0.125)
     assert (oracle.entry_time(scene, [0.125, 0], [-1, 0], (0, 0, (0, 0))) ==

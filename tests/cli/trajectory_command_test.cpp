@@ -90,6 +90,18 @@ TEST_CASE("trajectory: an engine held against it", "[cli][trajectory]") {
   CHECK(contains(last_line(exact.out), R"("diverged":null)"));
 }
 
+TEST_CASE("trajectory: an engine that names the next obstacle of a column departs there",
+          "[cli][trajectory_command]") {
+  const Folder folder;
+  const std::string engine = folder.write(
+      "engine.sh", std::string(LORENTZ_PROGRAM) + " first-hit | sed -u 's/\"cell\":.0,0/\"cell\":[0,1/'\n");
+  const Run run = folder.lorentz(
+      "trajectory --scene square --radius 0.25 --x 0.01,0.5 --v 0,1 --collisions 1 -e 'cmd:sh " + engine +
+      "'");
+  INFO(run.out << run.err);
+  CHECK(contains(last_line(run.out), R"("diverged":1)"));
+}
+
 TEST_CASE("trajectory: scenes in a stream, numbers exactly as they are written", "[cli][trajectory]") {
   const Folder folder;
   const std::string starts = folder.write(

@@ -319,6 +319,9 @@ TEST_CASE("A time that is another quantity is called by its name", "[judge][quan
   CHECK(given(NAN) == "");
   const Question unit = asked(square, {0.5, 0, 0}, {1, 0, 0});
   CHECK(quantity_of(unit, Answer::hit(unit.exact.obstacle, *unit.exact.time)) == "");  // it is the time, too
+  const Question solid = asked(unit_scene(3, 0.25), {0.5, 0, 0}, {2, 0.01, 0.02});
+  CHECK(quantity_of(solid, Answer::hit(solid.exact.obstacle,
+                                       *solid.place->exact(solid.query, detailed).exit_time)) == kExit);
 }
 
 TEST_CASE("Times that are another quantity are a finding of their own, and nine in ten are enough",

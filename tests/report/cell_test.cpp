@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
+#include <regex>
 
 #include <lorentz/exchange.hpp>
 #include "question/cases/random.hpp"
@@ -74,6 +75,23 @@ TEST_CASE("Cells are written with null for what was not measured", "[report][cel
   CHECK(has(R"("worst":{"verdict":"wrong","ulps":null,"query":{"x":)"));
   cell.skipped = true;
   CHECK((has(R"("ns":null,"mean_path":null,"ulps":null)") && has(R"("worst":null)")));
+}
+
+TEST_CASE("The table of cells has each number in its column, and the conclusion the range of medians",
+          "[report][cell]") {
+  Cell cell;
+  cell.scene = "square", cell.radius = 0.1, cell.dimension = 2;
+  cell.difficulty = "drawn", cell.engine = "mine", cell.queries = 50;
+  cell.counts[Count::agree] = 50;
+  cell.ulps = histogram_of({0, 1, 8});
+  cell.speed = lorentz::question::Speed{17, 20, 19, 21};
+  Cell slow = cell;
+  slow.difficulty = "grazing", slow.skipped = true;
+  const std::string text = bench_text({cell, slow}, {"mine"});
+  INFO(text);
+  CHECK(std::regex_search(text, std::regex("drawn +mine +50 +20 +19-21 +0 +0 +0 +0 +3 +8 +8\\n")));
+  CHECK(std::regex_search(text, std::regex("grazing +mine +- +too slow")));
+  CHECK(text.find("\n  20 to 20 ns; times at worst 8 ulps off") != std::string::npos);
 }
 
 TEST_CASE("A curve is written with every number under its own name", "[report][curves]") {

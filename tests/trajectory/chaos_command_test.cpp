@@ -140,6 +140,8 @@ TEST_CASE("Statistics of trajectories: killed, they go on, the result is the sam
                                  "diffusion --json --radius 0.3 --count 2e4 --time 30"}) {
     const std::string whole = folder.lorentz(what).out, store = " --store " + folder.file("store");
     folder.run("rm -f " + folder.file("store*"));
+    CHECK_FALSE(contains(folder.lorentz(what + store).err, "parts are done"));
+    folder.run("rm -f " + folder.file("store*"));
     // The pieces that it has, while it is written, too.
     const std::string count = LORENTZ_PYTHON " " + folder.write("count.py", R"(
 import sqlite3, sys
