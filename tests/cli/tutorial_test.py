@@ -54,7 +54,7 @@ def run(commands):
         environment = {key: value for key, value in os.environ.items() if not key.startswith("LORENTZ_")}
         environment["PATH"] = f"{folder}:{environment['PATH']}"
         done = subprocess.run(["bash", "--norc", "-c", script], cwd=folder, stdin=subprocess.DEVNULL, text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment, timeout=300)
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment, timeout=3600)
         pictures = {path.name: path.read_bytes() for path in folder.glob("*.svg")}
     finally:
         shutil.rmtree(folder)
