@@ -283,10 +283,9 @@ Command bench_command() {
 
       "Without --engine: classical, published, reduction, certified and oracle. Without --scene: square and "
       "cubic. Without --radius: 0.3, 0.1, 0.01, 0.001 and 1e-06; scenes with semiaxes at their own size.\n"
-      "drawn: uniform starts, isotropic directions. near-rational: directions along small lattice vectors "
-      "but for "
-      "ulps to 2^-40.\ngrazing: the first ball is passed or met within r 2^-10 to r 2^-52 of its "
-      "edge.\nExample:\n"
+      "drawn: uniform starts, isotropic directions.\n"
+      "near-rational: directions along small lattice vectors but for ulps to 2^-40.\n"
+      "grazing: the first ball is passed or met within r 2^-10 to r 2^-52 of its edge.\nExample:\n"
       "  lorentz bench --scene square --radius 0.1,1e-6 --engine published,reduction --csv speed.csv",
       [options] { return run_bench(*options); }};
 }

@@ -66,8 +66,7 @@ std::vector<Option> rows_of_engines(O& o) {
       {"--times", &o.times, "", "wrong times are failures, too: exit status 1"},
       {"--strict", &o.strict, "",
        "ill-posed and undecided answers (of judge answers to invalid questions, too) are failures: exit "
-       "status "
-       "1; unknown keys are errors"},
+       "status 1; unknown keys are errors"},
   };
 }
 
