@@ -39,6 +39,13 @@ def test_a_box_has_sides(box):
         lorentz.plot.scene("square", box)
 
 
+def test_a_box_of_too_many_cells_is_refused(monkeypatch):
+    monkeypatch.setattr(lorentz.plot, "MOST_OBSTACLES", 9)
+    assert len(lorentz.plot._cells(np.eye(2), np.zeros(2), (0, 2, 0, 2), 0)) == 9
+    with pytest.raises(lorentz.Error, match="box: has more than 9 cells"):
+        lorentz.plot._cells(np.eye(2), np.zeros(2), (0, 2, 0, 3), 0)
+
+
 def test_what_is_drawn_leaves_a_margin_of_a_twentieth_or_a_half():
     for size, margin in ((4, 0.5), (40, 2)):
         assert lorentz.plot._around(np.array([[0, 0], [size, 1]])) == (-margin, size + margin, -margin, 1 + margin)

@@ -44,6 +44,14 @@ TEST_CASE("Answerers are told apart by their traits, of another program nothing 
   CHECK_FALSE((other.is_exact || other.knows_digits || other.leaves_undecided || other.uses_reduction));
 }
 
+TEST_CASE("Names of programs and libraries hold commas, and are nobody else's", "[compare][engines]") {
+  CHECK_THROWS_WITH(engines_named({"lib:/nowhere/a,b.so"}),
+                    Catch::StartsWith("lib:/nowhere/a,b.so: there is no such file"));
+  CHECK(names_of(engines_named({"cmd:a,b", "classical,walk"})) == Names{"cmd:a,b", "classical", "walk"});
+  for (const char* name : {"cmd:a", "lib:a.so", "walk"})
+    CHECK_THROWS_AS(guest_engine(name, nullptr), InputError);
+}
+
 TEST_CASE("Every engine in the table answers in a scene", "[compare][engines]") {
   const Scene scene = unit_scene(2, 0.25);
   for (const EngineInfo& engine : own_engines()) {

@@ -345,6 +345,8 @@ TEST_CASE("Options of fuzz before the name of its subcommand begin no campaign",
   const Folder folder;
   const std::string store = " --store " + folder.file("store");
   folder.lorentz("fuzz -e published -t published-faults --count 4" + store);
+  // What is needed comes first.
+  CHECK(contains(folder.lorentz("fuzz show --help").out, "exit\n  --store FILE REQUIRED"));
   const Run list = folder.lorentz("fuzz show" + store), behind = folder.lorentz("fuzz --json show" + store);
   CHECK(list.status == 0);
   CHECK(behind.status == 0);

@@ -1,11 +1,14 @@
 // A libcuda.so.1 without a card: the functions of the driver's interface that the program calls, and the
 // kernels compiled for the processor. What comes before and after a kernel is tested with it, and the
 // kernels' sources are. FAKE_CARD: "none" has no card; "wrong" one whose results have a bit that is another.
+// It is as late as a card may be: a kernel runs when somebody waits for it, or copies; and new memory is dirty.
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <mutex>
 #include <string>
+#include <vector>
 
 #define LORENTZ_EMULATED_DEVICE
 #include "src/engines/gpu/kernels.cpp"
@@ -43,6 +46,40 @@ T* at(std::uint64_t address) {
 
 constexpr int kGood = 0, kBad = 1;
 
+struct Launch {
+  const Kernel* kernel;
+  std::uint64_t threads, arguments[2];
+
+  void run() const {
+    auto& [thread, all] = lorentz::device::place;
+    all = threads;
+    for (thread = 0; thread < all; ++thread)
+      if (kernel->drawn)
+        kernel->drawn(at<DrawnFlights>(arguments[0]), at<DrawnTally>(arguments[1]));
+      else
+        kernel->columns(at<CardColumns>(arguments[0]));
+    if (!is("wrong")) return;
+    if (kernel->drawn)
+      at<DrawnTally>(arguments[1])->time.digits[33] ^= 1;
+    else
+      at<CardColumns>(arguments[0])->cell[1][7] ^= 1;
+  }
+};
+
+std::mutex mutex;
+std::vector<Launch> waiting;
+
+int finish() {
+  const std::lock_guard lock(mutex);
+  for (const Launch& one : waiting) one.run();
+  waiting.clear();
+  return kGood;
+}
+
+void* dirty(std::size_t size) {
+  return std::memset(std::malloc(size), 0xa5, size);
+}
+
 }  // namespace
 
 extern "C" {
@@ -69,7 +106,7 @@ int cuCtxSetCurrent(void*) {
   return kGood;
 }
 int cuCtxSynchronize() {
-  return kGood;
+  return finish();
 }
 int cuModuleLoadData(void** module, const void* text) {
   *module = nullptr;
@@ -87,39 +124,30 @@ int cuOccupancyMaxActiveBlocksPerMultiprocessor(int* blocks, void*, int, std::si
   return *blocks = 2, kGood;
 }
 int cuMemAlloc_v2(std::uint64_t* address, std::size_t size) {
-  return *address = reinterpret_cast<std::uint64_t>(std::malloc(size)), kGood;
+  return *address = reinterpret_cast<std::uint64_t>(dirty(size)), kGood;
 }
 int cuMemFree_v2(std::uint64_t address) {
-  return std::free(at<void>(address)), kGood;
+  return finish(), std::free(at<void>(address)), kGood;
 }
 int cuMemHostAlloc(void** memory, std::size_t size, unsigned) {
-  return *memory = std::malloc(size), kGood;
+  return *memory = dirty(size), kGood;
 }
 int cuMemcpyHtoD_v2(std::uint64_t to, const void* from, std::size_t size) {
-  return std::memcpy(at<void>(to), from, size), kGood;
+  return finish(), std::memcpy(at<void>(to), from, size), kGood;
 }
 int cuMemcpyDtoH_v2(void* to, std::uint64_t from, std::size_t size) {
-  return std::memcpy(to, at<void>(from), size), kGood;
+  return finish(), std::memcpy(to, at<void>(from), size), kGood;
 }
 int cuMemsetD8_v2(std::uint64_t address, unsigned char value, std::size_t size) {
-  return std::memset(at<void>(address), value, size), kGood;
+  return finish(), std::memset(at<void>(address), value, size), kGood;
 }
 int cuLaunchKernel(void* function, unsigned blocks, unsigned, unsigned, unsigned threads, unsigned, unsigned,
                    unsigned, void*, void** arguments, void**) {
   const auto argument = [&](int i) { return *static_cast<std::uint64_t*>(arguments[i]); };
   const auto* const kernel = static_cast<Kernel*>(function);
-  auto& [thread, all] = lorentz::device::place;
-  all = std::uint64_t{blocks} * threads;
-  for (thread = 0; thread < all; ++thread)
-    if (kernel->drawn)
-      kernel->drawn(at<DrawnFlights>(argument(0)), at<DrawnTally>(argument(1)));
-    else
-      kernel->columns(at<CardColumns>(argument(0)));
-  if (!is("wrong")) return kGood;
-  if (kernel->drawn)
-    at<DrawnTally>(argument(1))->time.digits[33] ^= 1;
-  else
-    at<CardColumns>(argument(0))->cell[1][7] ^= 1;
+  const std::lock_guard lock(mutex);
+  waiting.push_back(
+      {kernel, std::uint64_t{blocks} * threads, {argument(0), kernel->drawn ? argument(1) : 0}});
   return kGood;
 }
 int cuGetErrorName(int, const char** name) {

@@ -290,13 +290,24 @@ TEST_CASE("Where all times are wrong, circumstances are found among right obstac
 }
 
 TEST_CASE("Examples of everyday sizes come first", "[judge][findings]") {
-  std::vector<Question> questions;
+  Scene aside = unit_scene(2, 0.25);
+  aside.lattices[0].atoms[0].position = {0x1p-40, 0, 0};
+  std::vector<Question> questions{asked(unit_scene(2, 0x1p-40), {0.5, 0, 0}, {1, 0, 0}),
+                                  asked(aside, {0.5, 0, 0}, {1, 0, 0})};
   for (const double speed : {0x1p40, 0x1.23456p3, 0x1p-40})
     questions.push_back(asked(unit_scene(2, 0.25), {0.5, 0, 0}, {speed, 0, 0}));
   const auto all =
-      found(questions, [](const Question&, Answer& given) { given = Answer::never(); }).all(rows(3));
+      found(questions, [](const Question&, Answer& given) { given = Answer::never(); }).all(rows(5));
   REQUIRE(all.size() == 1);
   CHECK(all[0].simplest.question.query.v[0] == 0x1.23456p3);
+}
+
+TEST_CASE("What is hit through its centre is as deep as its radius", "[judge][findings]") {
+  const Features central = features_of(asked(unit_scene(2, 0.25), {0.5, 0, 0}, {1, 0, 0}));
+  CHECK(central.depth == 1);
+  CHECK(central.chord == 0.5);
+  const Features beside = features_of(asked(unit_scene(2, 0.25), {0.5, 0.125, 0}, {1, 0, 0}));
+  CHECK(beside.depth == 0.5);
 }
 
 TEST_CASE("A time that is another quantity is called by its name", "[judge][quantity]") {

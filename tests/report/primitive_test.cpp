@@ -25,6 +25,12 @@ TEST_CASE("A line that touches a ball is said to miss it, by nothing", "[report]
                                           Answer::hit({0, 0, {1, 0, 0}}, 0.5), {});
   REQUIRE(dispute);
   CHECK(dispute->text == "the line misses lattice 0, atom 0, cell (1, 0) by 0 of its radii");
+  const auto words = [&](double y) {
+    return primitive(square, {{0.5, y, 0}, {1, 0, 0}, {}}, {0, 0, {1, 0, 0}}).cpp;
+  };
+  CHECK(contains(words(0.25), "The exact discriminant is zero: the line touches it"));
+  CHECK(contains(words(std::nextafter(0.25, 0)), "is positive: the line meets it"));
+  CHECK(contains(words(std::nextafter(0.25, 1)), "is negative: the line misses it"));
 }
 
 TEST_CASE("What no obstacle decides has no reason", "[report][reason]") {

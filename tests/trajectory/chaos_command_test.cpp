@@ -27,6 +27,8 @@ TEST_CASE("lorentz lyapunov: theory stands beside, and threads change nothing", 
   CHECK(contains(json.out, R"({"scene":"square","radius":0.2,"seed":9301,)"));
   CHECK(contains(json.out, R"("mean_free_path":2.185840734)"));
   CHECK(lines(json.out) == 1);
+  CHECK(contains(folder.lorentz("lyapunov --scene square --radius 0.2 --collisions 1 --json").out,
+                 R"("collisions":4096,)"));
   CHECK(contains(folder.lorentz("lyapunov --scene cubic --radius 0.2 --collisions 1e4").out,
                  "sum of those above zero, a collision: 7."));
 }
@@ -67,7 +69,9 @@ TEST_CASE("lorentz diffusion: no D where lattices leave corridors open that they
     CHECK(contains(text, "\nno D: corridors or planar channels are open"));
     CHECK(contains(text, "theory, 2 C: not known"));
     CHECK_FALSE(contains(text, "\nD = "));
-    CHECK(contains(folder.lorentz(what + file + " --json").out, R"("open":true,"D":null,"D_error":null)"));
+    const std::string json = folder.lorentz(what + file + " --json").out;
+    CHECK(contains(json, R"("open":true,"D":null,"D_error":null)"));
+    CHECK(contains(json, R"("two_C":null)"));
   }
   CHECK(contains(folder.lorentz(what + scene("[[1.4, 0.3], [-0.2, 1.7]]")).out, "every path ends"));
   // Parallel to 1e-11, but not exactly.

@@ -9,6 +9,7 @@
 #include <lorentz/reduction.hpp>
 #include <lorentz/trajectory_batch.hpp>
 #include "src/trajectory/meeting.hpp"
+#include "statistics/rival/rival.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -570,6 +571,15 @@ TEST_CASE("A displacement is exact where both places are far away", "[trajectory
   to.offset[0] += 0x1p-20;
   CHECK(displacement(scene, from, to) == Vec{3 + 0x1p-20, 1, 0});
   CHECK(place_of(scene, to)[0] == 0x1p62);
+}
+
+TEST_CASE("A certified collision is where its obstacle's centre and the offset are", "[trajectory]") {
+  Scene scene = ellipses(0.3);
+  scene.lattices[0].atoms[0].position = {0.25, 0.5, 0};
+  oracle::CertifiedCollision collision;
+  collision.obstacle = {0, 0, {2, -1, 0}};
+  collision.offset = {-0.125, 0.0625, 0}, collision.velocity = {8, 16, 0};
+  CHECK(rival::place_of(scene, collision) == Vec{2.125, -0.4375, 0});
 }
 
 TEST_CASE("A way whose square is beyond the range leads nowhere", "[trajectory]") {
