@@ -44,7 +44,7 @@ bool LoggedAnswers::read_line(Id& id, Logged& logged) {
   for (LineReader::Line line; lines_->lines.next(line);) {
     lines_->keys.line = logged.line = line.number;
     try {
-      if (const auto time = question::own_time_in(line.text))
+      if (const auto time = question::own_time_in(line.text, std::ref(lines_->keys)))
         own_time_ = time;
       else if (lines_->reader.read_answer_line(line, id, logged.answer, logged.components))
         return true;

@@ -351,8 +351,7 @@ class CommandEngine final : public Answerer {
     constexpr std::size_t kMostKeys = 20;
     if (options_.strict) throw InputError("the key " + json_quoted(key) + " is not known");
     if (unknown_keys_.size() < kMostKeys && unknown_keys_.insert(key).second)
-      complaints_.tell(fmt::format(
-          "writes the key {}, which no answer has; it is ignored (--strict: an error)", json_quoted(key)));
+      complaints_.tell("writes the key " + json_quoted(key) + ", which is not known, and is ignored");
   }
 
   void take_line(const LineReader::Line& line) {
@@ -374,7 +373,7 @@ class CommandEngine final : public Answerer {
   }
 
   bool take_own_time(const LineReader::Line& line) {
-    const auto time = own_time_in(line.text);
+    const auto time = own_time_in(line.text, [&](const std::string& key) { see_unknown_key(key); });
     if (!time) return false;
     if (!own_time_) own_time_.emplace();
     own_time_->seconds += time->seconds;

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 
-#include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_json.hpp"
 
 namespace lorentz::question {
@@ -151,11 +150,15 @@ std::optional<Introduction> introduction_of_command(const std::string& command, 
   return said.line ? introduction_in(*said.line) : std::nullopt;
 }
 
-std::optional<OwnTime> own_time_in(std::string_view line) {
+std::optional<OwnTime> own_time_in(std::string_view line, const OnUnknownKey& on_unknown_key) {
   OwnTime time;
   const bool is_there = read_first(line, "engine_time", [&](std::string_view key, json::Value value) {
-    if (key == "seconds") time.seconds = not_negative(value, "engine_time: seconds");
-    if (key == "queries") time.queries = static_cast<double>(value.natural());
+    if (key == "seconds")
+      time.seconds = not_negative(value, "engine_time: seconds");
+    else if (key == "queries")
+      time.queries = static_cast<double>(value.natural());
+    else if (on_unknown_key)
+      on_unknown_key("engine_time." + std::string(key));
   });
   return is_there ? std::optional(time) : std::nullopt;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <lorentz/claim.hpp>
+#include <lorentz/exchange.hpp>
 #include "question/process.hpp"
 
 namespace lorentz::question {
@@ -53,7 +54,7 @@ struct OwnTime {
 
 /// Reads `{"engine_time":{"seconds":..,"queries":..}}`. Returns nothing for another line; throws InputError
 /// for impossible numbers.
-std::optional<OwnTime> own_time_in(std::string_view line);
+std::optional<OwnTime> own_time_in(std::string_view line, const OnUnknownKey& on_unknown_key = {});
 
 /// Reads `{"library":{"does":..}}`, by which the program of a library says what the library is called for.
 /// Returns nothing for another line.

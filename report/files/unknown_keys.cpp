@@ -8,7 +8,7 @@ namespace lorentz {
 constexpr std::size_t kMost = 20;
 
 static void tell(const std::string& place, const std::string& what, std::size_t number, const char* things) {
-  if (number <= kMost) say("warning: {}: {}, and is ignored (--strict: an error)", place, what);
+  if (number <= kMost) say("warning: {}: {}, and is ignored", place, what);
   if (number == kMost + 1) say("warning: {}: more {} are not known, and are ignored", place, things);
 }
 

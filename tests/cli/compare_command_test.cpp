@@ -224,6 +224,7 @@ TEST_CASE("compare: answers that a program wrote may end with the time of its ow
   const Run bad = with("-1");
   CHECK(bad.status == 2);
   CHECK(contains(bad.err, "a:2: engine_time: seconds is below zero"));
+  CHECK(contains(with("0.5,\"query\":1").err, "a:2: the key \"engine_time.query\" is not known"));
 }
 
 TEST_CASE("compare and golden check judge by what an engine claims", "[cli][compare_command]") {

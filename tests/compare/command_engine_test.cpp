@@ -140,7 +140,7 @@ TEST_CASE("A key that no answer has is told of once, and of twenty at the most",
   CHECK(run.status == 0);
   check_all_but_fifth(run.out, "");
   const auto times_told = [&](int n) {
-    const std::string told = "writes the key \"own" + std::to_string(n) + "\", which no answer has";
+    const std::string told = "writes the key \"own" + std::to_string(n) + "\", which is not known";
     const auto first = run.err.find(told);
     return first == std::string::npos ? 0 : run.err.find(told, first + 1) == std::string::npos ? 1 : 2;
   };

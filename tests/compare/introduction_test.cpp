@@ -109,6 +109,10 @@ TEST_CASE("The time of an engine's own calls is read", "[compare][introduction]"
   for (const char* bad :
        {R"({"engine_time":{"seconds":-1,"queries":1}})", R"({"engine_time":{"queries":-1}})"})
     CHECK_THROWS_AS(own_time_in(bad), InputError);
+  std::string unknown;
+  const auto see = [&](const std::string& key) { unknown += key; };
+  CHECK(own_time_in(R"({"engine_time":{"seconds":2,"querys":1}})", see)->seconds == 2);
+  CHECK(unknown == "engine_time.querys");
 }
 
 TEST_CASE("An engine is judged by what it says of itself, unless an option says otherwise",
