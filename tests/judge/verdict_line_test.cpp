@@ -206,7 +206,9 @@ TEST_CASE("Answers to invalid questions are counted apart, told last, and count 
 TEST_CASE("What was unsupported, what there was no time for, and what was given up are three lists",
           "[judge][verdict_line]") {
   JudgeReport report = report_of({row(false, 1000), row(true, 30), row(true, 0), row(true, 7)});
-  const auto name = [&](std::size_t i, const char* text) { report.rows[i].name = text; };
+  const auto name = [&](std::size_t i, const char* text) {
+    report.rows[i].name = report.rows[i].tally.name = text;
+  };
   name(1, "ellipses"), name(2, "ties"), name(3, "far starts");
   turn(report.rows[1], Count::unsupported, 30);
   turn(report.rows[3], Count::missing, 5);
