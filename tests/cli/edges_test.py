@@ -35,7 +35,6 @@ class Edge:
     prints: bool = True  # on standard output
     slow: bool = False  # quick is not quick: --help takes its place
     room: int = 20  # bytes on the full disk
-    report: bool = False  # --html needs the page, which a program built without npm has not
     reports: bool = False  # a signal is a wish: what is done is reported, and files are written of it
 
 
@@ -55,26 +54,26 @@ EDGES = {
                     "--queries /no/such/file"),
     "judge": Edge("-e reduction --questions 1", "-e published",
                   ["--html", "--golden", "--baseline", "--junit"],
-                  "-e cmd:/no/such/file --time 2", report=True, reports=True),
+                  "-e cmd:/no/such/file --time 2", reports=True),
     "convergents": Edge("0.5"),
     "horizon": Edge("square", missing="/no/such/file"),
     "sample": Edge("--count 5", "--count 1e9", missing="--scene /no/such/file"),
     "demo": Edge("", "--all", slow=True),
     "doctor": Edge("", slow=True),
     "bench": Edge("--scene square --radius 0.3 -e reduction --count 100 --difficulty drawn", "--count 1e6 --csv OUT",
-                  ["--csv", "--html"], "--scene /no/such/file", report=True),
+                  ["--csv", "--html"], "--scene /no/such/file"),
     "scene show": Edge("square", missing="/no/such/file"),
     "scene draw": Edge("square", "", ["-o"], "/no/such/file"),
     "golden make": Edge("--set ties --count 5", "--set grazing --count 1e8 -o OUT", ["-o"]),
     "golden check": Edge("ties -e reduction --first 10", "-e oracle,walk,published-256", ["--disagreements", "--baseline", "--junit"],
                          missing="/no/such/file -e oracle"),
     "golden verify": Edge("bad-queries", "--walk", missing="/no/such/file"),
-    "golden explain": Edge("9cbb135e set.ndjson", "", ["--svg", "--html"], "9cbb /no/such/file", report=True),
+    "golden explain": Edge("9cbb135e set.ndjson", "", ["--svg", "--html"], "9cbb /no/such/file"),
     "golden list": Edge(),
     "fuzz": Edge("-e published -t leaving --count 8 --keep 1 --mutate 0 --reword 0", "--time 600",
                  ["--store"], status=1),
     "fuzz show": Edge("1/leaving/6 --store published.campaign", "", ["--svg", "--html"], "1 --store /no/such/file",
-                      room=1000, report=True),
+                      room=1000),
     "flights": Edge("--count 1e4", "--count 1e10 --csv OUT", ["--csv", "--html", "--store"],
                     "--scene /no/such/file", reports=True),
     "trajectory": Edge("--scene square --radius 1/3 --time 10 start",
@@ -209,7 +208,7 @@ class Test:
                 process.communicate()
                 continue
             run = Ended(process.returncode, out, err)
-            works = run.status in (0, 1) or (self.edge.report and not HAS_PAGE and "--html" in line)
+            works = run.status in (0, 1) or ("--html" in line and not HAS_PAGE)
             self.check(works, f"the example does not work: {line}", run)
 
     def standard_output(self):

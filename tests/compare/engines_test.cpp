@@ -44,7 +44,7 @@ TEST_CASE("Answerers are told apart by their traits, of another program nothing 
   CHECK_FALSE((other.is_exact || other.knows_digits || other.leaves_undecided || other.uses_reduction));
 }
 
-TEST_CASE("Names of programs and libraries hold commas, and are nobody else's", "[compare][engines]") {
+TEST_CASE("Names of programs and libraries may hold commas, and are taken", "[compare][engines]") {
   CHECK_THROWS_WITH(engines_named({"lib:/nowhere/a,b.so"}),
                     Catch::StartsWith("lib:/nowhere/a,b.so: there is no such file"));
   CHECK(names_of(engines_named({"cmd:a,b", "classical,walk"})) == Names{"cmd:a,b", "classical", "walk"});

@@ -119,10 +119,12 @@ class Action(unittest.TestCase):
     def test_it_judges(self):
         with tempfile.TemporaryDirectory() as scratch:
             folder = Path(scratch)
-            page = [] if "--html" not in said(PROGRAM, "judge", "--help") else ["judged.html"]
+            page = subprocess.run([PROGRAM, "flights", "--count", "100", "--html", folder / "page"], capture_output=True, text=True)
+            if "without the page" in page.stderr:
+                self.skipTest("this program has no page of reports; that of a wheel has it")
             done = self.judge(folder)
             self.assertEqual(done.returncode, 0, done.stderr)
-            for name in ["judged.xml", "judged.txt", *page]:
+            for name in ["judged.xml", "judged.txt", "judged.html"]:
                 self.assertGreater((folder / "judged" / name).stat().st_size, 100, name)
             self.assertEqual(self.judge(folder, ENGINE="published").returncode, 1)
             done = self.judge(folder, ENGINE="published", BASELINE="known")
