@@ -71,13 +71,13 @@ void set_once(std::optional<T>& said, const T& value, const char* option) {
 }  // namespace
 
 std::vector<std::optional<question::Introduction>> ClaimOptions::ask(
-    const std::vector<question::EngineInfo>& engines, UnknownKeys policy) {
+    const std::vector<question::EngineInfo>& engines, bool strict) {
   std::vector<std::optional<question::Introduction>> all;
   claim();  // reports errors of the options first
   for (const question::EngineInfo& engine : engines) {
     const auto& said = all.emplace_back(engine.introduce ? engine.introduce() : std::nullopt);
     if (!said) continue;
-    KeyCheck keys(engine.name, policy);
+    KeyCheck keys(engine.name, strict);
     for (const std::string& key : said->unknown) keys("engine." + key);
     if (said->precision && (!said_precision_ || bits_of(*said->precision) < bits_of(*said_precision_)))
       said_precision_ = said->precision;

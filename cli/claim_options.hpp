@@ -22,7 +22,7 @@ struct ClaimOptions {
   /// claim applies if there are several; their domains and rules for starts inside must be the same. Returns the
   /// claim of each engine. Throws InputError.
   std::vector<std::optional<question::Introduction>> ask(const std::vector<question::EngineInfo>& engines,
-                                                         UnknownKeys policy = UnknownKeys::warned);
+                                                         bool strict = false);
 
   /// `otherwise`: the precision if neither the options nor the engines set one. Throws InputError.
   Claim claim(NumberFormat otherwise = NumberFormat::binary64) const;

@@ -34,8 +34,8 @@ std::vector<Scene> scenes_named(const ExaminationOptions& options, NumberFormat 
   std::vector<Scene> scenes;
   for (const std::string& name : names)
     for (const auto& radius : radii)
-      scenes.push_back(rounded_scene(
-          load_scene(name, positive_number(radius, "--radius"), options.unknown_keys()), precision, name));
+      scenes.push_back(rounded_scene(load_scene(name, positive_number(radius, "--radius"), options.strict),
+                                     precision, name));
   if (options.queries && scenes.size() > 1) throw InputError("--scene: with --queries there is one at most");
   return scenes;
 }
@@ -52,7 +52,7 @@ class ComparedQuestions {
         named_(scenes_named(options, claim_.precision)) {
     std::optional<Scene> first;
     if (!named_.empty()) enter(*(first = named_[0]));
-    if (options.queries) given_.emplace(*options.queries, first, options.unknown_keys());
+    if (options.queries) given_.emplace(*options.queries, first, options.strict);
   }
 
   // The next questions, at most `most`; empty at the end.
@@ -188,8 +188,8 @@ std::string json_of(const ExaminationOptions& options, const ComparedQuestions& 
 }
 
 std::unique_ptr<LoggedAnswers> logged_in(const std::string& path, const ComparedQuestions& questions,
-                                         UnknownKeys unknown) {
-  if (!is_columns(path)) return std::make_unique<LoggedAnswers>(path, unknown);
+                                         bool strict) {
+  if (!is_columns(path)) return std::make_unique<LoggedAnswers>(path, strict);
   if (!questions.are_columns())
     throw InputError("--answers: " + path +
                      ": its rows are matched by their numbers; --queries needs columns, too");
@@ -199,11 +199,11 @@ std::unique_ptr<LoggedAnswers> logged_in(const std::string& path, const Compared
 }
 
 void add_logged(Lineup& lineup, const std::string& argument, const ComparedQuestions& questions,
-                UnknownKeys unknown) {
+                bool strict) {
   const auto equals = argument.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == argument.size())
     throw InputError("--answers: " + json_quoted(argument) + " is not NAME=FILE");
-  lineup.add(argument.substr(0, equals), logged_in(argument.substr(equals + 1), questions, unknown));
+  lineup.add(argument.substr(0, equals), logged_in(argument.substr(equals + 1), questions, strict));
 }
 
 // The lines on questions that were not asked; empty if all were asked.
@@ -263,11 +263,10 @@ int run_compare(ExaminationOptions options) {
   const std::vector<EngineInfo> engines = options.named_engines();
   if (!options.queries && !options.answers.empty())
     throw InputError("--answers needs --queries: the queries that were answered");
-  options.claim.ask(engines, options.unknown_keys());
+  options.claim.ask(engines, options.strict);
   Lineup lineup(options, engines);
   ComparedQuestions questions(options, lineup.disagreements());
-  for (const std::string& argument : options.answers)
-    add_logged(lineup, argument, questions, options.unknown_keys());
+  for (const std::string& argument : options.answers) add_logged(lineup, argument, questions, options.strict);
   lineup.race(options.no_oracle ? all_to_time(questions, lineup) : examine_all(options, questions, lineup));
   const int status = lineup.finish(questions.had_bad_input());
   print(options.json ? json_of(options, questions, lineup.all()) : text_of(options, questions, lineup.all()));

@@ -26,7 +26,6 @@ struct ExaminationOptions {
   /// The rows of these names, in this order. The defaults in help are those that the members have now.
   std::vector<Option> rows(std::initializer_list<const char*> names);
 
-  UnknownKeys unknown_keys() const { return strict ? UnknownKeys::errors : UnknownKeys::warned; }
   double tolerance() const;     ///< --ulps, or the usual one
   double longest_wait() const;  ///< --timeout, or the usual one
 

@@ -105,8 +105,8 @@ int act_on_columns(const FirstHitOptions& options, ColumnOrder::Format format) {
   ColumnOrder order{.format = format, .queries = queries_file(options.queries), .engine = engine};
   order.max_time = options.max_time;
   order.jobs = jobs_of(options, engine);
-  order.unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
-  order.scene = load_scene(*options.scene, options.radius, order.unknown);
+  order.strict = options.strict;
+  order.scene = load_scene(*options.scene, options.radius, order.strict);
   return answer_columns(order);
 }
 
@@ -120,21 +120,20 @@ int act_on_lines(const FirstHitOptions& options) {
   const std::unique_ptr<Answerer> answerer = engine.answerer(answerer_options);
   if (options.radius && !options.scene)
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
-  const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
   std::optional<Scene> initial;
   if (options.scene) {
-    initial = load_scene(*options.scene, options.radius, unknown);
+    initial = load_scene(*options.scene, options.radius, options.strict);
     answerer->set_scene(*initial);
   }
   if (options.records) {
-    GivenQueries queries(options.queries, initial, unknown);
+    GivenQueries queries(options.queries, initial, options.strict);
     return write_records(queries, (options.scene ? " --scene " + shell_quoted(*options.scene) : "") +
                                       (options.radius ? fmt::format(" --radius {} ", *options.radius) : " ") +
                                       shell_quoted(options.queries));
   }
   const auto one = one_query(options.x, options.v, initial.has_value(), options.queries);
-  QueryStream stream = one ? QueryStream(*one, "--x and --v", initial, unknown)
-                           : QueryStream(options.queries, initial, unknown);
+  QueryStream stream = one ? QueryStream(*one, "--x and --v", initial, options.strict)
+                           : QueryStream(options.queries, initial, options.strict);
   if (options.prove) return answer_with_proofs(stream, *answerer);
   Output output;
   AnswerOrder order(output.buffer());

@@ -21,7 +21,7 @@ struct ColumnOrder {
   Scene scene{};
   std::optional<double> max_time{};
   int jobs = 1;
-  UnknownKeys unknown = UnknownKeys::warned;
+  bool strict = false;
 };
 
 /// Answers all rows on standard output. Returns an ExitStatus. Throws InputError, FileError.

@@ -41,7 +41,7 @@ class Csv {
  public:
   Csv(const ColumnOrder& order, std::string& out)
       : reader_(order.queries, order.scene,
-                unknown_columns(csv_query_columns(order.scene.dimension), order.unknown)),
+                unknown_columns(csv_query_columns(order.scene.dimension), order.strict)),
         components_(order.scene),
         out_(out) {
     append_csv_names(out_, order.scene.dimension, reader_.has_ids());

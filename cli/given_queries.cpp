@@ -9,21 +9,21 @@ namespace {
 
 constexpr std::size_t kMostComplaints = 20, kRowsTogether = 4096;
 
-std::unique_ptr<ColumnReader> columns_in(const std::string& path, const Scene& scene, UnknownKeys unknown) {
+std::unique_ptr<ColumnReader> columns_in(const std::string& path, const Scene& scene, bool strict) {
   if (path.ends_with(".npy")) return read_npy_queries(path, scene.dimension);
   return std::make_unique<CsvQueryReader>(path, Components(scene),
-                                          unknown_columns(csv_query_columns(scene.dimension), unknown));
+                                          unknown_columns(csv_query_columns(scene.dimension), strict));
 }
 
 }  // namespace
 
-GivenQueries::GivenQueries(const std::string& path, std::optional<Scene> scene, UnknownKeys unknown)
+GivenQueries::GivenQueries(const std::string& path, std::optional<Scene> scene, bool strict)
     : scene_(std::move(scene)) {
   if (!is_columns(path)) {
-    stream_.emplace(path, scene_, unknown);
+    stream_.emplace(path, scene_, strict);
   } else {
     if (!scene_) throw InputError("--queries: columns hold no scene; --scene says it");
-    columns_ = columns_in(path, *scene_, unknown);
+    columns_ = columns_in(path, *scene_, strict);
   }
 }
 

@@ -29,7 +29,7 @@ struct GivenQuery {
 class GivenQueries {
  public:
   /// `scene` holds before the first scene line, and for columns. Throws InputError and FileError.
-  GivenQueries(const std::string& path, std::optional<Scene> scene, UnknownKeys unknown);
+  GivenQueries(const std::string& path, std::optional<Scene> scene, bool strict);
 
   /// Reads the next query; false at the end. Reports bad lines and rows on stderr with their place.
   bool next(GivenQuery& given);

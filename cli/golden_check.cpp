@@ -38,7 +38,7 @@ std::string label_of(const golden::Header& header, const Claim& claim, const Exa
 std::size_t ask_set(const std::string& path, const ExaminationOptions& options, Lineup& lineup,
                     std::vector<CheckedSet>& sets) {
   constexpr std::size_t kTogether = 4096;
-  golden::Reader reader(path, KeyCheck(path, options.unknown_keys()));
+  golden::Reader reader(path, KeyCheck(path, options.strict));
   const golden::Header& header = reader.header();
   const Claim claim = options.claim.claim(header.precision);
   CheckedSet& set = sets.emplace_back(CheckedSet{label_of(header, claim, options), claim});
@@ -145,7 +145,7 @@ std::string text_of(const LineupEntry& one, const Claim& claim, const std::vecto
 
 int run_golden_check(ExaminationOptions options) {
   const std::vector<EngineInfo> engines = options.named_engines();
-  options.claim.ask(engines, options.unknown_keys());
+  options.claim.ask(engines, options.strict);
   Lineup lineup(options, engines);
   std::vector<CheckedSet> sets;
   std::size_t records = 0;

@@ -200,10 +200,10 @@ golden::GivenQuestions given_questions(const MakeOptions& options, golden::Heade
   const NumberFormat precision = header.precision;
   header.tags = tags_in(options.tags);
   std::optional<Scene> first;
-  if (options.scene) first = load_scene(*options.scene, options.radius, UnknownKeys::warned);
+  if (options.scene) first = load_scene(*options.scene, options.radius);
   if (options.radius && !options.scene)
     throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
-  GivenQueries source(*options.queries, first, UnknownKeys::warned);
+  GivenQueries source(*options.queries, first, false);
   std::size_t others = 0;
   golden::GivenQuestions given = questions_in(source, std::move(header), others);
   given.look = true;

@@ -69,7 +69,7 @@ JudgeOrder order_of(ExaminationOptions options) {
       options.engines[0], order.questions
                               ? options.longest_wait()
                               : std::min(options.longest_wait(), kShareOfStart * order.seconds()));
-  order.introduction = options.claim.ask({order.engine}, options.unknown_keys()).front();
+  order.introduction = options.claim.ask({order.engine}, options.strict).front();
   order.command = command_line();
   order.seed = options.seed;
   order.jobs = static_cast<unsigned>(options.jobs);

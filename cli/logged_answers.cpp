@@ -4,8 +4,8 @@
 
 namespace lorentz::cli {
 
-LoggedAnswers::LoggedAnswers(const std::string& path, UnknownKeys unknown)
-    : lines_(std::make_unique<AnswerStream>(path, unknown)), name_(lines_->lines.name()) {
+LoggedAnswers::LoggedAnswers(const std::string& path, bool strict)
+    : lines_(std::make_unique<AnswerStream>(path, strict)), name_(lines_->lines.name()) {
   lines_->reader.on_unknown_key([this](const std::string& key) { lines_->keys(key); });
 }
 

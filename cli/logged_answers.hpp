@@ -17,7 +17,7 @@ namespace lorentz::cli {
 class LoggedAnswers final : public question::Answerer {
  public:
   /// Reads a JSON stream, or columns. Throws FileError, and InputError for columns that do not hold answers.
-  LoggedAnswers(const std::string& path, UnknownKeys unknown);
+  LoggedAnswers(const std::string& path, bool strict);
   explicit LoggedAnswers(std::unique_ptr<AnswerReader> columns);
 
   void ask(const Id& id, const Query& query) override;
@@ -46,7 +46,7 @@ class LoggedAnswers final : public question::Answerer {
     LineReader lines;
     ExchangeReader reader;
     KeyCheck keys;
-    AnswerStream(const std::string& path, UnknownKeys unknown) : lines(path), keys(path, unknown) {}
+    AnswerStream(const std::string& path, bool strict) : lines(path), keys(path, strict) {}
   };
 
   std::unique_ptr<AnswerStream> lines_;    // one of these

@@ -40,10 +40,9 @@ Scene in_binary64(const RationalScene& scene) {
 }  // namespace
 
 template <class AnItem, class AScene>
-SceneStream<AnItem, AScene>::SceneStream(const std::string& path, std::optional<AScene> initial,
-                                         UnknownKeys unknown)
+SceneStream<AnItem, AScene>::SceneStream(const std::string& path, std::optional<AScene> initial, bool strict)
     : lines_(queries_file(path)),
-      keys_(lines_.name(), unknown),
+      keys_(lines_.name(), strict),
       scene_(std::move(initial)),
       initial_(scene_.has_value()) {
   reader_.on_unknown_key([this](const std::string& key) { keys_(key); });
@@ -53,8 +52,8 @@ SceneStream<AnItem, AScene>::SceneStream(const std::string& path, std::optional<
 
 template <class AnItem, class AScene>
 SceneStream<AnItem, AScene>::SceneStream(std::string_view text, const std::string& name,
-                                         std::optional<AScene> initial, UnknownKeys unknown)
-    : lines_(text, name), keys_(name, unknown), scene_(std::move(initial)), initial_(scene_.has_value()) {}
+                                         std::optional<AScene> initial, bool strict)
+    : lines_(text, name), keys_(name, strict), scene_(std::move(initial)), initial_(scene_.has_value()) {}
 
 template <class AnItem, class AScene>
 void SceneStream<AnItem, AScene>::complain(std::size_t line, const std::string& message) {

@@ -15,10 +15,9 @@ template <class AnItem, class AScene>
 class SceneStream {
  public:
   /// `initial` is the scene before the first scene line, if any. Throws FileError.
-  SceneStream(const std::string& path, std::optional<AScene> initial, UnknownKeys unknown);
+  SceneStream(const std::string& path, std::optional<AScene> initial, bool strict);
   /// The lines of `text`, which messages call `name`.
-  SceneStream(std::string_view text, const std::string& name, std::optional<AScene> initial,
-              UnknownKeys unknown);
+  SceneStream(std::string_view text, const std::string& name, std::optional<AScene> initial, bool strict);
 
   /// Reads the next scene, query or bad line; false at the end. Reports the first kMaxComplaints bad lines on
   /// stderr with their place.

@@ -139,7 +139,7 @@ int draw(const SceneDrawOptions& options) {
   std::vector<DrawnFlight> flights;
   bool bad = false;
   if (options.queries) {
-    QueryStream stream(*options.queries, scene, UnknownKeys::warned);
+    QueryStream stream(*options.queries, scene, false);
     flights = flights_of(stream, scene);
     bad = stream.had_bad_input();
   }

@@ -63,17 +63,16 @@ std::optional<RationalScene> scene_of(const TrajectoryOptions& options) {
       throw InputError("--radius: needs --scene (the scenes of a stream say their radii themselves)");
     return std::nullopt;
   }
-  const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
   return load_rational_scene(
       *options.scene,
-      options.radius ? std::optional(positive_rational(*options.radius, "--radius")) : std::nullopt, unknown);
+      options.radius ? std::optional(positive_rational(*options.radius, "--radius")) : std::nullopt,
+      options.strict);
 }
 
 StartStream starts_of(const TrajectoryOptions& options) {
-  const UnknownKeys unknown = options.strict ? UnknownKeys::errors : UnknownKeys::warned;
   const auto one = one_query(options.x, options.v, options.scene.has_value(), options.starts, true);
-  return one ? StartStream(*one, "--x and --v", scene_of(options), unknown)
-             : StartStream(options.starts, scene_of(options), unknown);
+  return one ? StartStream(*one, "--x and --v", scene_of(options), options.strict)
+             : StartStream(options.starts, scene_of(options), options.strict);
 }
 
 // One column per dimension. For a lattice with fewer vectors the last ones are empty.

@@ -72,8 +72,8 @@ void set_radius(AScene& scene, const std::optional<Number>& radius, const std::s
 }  // namespace
 
 RationalScene load_rational_scene(const std::string& name_or_file, const std::optional<Rational>& radius,
-                                  UnknownKeys unknown) {
-  KeyCheck keys(name_or_file, unknown);
+                                  bool strict) {
+  KeyCheck keys(name_or_file, strict);
   RationalScene scene =
       read_rational_scene_file(find_scene(name_or_file), [&](const std::string& key) { keys(key); });
   set_radius(scene, radius, name_or_file);
@@ -82,16 +82,16 @@ RationalScene load_rational_scene(const std::string& name_or_file, const std::op
   return scene;
 }
 
-Scene read_scene(const std::string& name_or_file, std::optional<double> radius, UnknownKeys unknown) {
-  KeyCheck keys(name_or_file, unknown);
+Scene read_scene(const std::string& name_or_file, std::optional<double> radius, bool strict) {
+  KeyCheck keys(name_or_file, strict);
   Scene scene = read_scene_file(find_scene(name_or_file), [&](const std::string& key) { keys(key); });
   set_radius(scene, radius, name_or_file);
   if (auto flaw = oracle::dependence_in(scene)) throw InputError(name_or_file + ": " + *flaw);
   return scene;
 }
 
-Scene load_scene(const std::string& name_or_file, std::optional<double> radius, UnknownKeys unknown) {
-  Scene scene = read_scene(name_or_file, radius, unknown);
+Scene load_scene(const std::string& name_or_file, std::optional<double> radius, bool strict) {
+  Scene scene = read_scene(name_or_file, radius, strict);
   warn_of_overlaps(scene, name_or_file);
   return scene;
 }

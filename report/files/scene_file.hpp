@@ -23,12 +23,10 @@ const std::string& queries_file(const std::string& file);
 
 /// A scene of the catalogue (data/scenes/NAME.toml) or a file; with `radius`, every ball gets that radius.
 /// Unknown keys give warnings or errors. Throws InputError or FileError.
-Scene read_scene(const std::string& name_or_file, std::optional<double> radius,
-                 UnknownKeys unknown = UnknownKeys::warned);
+Scene read_scene(const std::string& name_or_file, std::optional<double> radius, bool strict = false);
 
 /// The same, with a warning about overlaps.
-Scene load_scene(const std::string& name_or_file, std::optional<double> radius,
-                 UnknownKeys unknown = UnknownKeys::warned);
+Scene load_scene(const std::string& name_or_file, std::optional<double> radius, bool strict = false);
 
 /// The same for tasks that need a crystal; `what` names the task, such as "flights are counted". Throws
 /// InputError if a lattice repeats in fewer directions.
@@ -40,7 +38,7 @@ Scene rounded_scene(const Scene& scene, NumberFormat format, const std::string& 
 
 /// A scene whose numbers may be rational (texts like "1/3").
 RationalScene load_rational_scene(const std::string& name_or_file, const std::optional<Rational>& radius,
-                                  UnknownKeys unknown = UnknownKeys::warned);
+                                  bool strict = false);
 
 /// Warns on stderr if obstacles of one lattice overlap or touch, because a radius above half the spacing is
 /// usually a typing error. (Obstacles of two lattices nearly always overlap somewhere.)

@@ -20,16 +20,16 @@ void KeyCheck::operator()(const std::string& key) {
       "speed", "coordinates", "flight", "shapes",    "limits"};
   const std::string last = key.substr(key.rfind('.') + 1);  // npos + 1 is 0
   const std::string what = "the key " + json_quoted(key) + " is not known" + did_you_mean(last, kKeys);
-  if (policy_ == UnknownKeys::errors) throw InputError(what);
+  if (strict_) throw InputError(what);
   if (seen_.size() > kMost || !seen_.insert(key).second) return;
   tell(line > 0 ? fmt::format("{}:{}", name_, line) : name_, what, seen_.size(), "keys");
 }
 
-OnUnknownColumn unknown_columns(const std::vector<std::string>& known, UnknownKeys policy) {
-  return [known, policy, seen = std::size_t{0}](const std::string& place, const std::string& column) mutable {
+OnUnknownColumn unknown_columns(const std::vector<std::string>& known, bool strict) {
+  return [known, strict, seen = std::size_t{0}](const std::string& place, const std::string& column) mutable {
     const std::string what =
         fmt::format("the column {} is not known{}", json_quoted(column), did_you_mean(column, known));
-    if (policy == UnknownKeys::errors) throw InputError(place + ": " + what);
+    if (strict) throw InputError(place + ": " + what);
     tell(place, what, ++seen, "columns");
   };
 }
