@@ -106,7 +106,7 @@ Answer first_hit(const ExactScene<D>& scene, const ExactQuery<D>& query, const R
     if (request.detail) add_detail(scene, query, query.meeting(scene, *seen.around), inside);
     return inside;
   }
-  if (!seen.earliest.found()) return request.max_time ? Answer::later() : Answer::never();
+  if (!seen.earliest.found()) return limited(Answer::never(), request.max_time.value_or(HUGE_VAL));
   const ExactEntry<D>& entry = seen.earliest.entry();
   Answer answer = hit_of(entry, query.time_of(entry), request);
   if (request.detail && answer.outcome == Outcome::hit) add_detail(scene, query, entry, answer);

@@ -121,7 +121,7 @@ class RowsAnswered {
 
   void ask(std::size_t i, std::uint8_t stage) {
     oracle::Request request;
-    if (std::isfinite(limit(i))) request.max_time = limit(i);
+    if (limit(i) < HUGE_VAL) request.max_time = limit(i);
     engine_.ask(queries_.query(i, answers_.dimension), request, reply_);
     answers_.set(first_ + i, reply_.answer, stage, engine_.traits().is_exact);
   }

@@ -41,7 +41,7 @@ struct WindowEnd {
   }
 };
 
-/// The end as text, such as "0x1f4p-3", with an integer mantissa of any length.
+/// The end as text, such as "0x1f4p-3", with an integer mantissa of any length, or "inf".
 std::string text_of(const WindowEnd& end);
 
 /// The exact value of a hexadecimal text ("0x1f4p-3", "-0X1.8"). Nothing if the text is not hexadecimal, is

@@ -18,7 +18,7 @@ struct Convergent {
 
 /// All convergents of m = rise / run, where both binary64 values are taken exactly. The expansion stops when
 /// the remainder is 0 (m is rational, so it always ends) or after `limit` terms. The last quotient is above
-/// 1, except for m = 1. Requires run != 0.
+/// 1, unless it is the only one. Requires run != 0.
 std::vector<Convergent> convergents(double rise, double run, std::size_t limit);
 
 }  // namespace lorentz::oracle

@@ -80,7 +80,7 @@ void Engine::first_hit_by(const Query& query, double max_time, Answer& answer, c
   fly(Ray{query.x, velocity.scaled, query.from ? &*query.from : nullptr, query.v},
       scaled_limit(max_time, velocity.exponent), answer);
   if (answer.time) answer.time = scaled_time(*answer.time, -velocity.exponent);
-  if (std::isfinite(max_time) && !decides_limit()) answer = limited(std::move(answer), max_time);
+  if (max_time < HUGE_VAL && !decides_limit()) answer = limited(std::move(answer), max_time);
 }
 
 }  // namespace lorentz

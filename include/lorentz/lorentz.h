@@ -38,9 +38,9 @@ typedef struct lorentz_asker lorentz_asker;
 /* Returns the LORENTZ_INTERFACE of the library. */
 LORENTZ_ENGINE_EXPORT int32_t lorentz_interface(void);
 
-/* Makes an asker. `scene` is the text of a scene file, JSON or TOML (docs/formats.md). `engine` is the name of
- * an engine of lorentz (docs/command_engines.md). NULL is "certified-batch", which is exact and fast: its
- * answers are those of "oracle", to the bit of the time. Both texts end with 0 and are not needed afterwards.
+/* Makes an asker. `scene` is the text of a scene file, JSON or TOML (docs/formats.md), all of whose keys must be
+ * known. `engine` is an engine of lorentz (docs/command_engines.md). NULL is "certified-batch", exact and fast:
+ * its answers are those of "oracle", to the bit of the time. Both texts end with 0 and are not needed afterwards.
  * If lorentz_why(asker) is not NULL, the scene or the name was refused. Close the asker all the same. */
 LORENTZ_ENGINE_EXPORT lorentz_asker* lorentz_open(const char* scene, const char* engine);
 

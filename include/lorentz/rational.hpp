@@ -23,7 +23,7 @@ struct Fraction {
 using Rational = std::variant<double, Fraction>;
 
 /// The exact number that a text denotes: "1/3", "-0.1" (one tenth, not the binary64 near it), "2.5e-3",
-/// "0x1.8p-1" (of at most 53 bits). Nothing for any other text, or for an exponent beyond 10^4.
+/// "0x1.8p-1" (a binary64). Nothing for any other text, or for a decimal exponent beyond 10^4.
 std::optional<Rational> rational_from(std::string_view text);
 
 /// True for a finite number above zero, whose denominator is above zero, too.

@@ -36,7 +36,7 @@ bool Certified::answer_fast(const Query& query, const Request& request, Answer& 
   if (flight.outcome == Outcome::undecided) return false;
   if (flight.outcome == Outcome::inside && request.start != StartInside::inside) return false;
   if (flight.outcome == Outcome::hit && !flight.time_is_rounded) return false;
-  if (request.max_time && flight.outcome == Outcome::never) flight.outcome = Outcome::later;
+  if (max_time < HUGE_VAL && flight.outcome == Outcome::never) flight.outcome = Outcome::later;
   set_answer(flight, cell, answer);
   if (tally) tally->count(flight.stage);
   return true;

@@ -340,6 +340,7 @@ Answer Walk::first_hit(const Query& query, double max_time) const {
       if (auto n = walks.back().inside()) return Answer::inside({l, a, to_cell(*n)});
     }
   std::optional<Ratio> limit;
+  if (max_time < 0) return Answer::later();  // also minus infinity
   if (std::isfinite(max_time)) limit = Ratio(Real(max_time));
   std::optional<Hit> best;
   for (const AtomWalk& walk : walks)

@@ -49,7 +49,7 @@ constinit const AnswerMaker<std::string> Answer::unsupported_because{[](std::str
 
 Answer limited(Answer answer, double max_time) {
   const bool nothing_before = answer.outcome == Outcome::never || (answer.time && !(*answer.time < max_time));
-  return std::isfinite(max_time) && nothing_before ? Answer::later() : answer;
+  return max_time < HUGE_VAL && nothing_before ? Answer::later() : answer;
 }
 
 }  // namespace lorentz

@@ -10,9 +10,10 @@ namespace {
 
 constexpr double kSmallest = 0x1p-100, kLargest = 0x1p100;
 
+// False for numbers that are not finite, too: 0 times them stays.
 bool in_range(const Vec& a) {
   double largest = 0;
-  for (const double component : a) largest = std::max(largest, std::fabs(component));
+  for (const double component : a) largest = std::max(largest, std::fabs(component)) + 0 * component;
   return largest >= kSmallest && largest <= kLargest;
 }
 
@@ -89,6 +90,10 @@ void Places::check(const Particle& particle) const {
   if (!(particle.speed_squared > 0 && std::isfinite(particle.speed_squared)))
     throw InputError("state: speed_squared must be finite and above zero");
   if (!std::isfinite(particle.time)) throw InputError("state: time is not finite");
+  double low = particle.time_low + particle.speed_squared_low;
+  for (int k = 0; k < 3; ++k) low += particle.offset_low[k] + particle.velocity_low[k];
+  if (!std::isfinite(low))
+    throw InputError("state: offset_low, velocity_low, speed_squared_low and time_low must be finite");
 }
 
 Point<Wide> Places::centre(std::int32_t lattice, std::int32_t atom,

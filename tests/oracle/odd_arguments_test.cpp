@@ -202,6 +202,23 @@ TEST_CASE("Odd queries are errors, of every class that answers", "[oracle][odd]"
   CHECK(walk.first_hit(kQuery, kNaN).outcome == Outcome::error);
   for (const std::string name : {"classical", "published", "reduction"})
     CHECK(make_engine(name, scene)->first_hit(kQuery, kNaN).outcome == Outcome::error);
+  // Nothing is entered before minus infinity; with infinity there is no limit.
+  const Query along{{0.5, 0.5, 0}, {1, 0, 0}, {}};
+  for (const double limit : {-kInf, -1.0, kInf}) {
+    request.max_time = limit;
+    const bool is_limit = limit < 0;
+    INFO(limit);
+    for (const auto& [query, exact] : {std::pair(kQuery, Outcome::hit), std::pair(along, Outcome::never)}) {
+      CHECK(oracle.first_hit(query, request).outcome == (is_limit ? Outcome::later : exact));
+      CHECK(certified.first_hit(query, request).outcome == (is_limit ? Outcome::later : exact));
+      for (const std::string name : {"classical", "reduction"})
+        if (const Answer given = make_engine(name, scene)->first_hit(query, limit);
+            given.outcome != Outcome::undecided)
+          CHECK(given.outcome == (is_limit ? Outcome::later : exact));
+      if (exact == Outcome::hit)
+        CHECK(walk.first_hit(query, limit).outcome == (is_limit ? Outcome::later : exact));
+    }
+  }
   for (const int digits : {-1, kMostDigits + 1, std::numeric_limits<int>::max()}) {
     CHECK_THROWS_WITH(oracle.first_hit(kQuery, {digits, false, {}}), Catch::Contains("digits"));
     CHECK_THROWS_WITH(certified.first_hit(kQuery, {digits, false, {}}), Catch::Contains("digits"));
@@ -391,6 +408,11 @@ void require_moves(T one, T other, const Use& use) {
 
 }  // namespace
 
+TEST_CASE("The end of a window without an end is a text, too", "[oracle][odd]") {
+  CHECK(text_of(oracle::WindowEnd(kInf)) == "inf");
+  CHECK(text_of(oracle::WindowEnd(-0.75)) == "-0x18000000000000p-53");
+}
+
 TEST_CASE("All classes move and assign, and what was moved from says that it is empty", "[oracle][odd]") {
   const Scene scene = unit_scene(2, 0.25), other = unit_scene(2, 0.125);
   const auto time = [](const Answer& answer) { return answer.time.value_or(-1); };
@@ -430,6 +452,16 @@ TEST_CASE("All classes move and assign, and what was moved from says that it is 
     return end.x[0] + ' ' + end.x[1] + ' ' + end.distance;
   });
   CHECK_THROWS_AS(oracle::Itinerary(rational(scene)).follow(start, {}), InputError);
+  QueryTable full;
+  Query leaving = kQuery;
+  leaving.from = ObstacleId{0, 0, {0, 0, 0}};
+  full.push_back(leaving, 3);
+  const QueryTable taken = std::move(full);
+  CHECK(taken.columns().max_time.size() == 1);
+  full.push_back(kQuery);  // NOLINT(bugprone-use-after-move)
+  CHECK(full.size() == 1);
+  CHECK(full.columns().max_time.empty());
+  CHECK(full.columns().from_lattice.empty());
 }
 
 TEST_CASE("Odd starts of itineraries are refused", "[oracle][odd]") {

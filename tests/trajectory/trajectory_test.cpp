@@ -488,7 +488,11 @@ TEST_CASE("Starts and scenes that no trajectory has are refused", "[trajectory]"
   for (const auto& spoil : std::vector<void (*)(Particle&)>{
            [](Particle& one) { one.atom = 1; }, [](Particle& one) { one.lattice = -1; },
            [](Particle& one) { one.velocity = {}; }, [](Particle& one) { one.offset[0] = NAN; },
-           [](Particle& one) { one.speed_squared = 0; }}) {
+           [](Particle& one) { one.speed_squared = 0; }, [](Particle& one) { one.velocity[0] = NAN; },
+           [](Particle& one) { one.velocity[1] = HUGE_VAL; }, [](Particle& one) { one.time_low = NAN; },
+           [](Particle& one) { one.offset_low[1] = HUGE_VAL; },
+           [](Particle& one) { one.velocity_low[0] = NAN; },
+           [](Particle& one) { one.speed_squared_low = NAN; }}) {
     Particle bad = good;
     spoil(bad);
     CHECK_THROWS_AS(trajectory.set_state(bad), InputError);

@@ -7,6 +7,7 @@
 namespace lorentz::oracle {
 
 std::string text_of(const WindowEnd& end) {
+  if (end.infinite) return "inf";
   const Z mantissa = to_z(end.mantissa);
   return std::string(mantissa < 0 ? "-0x" : "0x") + Z(abs(mantissa)).get_str(16) + "p" +
          std::to_string(end.exponent);

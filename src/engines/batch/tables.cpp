@@ -101,6 +101,7 @@ void QueryTable::clear() {
 bool QueryTable::push_back(const Query& query, double max_time) {
   for (int k = 0; k < 3; ++k)
     if (query.from && !query.from->cell[k].fits_int64()) return false;
+  if (max_time_.empty()) any_limit_ = any_from_ = false;  // the table may have been moved from
   for (int k = 0; k < 3; ++k) {
     x_[k].push_back(query.x[k]), v_[k].push_back(query.v[k]);
     from_cell_[k].push_back(query.from ? query.from->cell[k].int64() : 0);
