@@ -136,10 +136,13 @@ py::dict itinerary(const PyScene& scene, const std::string& start, std::optional
                     return true;
                   });
   }
+  const auto rank_of = [&](int lattice) {
+    return scene.exact().lattices[static_cast<std::size_t>(lattice)].rank_in(scene.dimension());
+  };
   py::list list;
   for (const oracle::CertifiedCollision& c : met)
     list.append(py::dict(py::arg("lattice") = c.obstacle.lattice, py::arg("atom") = c.obstacle.atom,
-                         py::arg("cell") = to_python(c.obstacle.cell, scene.dimension()),
+                         py::arg("cell") = to_python(c.obstacle.cell, rank_of(c.obstacle.lattice)),
                          py::arg("time") = c.time, py::arg("x") = c.x, py::arg("v") = c.v,
                          py::arg("bits") = c.bits));
   return py::dict(py::arg("collisions") = list, py::arg("end") = std::string(name_of(arrival.end)),

@@ -77,7 +77,7 @@ PyScene PyScene::load(const std::string& name_or_file) {
     return either([&] { return independent(read_scene_file(file, refuse_key)); },
                   [&] { return read_rational_scene_file(file, refuse_key); });
   } catch (const InputError& error) {
-    throw InputError(name_or_file + ": " + error.what());
+    throw InputError((std::string(error.what()).starts_with(file) ? "" : name_or_file + ": ") + error.what());
   }
 }
 

@@ -11,12 +11,13 @@ from functools import total_ordering
 from typing import Any, Callable, TypeVar
 
 from ._lorentz import Error
-from ._numbers import Obstacle, integer, whole
+from ._numbers import Obstacle, integer, items, whole
 
 Rounded = TypeVar("Rounded")
 
 
-def _nearest_float(number: Fraction) -> float:
+def nearest_float(number: Fraction) -> float:
+    """The float nearest to a number; an infinity beyond the range of floats."""
     try:
         return float(number)
     except OverflowError:
@@ -60,12 +61,14 @@ class ExactTime:
 
     def __float__(self) -> float:
         """The time, correctly rounded, ties to even; an infinity beyond the range of floats."""
-        return self._where_ends_agree(_nearest_float)
+        return self._where_ends_agree(nearest_float)
 
     def decimal(self, digits: int) -> Decimal:
         """The time to ``digits`` significant digits, correctly rounded, ties to even."""
         context = Context(prec=whole(digits, "digits", 1, 10**6), rounding=ROUND_HALF_EVEN)
-        return self._where_ends_agree(lambda t: context.divide(Decimal(t.numerator), Decimal(t.denominator)))
+        rounded = self._where_ends_agree(lambda t: context.divide(Decimal(t.numerator), Decimal(t.denominator)))
+        last = rounded.adjusted() + 1 - context.prec  # the place of the last digit; zeros up to there are digits, too
+        return rounded if rounded == 0 else rounded.quantize(Decimal((0, (1,), last)), context=context)
 
     def __lt__(self, other: ExactTime) -> bool:
         """True if this time is earlier; decided exactly."""
@@ -201,7 +204,7 @@ def unsupported(message: str) -> Answer:
 
 
 def _obstacle(lattice: Any, atom: Any, cell: Any) -> tuple[int, int, tuple[int, ...]]:
-    return integer(lattice, "lattice"), integer(atom, "atom"), tuple(integer(n, "cell") for n in cell)
+    return integer(lattice, "lattice"), integer(atom, "atom"), tuple(integer(n, "cell") for n in items(cell, "cell"))
 
 
 def _tuple(numbers: list[Any] | None) -> tuple[float, ...] | None:

@@ -13,7 +13,7 @@ from ._answers import Answers, Floats, Outcome
 from ._card import CardAnswers, OnCard
 from ._lorentz import Error
 from ._numbers import Obstacle, integer, rational, renamed, whole, word
-from ._scene import SceneLike, native
+from ._scene import SceneLike, scene_of
 
 #: The obstacles that queries leave: None, one obstacle (lattice, atom, cell) for all, columns of the three (a
 #: lattice below 0 means none), or a list of N obstacles and None. With Answers, each query leaves the
@@ -38,8 +38,9 @@ class Engine:
     """
 
     def __init__(self, scene: SceneLike, name: str = "certified-batch", *, jobs: int = 1) -> None:
-        self._scene = native(scene)
-        self._arguments = scene, name, jobs
+        place = scene_of(scene)  # copies are made of it: a dict may change
+        self._scene = place._scene
+        self._arguments = place, name, jobs
         self._engine = _lorentz.Engine(self._scene, word(name, "engine"), None, whole(jobs, "jobs", 1, 1024))
         self._there: Any = None  # for arrays in a card's memory
 
@@ -190,7 +191,8 @@ def _is_kept(numbers: npt.ArrayLike, given: npt.NDArray[Any], floats: Floats, na
         pairs = zip(given.ravel().tolist(), floats.ravel().tolist())
         return all(isinstance(number, float) or rational(number, name) == value for number, value in pairs)
     if given.dtype.kind in "iu" and given.dtype.itemsize == 8:
-        return bool((abs(floats) < 2.0**53).all())
+        large = abs(floats) >= 2.0**53
+        return all(int(number) == value for value, number in zip(given[large].tolist(), floats[large].tolist()))
     return given.dtype.itemsize <= 8 or bool(((given == floats) | np.isnan(floats)).all())
 
 

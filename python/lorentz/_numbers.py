@@ -22,8 +22,8 @@ Obstacle = tuple[int, int, Sequence[int]]
 
 
 # The rational numbers that the formats accept. An exponent with more digits would take hours.
-_DECIMAL = re.compile(r"-?(\d+/0*[1-9]\d*|(\d+\.?\d*|\.\d+)(e[+-]?\d{1,5})?)", re.ASCII | re.IGNORECASE)
-_HEXADECIMAL = re.compile(r"(-?)0x([0-9a-f]+)\.?([0-9a-f]*)(?:p([+-]?\d{1,5}))?", re.ASCII | re.IGNORECASE)
+_DECIMAL = re.compile(r"[+-]?(\d+/0*[1-9]\d*|(\d+\.?\d*|\.\d+)(e[+-]?\d{1,5})?)", re.ASCII | re.IGNORECASE)
+_HEXADECIMAL = re.compile(r"([+-]?)0x([0-9a-f]+)\.?([0-9a-f]*)(?:p([+-]?\d{1,5}))?", re.ASCII | re.IGNORECASE)
 
 
 def rational(value: Any, name: str = "number") -> Fraction:
@@ -133,12 +133,20 @@ def parts(obstacle: Any, name: str = "start_from") -> Obstacle:
     return obstacle[0], obstacle[1], obstacle[2]
 
 
-def obstacle_dict(obstacle: Obstacle) -> dict[str, Any]:
-    """An obstacle as in the key `from` of a query and in an answer."""
+def own_cell(cell: Any, lattice: int, scene: Any) -> list[int]:
+    """A cell with as many coordinates as its lattice has vectors: in arrays there are zeros behind these. `scene` is
+    the compiled module's."""
+    numbers = [integer(n, "cell") for n in cell]
+    rank = scene.rank(lattice) if 0 <= lattice < 2**31 else scene.dimension
+    return numbers[:rank] if len(numbers) == scene.dimension and not any(numbers[rank:]) else numbers
+
+
+def obstacle_dict(obstacle: Obstacle, scene: Any) -> dict[str, Any]:
+    """An obstacle as in the key `from` of a query of this scene."""
     lattice, atom, cell = parts(obstacle)
+    number = integer(lattice, "lattice")
     # As texts, because cells may be too large for JSON's numbers.
-    return {"lattice": integer(lattice, "lattice"), "atom": integer(atom, "atom"),
-            "cell": [str(integer(n, "cell")) for n in cell]}
+    return {"lattice": number, "atom": integer(atom, "atom"), "cell": [str(n) for n in own_cell(cell, number, scene)]}
 
 
 def finite(value: Any, name: str) -> float:

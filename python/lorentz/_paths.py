@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict, dataclass, field
+from fractions import Fraction
 from typing import Any, Literal, NamedTuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _lorentz
+from ._answer import nearest_float
 from ._answers import Floats
 from ._columns import Array, Column, Columns, by_component
 from ._first_hit import StartFrom, _columns, _fits_64_bits, vectors_of
 from ._lorentz import Error
 from ._memory import free_memory
-from ._numbers import Number, Obstacle, Vector, exact, obstacle_dict, plain, renamed, text, time_limit, whole, word
+from ._numbers import Number, Obstacle, Vector, exact, finite, obstacle_dict, plain, renamed, text, time_limit, whole, word
 from ._scene import Scene, SceneLike, native
 
 #: The meaning of ``Paths.stop_code``: why a particle stopped (docs of the C++ header trajectory.hpp).
@@ -124,7 +126,7 @@ def trajectories(scene: SceneLike, x: npt.ArrayLike, v: npt.ArrayLike, collision
     positions, velocities = vectors_of(x, v, place.dimension)
     _check_memory(len(positions), most, every, place.dimension)
     left = _columns(start_from, len(positions), place)
-    until = math.inf if last is None else float(last)
+    until = math.inf if last is None or last == math.inf else finite(exact(last, "max_time"), "max_time")
     return Paths(_lorentz.follow(place, positions, velocities, left, most, stride, until, word(engine, "engine"),
                                  precision == "double-double"), every=every)
 
@@ -206,7 +208,7 @@ class Itinerary:
     @property
     def cell(self) -> npt.NDArray[Any]:
         """(N, d): its cell, in int64. If 64 bits do not hold all cells, the array has the dtype object, of ints."""
-        cells = [one.cell for one in self.collisions]
+        cells = [one.cell + (0,) * (len(self.start) - len(one.cell)) for one in self.collisions]
         kind = np.int64 if all(map(_fits_64_bits, cells)) else object
         return np.array(cells, kind).reshape(-1, len(self.start))
 
@@ -266,13 +268,13 @@ def itinerary(scene: SceneLike, x: Vector, v: Vector, *, radius: Number | None =
     if collisions is not None:
         collisions = whole(collisions, "collisions", 1, 2**31 - 1)
     time_limit(max_time, "max_time")
-    start = {"x": x, "v": v} | ({} if start_from is None else {"from": obstacle_dict(start_from)})
+    place = Scene(scene, radius)
+    start = {"x": x, "v": v} | ({} if start_from is None else {"from": obstacle_dict(start_from, native(place))})
     until = plain(max_time, "max_time")
     limit = until.hex() if isinstance(until, float) else until  # a float's text is another number
-    place = Scene(scene, radius)
     path = _lorentz.itinerary(native(place), text(start), collisions, limit, digits, states, most_bits)
     path["collisions"] = [CertifiedCollision(**one) for one in path["collisions"]]
-    return Itinerary(**path, scene=place, start=tuple(float(exact(number) or 0) for number in x))
+    return Itinerary(**path, scene=place, start=tuple(nearest_float(exact(number) or Fraction(0)) for number in x))
 
 
 class Starts(NamedTuple):

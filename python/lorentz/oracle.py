@@ -11,14 +11,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from decimal import Decimal
 from fractions import Fraction
-from typing import Any, Sequence
+from typing import Any, Callable, Sequence
 
 from . import _lorentz
-from ._answer import Answer, ExactTime
+from ._answer import Answer, ExactTime, nearest_float
 from ._lorentz import Certificate, Error
-from ._numbers import (Number, Obstacle, Vector, claim, exact, finite, integer, is_binary64, obstacle_dict, parts, plain,
-                       renamed, text, time_limit, vector, whole)
+from ._numbers import (Number, Obstacle, Vector, claim, exact, finite, integer, is_binary64, obstacle_dict, own_cell, parts,
+                       plain, renamed, text, time_limit, vector, whole)
 from ._scene import Scene, SceneLike, scene_of
 
 __all__ = ["Approach", "Convergent", "Margin", "Verdict", "certificate", "check", "convergents", "entry_time",
@@ -43,8 +44,8 @@ def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
     Returns:
         The Answer: cells in ints, ``time`` correctly rounded, ``exact_time`` the exact time. It is never
         "undecided" if all numbers are floats. If some are not, a certified itinerary of one collision
-        answers. It answers "undecided" for a line that touches an obstacle, has no ``detail``, and does not
-        name the obstacle in which x lies.
+        answers. It answers "undecided" for a line that touches an obstacle, and with a root in v also if the
+        limit is the very time of the hit; it has no ``detail``, and does not name the obstacle in which x lies.
 
     Raises:
         Error: the scene or the query is invalid.
@@ -55,7 +56,7 @@ def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
     if time_limit(max_time, "max_time") == math.inf:
         max_time = None
     place = scene_of(scene)
-    query = _query(x, v, start_from)
+    query = _query(place, x, v, start_from)
     limit = None if max_time is None else exact(max_time, "max_time")
     if not (place.is_binary64 and _floats_only(query) and (limit is None or is_binary64(limit))):
         return _first_hit_of_rationals(place, x, v, start_from, digits, detail, limit)
@@ -69,7 +70,7 @@ def first_hit(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | 
 def is_free(scene: SceneLike, x: Vector) -> bool:
     """True if x lies in no open obstacle. Numbers must be floats, or equal a float."""
     place = scene_of(scene)
-    return _oracle(place).is_free(_text(x, [1] + [0] * (place.dimension - 1), None))
+    return _oracle(place).is_free(_text(place, x, [1] + [0] * (place.dimension - 1), None))
 
 
 def entry_time(scene: SceneLike, x: Vector, v: Vector, obstacle: Obstacle | None) -> ExactTime:
@@ -82,6 +83,9 @@ def entry_time(scene: SceneLike, x: Vector, v: Vector, obstacle: Obstacle | None
         raise Error("obstacle: there is none")
     place = scene_of(scene)
     position, velocity = _fractions(x, "x"), _fractions(v, "v")
+    for numbers, name in ((position, "x"), (velocity, "v")):
+        if len(numbers) != place.dimension:
+            raise Error(f"{name}: has {len(numbers)} components, needs {place.dimension}")
     centre, axes = _centre_and_axes(place, obstacle)
     if not any(velocity):
         raise Error("v is zero")
@@ -115,7 +119,8 @@ class Margin:
 @renamed("from", "start_from")
 def margin(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle | None = None) -> Margin:
     """How far the inputs are from a different answer. Cost: at least 100 us."""
-    return Margin(**_oracle(scene).margin(_text(x, v, start_from)))
+    place = scene_of(scene)
+    return Margin(**_oracle(place).margin(_text(place, x, v, start_from)))
 
 
 @dataclass(frozen=True)
@@ -133,7 +138,8 @@ class Approach:
 def passed(scene: SceneLike, x: Vector, v: Vector, *, most: int = 5,
            start_from: Obstacle | None = None) -> list[Approach]:
     """At most ``most`` obstacles, the nearest to the flight, in order of time; the one hit is last."""
-    return [Approach(**one) for one in _oracle(scene).passed(_text(x, v, start_from), whole(most, "most"))]
+    place = scene_of(scene)
+    return [Approach(**one) for one in _oracle(place).passed(_text(place, x, v, start_from), whole(most, "most"))]
 
 
 @dataclass(frozen=True)
@@ -169,7 +175,8 @@ def judge_answer(scene: SceneLike, x: Vector, v: Vector, answer: Answer, *, star
     tolerance = finite(ulps, "ulps")
     if not 0 <= tolerance < 1e300:
         raise Error("ulps: needs a number, 0 or above")
-    return Verdict(**_oracle(scene).judge(_text(x, v, start_from), _checked(answer).to_line(), tolerance,
+    place = scene_of(scene)
+    return Verdict(**_oracle(place).judge(_text(place, x, v, start_from), _checked(answer).to_line(), tolerance,
                                           claim(precision, time_tolerance, None, starts_inside)))
 
 
@@ -179,7 +186,8 @@ def certificate(scene: SceneLike, x: Vector, v: Vector, *, start_from: Obstacle 
 
     Raises Error if it takes more steps than any checker goes: around obstacles hundreds of cells large.
     """
-    return _oracle(scene).prove(_text(x, v, start_from))
+    place = scene_of(scene)
+    return _oracle(place).prove(_text(place, x, v, start_from))
 
 
 @renamed("from", "start_from")
@@ -195,7 +203,8 @@ def check(scene: SceneLike, x: Vector, v: Vector, answer: Answer, proof: Certifi
     decimal = _checked(answer).time_decimal
     if decimal is not None and (not isinstance(decimal, str) or not decimal or answer.outcome != "hit"):
         return "time_decimal: is not a text, or of an answer without a time"
-    return _oracle(scene).refutation(_text(x, v, start_from), answer.to_line(), decimal or "", proof)
+    place = scene_of(scene)
+    return _oracle(place).refutation(_text(place, x, v, start_from), answer.to_line(), decimal or "", proof)
 
 
 @dataclass(frozen=True)
@@ -214,22 +223,21 @@ def convergents(rise: float, run: float = 1.0, limit: int = 1000) -> list[Conver
     return [Convergent(*one) for one in terms]
 
 
-def _oracle(scene: SceneLike) -> _lorentz.Oracle:
-    place = scene_of(scene)
+def _oracle(place: Scene) -> _lorentz.Oracle:
     if place._oracle is None:
         place._oracle = _lorentz.Oracle(place._scene)
     return place._oracle
 
 
-def _query(x: Vector, v: Vector, start_from: Obstacle | None) -> dict[str, Any]:
+def _query(place: Scene, x: Vector, v: Vector, start_from: Obstacle | None) -> dict[str, Any]:
     query: dict[str, Any] = {"x": vector(x, "x"), "v": vector(v, "v")}
     if start_from is not None:
-        query["from"] = obstacle_dict(start_from)
+        query["from"] = obstacle_dict(start_from, place._scene)
     return query
 
 
-def _text(x: Vector, v: Vector, start_from: Obstacle | None) -> str:
-    query = _query(x, v, start_from)
+def _text(place: Scene, x: Vector, v: Vector, start_from: Obstacle | None) -> str:
+    query = _query(place, x, v, start_from)
     if not _floats_only(query):
         raise Error("x, v: need floats, or numbers that are equal to one; first_hit and entry_time take others, too")
     return text(query)
@@ -255,22 +263,41 @@ def _first_hit_of_rationals(scene: Scene, x: Vector, v: Vector, start_from: Obst
         return itinerary(scene, x, v, start_from=start_from, collisions=1, max_time=limit, digits=decimals)
 
     path = follow(limit, max(digits, 17))
-    if path.end == "undecided" and limit is not None:  # the limit may be exactly the time of the hit
+    is_close = path.end == "undecided" and limit is not None  # the limit may be exactly the time of the hit
+    if is_close:
         path = follow(None, max(digits, 17))
     if path.end == "time" or path.end == "never" and limit is not None:
         return Answer("later")
     if path.end != "collisions":
         return Answer(path.end)
     first = path.collisions[0]
-    answer = Answer("hit", first.lattice, first.atom, first.cell, float(first.time))
+    answer = Answer("hit", first.lattice, first.atom, first.cell)
     if any(exact(number) is None for number in [*x, *v]):  # with square roots
-        if limit is not None and Fraction(first.time) >= limit:
-            return Answer("later" if Fraction(first.time) > limit else "undecided")
-        return replace(answer, time_decimal=follow(None, digits).collisions[0].time) if digits else answer
+        def ends(decimals: int) -> tuple[Fraction, Fraction]:
+            """The first and the last time that is rounded to this text with ``decimals`` digits."""
+            number = Decimal(follow(None, decimals).collisions[0].time)
+            half = Fraction(10) ** (number.adjusted() + 1 - decimals) / 2
+            return Fraction(number) - half, Fraction(number) + half
+
+        # At the limit itself a collision counts as one, of an itinerary: no number of decimals is enough then.
+        if is_close or limit is not None and not any(ends(20 * 2**k)[1] < limit for k in range(7)):
+            return Answer("undecided")
+        return replace(answer, time=_float_of(ends),
+                       time_decimal=follow(None, digits).collisions[0].time if digits else None)
     when = entry_time(scene, x, v, answer.obstacle)
     if limit is not None and not when < ExactTime(limit, Fraction(0)):
         return Answer("later")
     return replace(answer, exact_time=when, time=float(when), time_decimal=_decimal_text(when, digits))
+
+
+def _float_of(ends: Callable[[int], tuple[Fraction, Fraction]]) -> float:
+    """The float nearest to a number between such ends."""
+    digits = 20
+    while True:
+        low, high = ends(digits)
+        if nearest_float(low) == nearest_float(high) or digits > 1200:  # one midway between floats has fewer digits
+            return nearest_float((low + high) / 2)
+        digits *= 2
 
 
 def _decimal_text(time: ExactTime, digits: int) -> str | None:
@@ -284,7 +311,7 @@ def _decimal_text(time: ExactTime, digits: int) -> str | None:
 def _fractions(numbers: Vector, name: str) -> list[Fraction]:
     fractions = []
     for number in vector(numbers, name):
-        fraction = exact(number)
+        fraction = exact(number, name)
         if fraction is None:
             raise Error(f"{name}: {number!r} is not a rational number")
         fractions.append(fraction)
@@ -298,12 +325,12 @@ def _centre_and_axes(scene: Scene, obstacle: Obstacle) -> tuple[list[Fraction], 
     lattices = scene.to_dict()["lattices"]
     lattice = lattices[_number_of("lattice", lattice_number, len(lattices))]
     atom = lattice["atoms"][_number_of("atom", atom_number, len(lattice["atoms"]))]
-    rank = len(lattice["vectors"])
+    cell, rank = own_cell(cell, integer(lattice_number, "lattice"), scene._scene), len(lattice["vectors"])
     if len(cell) != rank:
         raise Error(f"cell: has {len(cell)} coordinates, needs {rank}")
     centre = _fractions(atom["position"], "position")
     for n, vector in zip(cell, lattice["vectors"]):
-        centre = [c + integer(n, "cell") * component for c, component in zip(centre, _fractions(vector, "vectors"))]
+        centre = [c + n * component for c, component in zip(centre, _fractions(vector, "vectors"))]
     if "semiaxes" in atom:
         return centre, [_fractions(axis, "semiaxes") for axis in atom["semiaxes"]]
     radius = _fractions([atom["radius"]], "radius")[0]

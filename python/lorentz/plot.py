@@ -308,15 +308,16 @@ def _around(points: npt.NDArray[np.float64]) -> Box:
 
 
 def _around_cells(place: Scene) -> Box:
-    vectors = np.array(place.nearest().to_dict()["lattices"][0]["vectors"])
-    return _around(np.array([n * vectors[0] + m * vectors[1] for n, m in product((-2, 2), repeat=2)]))
+    lattice = place.nearest().to_dict()["lattices"][0]
+    vectors = np.reshape(lattice["vectors"], (-1, 2))
+    return _around(lattice["atoms"][0]["position"] + np.array(list(product((-2, 2), repeat=len(vectors)))) @ vectors)
 
 
 def _obstacles(lattice: dict[str, Any], box: Box) -> Iterator[Ellipse]:
     """The obstacles of a lattice that reach into the box."""
     from matplotlib.patches import Ellipse
 
-    vectors = np.array(lattice["vectors"])
+    vectors = np.reshape(lattice["vectors"], (-1, 2))
     for atom in lattice["atoms"]:
         position = np.array(atom["position"])
         width, height, angle = _shape(atom)
@@ -327,10 +328,10 @@ def _obstacles(lattice: dict[str, Any], box: Box) -> Iterator[Ellipse]:
 
 def _cells(vectors: npt.NDArray[np.float64], position: npt.NDArray[np.float64], box: Box,
            reach: float) -> npt.NDArray[np.int64]:
-    """The cells (K, 2) of obstacles whose centre is at most ``reach`` outside the box."""
+    """The cells (K, 2), or (K, 1) of a row, of obstacles whose centre is at most ``reach`` outside the box."""
     corners = np.array([(a, b) for a in box[:2] for b in box[2:]], float)
     corners += reach * np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)])
-    coordinates = (corners - position) @ np.linalg.inv(vectors)
+    coordinates = (corners - position) @ np.linalg.pinv(vectors)  # of the nearest points of a row, if it is one
     low, high = np.floor(coordinates.min(axis=0)), np.ceil(coordinates.max(axis=0))
     if np.prod(high - low + 1) > MOST_OBSTACLES:
         raise Error(f"box: has more than {MOST_OBSTACLES} cells; draw a smaller one")

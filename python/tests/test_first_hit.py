@@ -1,6 +1,8 @@
 """Arrays in, arrays out: the engines' answers, without copies, errors by their row."""
 
+import copy
 import gc
+import pickle
 import signal
 import threading
 import time
@@ -321,3 +323,19 @@ def test_cells_of_rows_and_single_obstacles():
     for scene, cell in (("square", [3]), (row, [3, 1]), (ball, [1])):
         with pytest.raises(lorentz.Error, match="start_from|cell"):
             lorentz.first_hit(scene, [[3.25, 0.5]], [[1, 0]], start_from=(0, 0, cell))
+
+
+def test_a_copy_of_an_engine_answers_for_its_scene():
+    scene = lorentz.unit_scene(2, 0.1).to_dict()
+    engine = lorentz.Engine(scene)
+    scene["lattices"][0]["atoms"][0]["radius"] = 0.3
+    for one in (copy.copy(engine), pickle.loads(pickle.dumps(engine))):
+        assert one.first_hit([0.5, 0.45], [1, 0.3]).time[0] == engine.first_hit([0.5, 0.45], [1, 0.3]).time[0]
+
+
+def test_large_integers_that_floats_are_equal_to():
+    for number in (2**60, -(2**62), 2**53 + 2):
+        assert lorentz.first_hit("square", np.array([[number, 0]]), [1, 0.3])[0].outcome == "inside"
+    for number in (2**53 + 1, 2**63 - 1):
+        with pytest.raises(lorentz.Error, match="floats would round"):
+            lorentz.first_hit("square", np.array([[number, 0]]), [1, 0.3])

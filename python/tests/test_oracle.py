@@ -253,3 +253,78 @@ def test_numbers_of_every_type_are_what_they_are():
         assert oracle.first_hit(scene, [0.5, same], v) == float_tenth
     third = np.longdouble(1) / 3
     assert oracle.first_hit(scene, [0.5, third], v) == oracle.first_hit(scene, [0.5, Fraction(*third.as_integer_ratio())], v)
+
+
+def with_roots(seed):
+    draw = np.random.default_rng(seed)
+    return [round(float(c), 6) for c in draw.uniform(0.4, 0.6, 2)], [1, draw.choice(["golden", "sqrt(2)", "-sqrt(3)"])]
+
+
+def test_times_of_velocities_with_roots_are_rounded_once():
+    for seed in range(60):
+        x, v = with_roots(seed)
+        answer = oracle.first_hit("square", x, v, digits=60)
+        assert answer.time == float(Fraction(answer.time_decimal)) == oracle.first_hit("square", x, v).time, (x, v)
+    for x in ([0.63557, 0.744592], [0.4, 0.55]):  # a root that is a whole number
+        assert oracle.first_hit("square", x, [1, "sqrt(49)"]).time == oracle.first_hit("square", x, [1, 7]).time
+
+
+def test_limits_of_velocities_with_roots_are_exact():
+    for seed in range(60):
+        x, v = with_roots(seed)
+        exact = Fraction(oracle.first_hit("square", x, v, digits=60).time_decimal)
+        nearest = float(exact)
+        for limit in (math.nextafter(nearest, 0), nearest, math.nextafter(nearest, 9), exact + Fraction(1, 10**40)):
+            outcome = oracle.first_hit("square", x, v, max_time=limit).outcome
+            assert outcome == ("hit" if exact < limit else "later"), (x, v, limit)
+    at = oracle.first_hit(lorentz.unit_scene(2, 0.25), [0.5, 0], ["sqrt(4)", 0], max_time=0.125)  # its very time
+    assert at.outcome == "undecided"  # never "hit"
+
+
+def test_times_have_as_many_digits_as_wanted():
+    scene = lorentz.unit_scene(2, Fraction(1, 4))
+    for limit in (None, "1/3"):
+        assert oracle.first_hit(scene, ["1/2", 0], [1, 0], digits=10, max_time=limit).time_decimal == "0.2500000000"
+    assert str(lorentz.ExactTime(Fraction(1, 4), Fraction(0)).decimal(4)) == "0.2500"
+    assert lorentz.ExactTime(Fraction(0), Fraction(0)).decimal(4) == 0
+
+
+ROW = {"dimension": 2, "lattices": [{"vectors": [[1, 0]], "atoms": [{"position": [0, 0], "radius": 0.25}]}]}
+BALL = {"dimension": 2, "lattices": [{"vectors": [], "atoms": [{"position": [0, 0], "radius": 0.25}]}]}
+
+
+@pytest.mark.parametrize("scene, v, cell", [(ROW, [0.375, -1], (1,)), (BALL, [-0.125, -1], ())])
+def test_obstacles_of_rows_and_of_arrays_are_taken_everywhere(scene, v, cell):
+    x = [0.25, 2.0]
+    exact = oracle.first_hit(scene, x, v)
+    assert exact.cell == cell
+    limited = oracle.first_hit(scene, x, v, max_time="10/3")  # of numbers that are not all floats
+    assert (limited.obstacle, limited.time) == (exact.obstacle, exact.time)
+    path = lorentz.itinerary(scene, x, v, collisions=1, states=True)
+    assert path.collisions[0].cell == cell and path.cell.shape == (1, 2)
+    padded = lorentz.first_hit(scene, [x], [v])[0].obstacle
+    assert padded == (0, 0, cell + (0,) * (2 - len(cell)))
+    for obstacle in (padded, exact.obstacle):
+        assert oracle.entry_time(scene, x, v, obstacle) == exact.exact_time
+        assert oracle.first_hit(scene, x, v, start_from=obstacle).outcome == "never"
+        assert oracle.margin(scene, x, v, start_from=obstacle).condition is None
+        assert oracle.passed(scene, x, v, start_from=obstacle) == oracle.passed(scene, x, v, start_from=padded)
+        assert lorentz.itinerary(scene, x, v, start_from=obstacle, collisions=1).end == "never"
+        proof = oracle.certificate(scene, x, v, start_from=obstacle)
+        assert oracle.check(scene, x, v, lorentz.never(), proof, start_from=obstacle) is None
+    with pytest.raises(lorentz.Error, match="cell"):
+        oracle.first_hit(scene, x, v, start_from=(0, 0, (1, 1)))
+
+
+def test_an_entry_time_has_the_scenes_dimension():
+    for x, v, name in (([0.5, 0.45, 9], [1, 0.3], "x"), ([0.5, 0.45], [1, 0.3, 5], "v"), ([0.5], [1, 0.3], "x")):
+        with pytest.raises(lorentz.Error, match=f"^{name}: has {len(x if name == 'x' else v)} components, needs 2"):
+            oracle.entry_time("square", x, v, (0, 0, (2, 1)))
+    with pytest.raises(lorentz.Error, match="^x: "):
+        oracle.entry_time("square", [math.nan, 0], [1, 0.3], (0, 0, (2, 1)))
+
+
+def test_texts_may_have_a_plus_sign():
+    assert oracle.first_hit("square", ["+0.5", ".45"], [1, "+0x1p-2"]) == oracle.first_hit("square", [0.5, ".45"], [1, 0.25])
+    scene = lorentz.Scene(ROW, "+0.25")
+    assert scene.is_binary64 and scene == lorentz.Scene(ROW)

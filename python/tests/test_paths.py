@@ -1,5 +1,6 @@
 """Particles in floats and in certainty."""
 
+import math
 from dataclasses import replace
 from fractions import Fraction
 
@@ -153,3 +154,15 @@ def test_bad_starts():
         lorentz.itinerary("square", [0.5, 0.5], [1, 0], max_time="soon")
     with pytest.raises(lorentz.Error, match="the engine batch does not do obstacles"):
         lorentz.trajectories(lorentz.unit_scene(2, 6), [[0.5, 0.5]], [[1, 0]], 3)
+
+
+def test_starts_beyond_the_range_of_floats():
+    path = lorentz.itinerary("square", [10**400, Fraction(445, 1000)], [1, Fraction(3, 10)], collisions=1)
+    assert path.start == (math.inf, 0.445) and path.collisions[0].cell[0] > 10**399
+
+
+def test_limits_of_trajectories_are_floats():
+    assert lorentz.trajectories("square", [0.5, 0.45], [1, 0.3], 3, max_time="1/4").count[0] == 0
+    for limit in ("1/3", 10**400):
+        with pytest.raises(lorentz.Error, match="max_time: .* is not a number that a float can be"):
+            lorentz.trajectories("square", [0.5, 0.45], [1, 0.3], 3, max_time=limit)

@@ -240,3 +240,15 @@ def test_its_functions_are_listed_before_one_is_called():
         else:
             assert False"""
     subprocess.run([sys.executable, "-c", program], check=True)
+
+
+def test_rows_and_single_obstacles_are_drawn():
+    row = {"dimension": 2, "lattices": [{"vectors": [[1, 1]], "atoms": [{"position": [0.5, 0], "radius": 0.25}]}]}
+    assert patches(lorentz.plot.scene(row, (-1, 3, -1, 3))) == 4
+    row["lattices"][0]["vectors"] = []
+    assert patches(lorentz.plot.scene(row, (-1, 3, -1, 3))) == 1
+    for name in ("grating", "impurity"):
+        if lorentz.Scene(name).dimension == 2:
+            assert patches(lorentz.plot.scene(name)) > 0
+    path = lorentz.itinerary(row, [0.5, 2], [0, -1], collisions=1, states=True)
+    assert path.end == "collisions" and patches(lorentz.plot.trajectory(path)) == 1
