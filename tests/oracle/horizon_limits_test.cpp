@@ -53,6 +53,15 @@ TEST_CASE("Horizon: what it leaves out is said, and nothing hangs", "[oracle][ho
   CHECK_FALSE(horizon_of(two).no_cylinders.empty());
 }
 
+TEST_CASE("Horizon: no family is named if not all planes were looked at", "[oracle][horizon]") {
+  // Planes of normals such as (1, 4, 8) touch, and are found before the work is too much: ten thousand balls at one place.
+  const Scene heap =
+      scene_with(3, {Vec{9, 0, 0}, Vec{0, 9, 0}, Vec{0, 0, 9}}, std::vector(10'000, Atom{{}, 0.5, {}}));
+  const Horizon horizon = horizon_of(heap, 4);
+  CHECK_FALSE(horizon.no_cylinders.empty());
+  CHECK(horizon.families.empty());
+}
+
 TEST_CASE("Horizon: too many directions are counted, not begun, in slender cells too", "[oracle][horizon]") {
   // The ball of candidates has a volume of some hundred cells, and four million points in one plane.
   const Scene slender = scene_with(3, {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0.3, 0.7, 1e-9}}, {{{}, 1e-4, {}}});
