@@ -138,16 +138,16 @@ TEST_CASE("compare shows the requested number of wrong answers", "[cli][compare_
 TEST_CASE("compare: the share of wrong answers, and nothing else where there is nothing",
           "[cli][compare_command]") {
   const Folder folder;
-  const auto queries = folder.write("q", kScene + kGood +
-                                             R"({"id":2,"x":[0.5,0],"v":[-1,0]})"
-                                             "\n");
-  const auto answers =
-      folder.write("a", kGoodAnswer + R"({"id":2,"outcome":"hit","lattice":0,"atom":0,"cell":[9,9]})"
-                                      "\n");
-  const std::string out = folder.lorentz("compare --queries " + queries + " --answers mine=" + answers).out;
+  std::string queries = kScene + kGood, answers = kGoodAnswer;
+  for (const std::string id : {"2", "3"}) {
+    queries += R"({"id":)" + id + R"(,"x":[0.5,0],"v":[-1,0]})" + '\n';
+    answers += R"({"id":)" + id + R"(,"outcome":"hit","lattice":0,"atom":0,"cell":[9,9]})" + '\n';
+  }
+  const std::string asked = "compare --queries " + folder.write("q", queries) + " --answers mine=",
+                    out = folder.lorentz(asked + folder.write("a", answers)).out;
   INFO(out);
-  CHECK(contains(out, " 1 (50 %) "));
-  CHECK(contains(out, "mine: wrong in 1 of 2 answers\n"));
+  CHECK(contains(out, " 2 (66.7 %) "));
+  CHECK(contains(out, "mine: wrong in 2 of 3 answers\n"));
 }
 
 TEST_CASE("compare asks all that it is told to, in scene after scene", "[cli][compare_command]") {
