@@ -17,7 +17,7 @@ namespace lorentz::oracle {
 struct Request {
   int digits = 0;                  ///< significant decimal digits of the time, rounded half to even; 0: none
   bool detail = false;             ///< Answer::detail and exit_time, each correctly rounded
-  std::optional<double> max_time;  ///< answer `later` if nothing is entered before this time, if it is finite
+  std::optional<double> max_time;  ///< answer `later` if nothing is entered before; infinity: no limit
   /// The rule for a start inside; `unsupported` is as `inside`. Hits by the rules `zero` and `exit` have no detail.
   StartInside start = StartInside::inside;
 };

@@ -23,8 +23,8 @@ class Prover {
   Prover& operator=(Prover&&) noexcept;
   ~Prover();
 
-  /// The certificate of an exact `hit`, `inside` or `never`. If `exact` is wrong, the certificate is
-  /// unspecified and the checker rejects it. Throws InputError for an invalid query. A certificate has few windows of few rows,
+  /// The certificate of an exact `hit`, `inside` or `never`. If `exact` is wrong, it is unspecified and the
+  /// checker rejects it. Throws InputError for an invalid query. A certificate has few windows of few rows,
   /// however long the flight. But around obstacles with radii of very many cells, it has as many rows and
   /// obstacles as these cross: beyond kMostSteps, which CertificateCheck counts, no checker accepts it.
   Certificate prove(const Query& query, const Answer& exact) const;

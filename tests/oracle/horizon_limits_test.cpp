@@ -54,7 +54,7 @@ TEST_CASE("Horizon: what it leaves out is said, and nothing hangs", "[oracle][ho
 }
 
 TEST_CASE("Horizon: no family is named if not all planes were looked at", "[oracle][horizon]") {
-  // Planes of normals such as (1, 4, 8) touch, and are found before the work is too much: ten thousand balls at one place.
+  // Planes of normals such as (1, 4, 8) touch, and are found before the work is too much: 10^4 balls at one place.
   const Scene heap =
       scene_with(3, {Vec{9, 0, 0}, Vec{0, 9, 0}, Vec{0, 0, 9}}, std::vector(10'000, Atom{{}, 0.5, {}}));
   const Horizon horizon = horizon_of(heap, 4);

@@ -93,7 +93,6 @@ std::optional<std::string> flaw_of(const QueryColumns& queries, const FlightColu
 }
 
 void QueryTable::clear() {
-  any_limit_ = any_from_ = false;
   for (int k = 0; k < 3; ++k) x_[k].clear(), v_[k].clear(), from_cell_[k].clear();
   max_time_.clear(), from_lattice_.clear(), from_atom_.clear();
 }
@@ -101,7 +100,7 @@ void QueryTable::clear() {
 bool QueryTable::push_back(const Query& query, double max_time) {
   for (int k = 0; k < 3; ++k)
     if (query.from && !query.from->cell[k].fits_int64()) return false;
-  if (max_time_.empty()) any_limit_ = any_from_ = false;  // the table may have been moved from
+  if (max_time_.empty()) any_limit_ = any_from_ = false;  // new, cleared, or moved from
   for (int k = 0; k < 3; ++k) {
     x_[k].push_back(query.x[k]), v_[k].push_back(query.v[k]);
     from_cell_[k].push_back(query.from ? query.from->cell[k].int64() : 0);
