@@ -123,3 +123,57 @@ TEST_CASE("Itinerary: with the fewest bits that will do, and with many, the same
   }
   CHECK(certain > 750);  // of 3000, so that the test is about something
 }
+
+TEST_CASE("Itinerary: what is left is near while two obstacles are entered at nearly the same time") {
+  // In the corner of three overlapping discs: the particle leaves the first, and all that it meets is as near
+  // as discs are grown by for a first decision (2^-32 of a radius). Grown discs are entered in another order
+  // than the discs, because one is met at a small angle.
+  const auto told_among = [](const std::vector<int>& discs, int nearness) {
+    RationalScene scene = unit(2, "1/4");
+    scene.lattices[0].vectors = {};
+    scene.lattices[0].rank = 0;
+    const RationalAtom left{{exact("-10/41"), exact("9/164")}, exact("1/4"), {}};
+    const auto radius = [](int below) {  // 1/4, less so many tenths of 2^-34
+      return exact(std::to_string((10L << 32) - below) + "/" + std::to_string(10L << 34));
+    };
+    const std::array<RationalAtom, 2> ahead{
+        RationalAtom{{exact("3/13"), exact("-5/52")}, radius(nearness), {}},
+        RationalAtom{{Rational(0.0), exact("1/4")}, radius(40), {}}};
+    scene.lattices[0].atoms = {left};
+    for (const int disc : discs) scene.lattices[0].atoms.push_back(ahead[disc]);
+    Start start = start_at({"0", "0"}, {"1", "sqrt(2)"});
+    start.from = ObstacleId{0, 0, {}};
+    return follow(scene, start, collisions(1)).collisions.at(0);
+  };
+  std::array<int, 2> first{};
+  for (int nearness = 5; nearness < 20; ++nearness) {
+    INFO(nearness);
+    const std::array<CertifiedCollision, 2> alone{told_among({0}, nearness), told_among({1}, nearness)};
+    const int earlier = alone[0].nearest_time < alone[1].nearest_time ? 0 : 1;
+    const CertifiedCollision told = told_among({0, 1}, nearness);
+    CHECK(told.obstacle.atom == 1 + earlier);
+    CHECK(told.time == alone[earlier].time);
+    ++first[earlier];
+  }
+  CHECK(first == std::array{6, 9});
+}
+
+TEST_CASE("Itinerary: a time is as uncertain as all flights before it") {
+  // The direction is such that the length of the seventh flight does not depend on it, to first order: the
+  // error of its time is that of the flights before. At these bits 30 digits are nearly certain.
+  const Start start = start_at({"1/2", "446/997"}, {"1", "sqrt(6719267626/29376002769)"});
+  const auto told_with = [&](long bits) {
+    Journey journey = collisions(7, 30);
+    journey.first_bits = bits;
+    const Told told = follow(unit(2, "1/5"), start, journey);
+    std::vector<std::string> times;
+    for (const CertifiedCollision& collision : told.collisions) times.push_back(collision.time);
+    return times;
+  };
+  const std::vector<std::string> truth = told_with(600);
+  CHECK(truth.size() == 7);
+  for (long bits = 100; bits < 140; ++bits) {
+    INFO(bits);
+    CHECK(told_with(bits) == truth);
+  }
+}
