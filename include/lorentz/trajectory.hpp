@@ -45,7 +45,7 @@ enum class Stop {
   inside,      ///< it lies in an obstacle: at the start, or in a corner of obstacles that touch or overlap
   undecided,   ///< the engine does not know the next obstacle
   missed,      ///< the obstacle that the engine named is not on the line of flight, beyond all rounding
-  overflow,    ///< the next obstacle's cell is beyond 64 bits, or 2^53 cells from where it is seen
+  overflow,    ///< the next obstacle's cell is beyond 64 bits, or it is too far away for its size: 1, 3, 4
   error        ///< the engine cannot answer: message() says why
 };
 
@@ -70,16 +70,20 @@ using AskFirstHit = std::function<void(const Query& query, double max_time, Answ
 ///     from that obstacle alone, not from the engine's time. The error of the offset is of the order of u
 ///     times the flight's length; that of the direction is this divided by the radius; both times 1 / cosine.
 ///     Here u is 2^-53 in binary64 and 2^-102 in double_double. For ellipsoids, both are also multiplied by
-///     the ratio of the semiaxes.
+///     the ratio of the semiaxes. A collision for which u in binary64 is too coarse (2^-20 of the radius, as
+///     on flights 2^33 times as long) is computed with 106 bits and then rounded: the state stays one that
+///     fits the obstacle.
 ///  2. After each collision the particle is on the obstacle's surface and has its initial speed, both up to a
 ///     few ulps, however many collisions there were.
 ///  3. The distance travelled costs no digits, because the engine is asked in a frame in which the obstacle
 ///     that the particle leaves lies in cell 0. Superposed lattices have no such frame. There the engine is
 ///     asked in the scene's own frame, and the query is rounded to an ulp of the distance from the origin.
+///     Where that is more than about 2^-10 of the obstacle's size, the particle stops (`overflow`).
 ///  4. In double_double the engine gets the state rounded to binary64. So it may take a line that passes an
 ///     obstacle for one that grazes it, or the other way round. The first is a collision with cosine 0, which
 ///     does not change the velocity; the second goes unnoticed. This can happen only where 2^-50 of the
-///     flight's length decides.
+///     flight's length decides. Where 2^-53 of it is more than 2^-10 of the obstacle's size, the particle stops
+///     (`overflow`).
 ///  5. Whatever happens, the particle stops with a reason (Stop). The state is then that of the last
 ///     collision, or that at the requested time. Only the engine, a constructor or set_state can throw.
 ///  6. Constant memory: the past is not kept.

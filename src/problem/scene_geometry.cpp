@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include <lorentz/geometry.hpp>
 
@@ -46,6 +47,25 @@ double shortest_vector(const Scene& scene) {
     for (int i = 0; i < lattice.rank_in(scene.dimension); ++i)
       shortest = std::min(shortest, length(lattice.vectors[i]));
   return shortest;
+}
+
+Lattice with_short_vectors(Lattice lattice, int dimension) {
+  const auto vectors = std::span(lattice.vectors).first(lattice.rank_in(dimension));
+  const auto is_shorter = [](const Vec& a, const Vec& b) { return dot(a, a) < dot(b, b); };
+  for (bool done = false; !done;) {
+    done = true;
+    for (Vec& one : vectors)
+      for (const Vec& other : vectors) {
+        const double times = std::round(dot(one, other) / dot(other, other));
+        Vec next = one;
+        for (int i = 0; i < 3; ++i) next[i] = std::fma(-times, other[i], next[i]);
+        if (&one == &other || !is_shorter(next, one)) continue;
+        one = next;
+        done = false;
+      }
+  }
+  std::sort(vectors.begin(), vectors.end(), is_shorter);
+  return lattice;
 }
 
 double cell_volume(const Lattice& lattice, int dimension) {

@@ -28,6 +28,10 @@ inline bool all_finite(const Vec& a) {
 /// The length of the shortest of all primitive vectors; infinite if no lattice repeats.
 double shortest_vector(const Scene& scene);
 
+/// The lattice with short vectors, the shortest first: none gets shorter if it loses a multiple of another.
+/// What is rounded is the result of each step, to an ulp.
+Lattice with_short_vectors(Lattice lattice, int dimension);
+
 /// The scene with all its lengths times 2^exponent.
 Scene scaled(Scene scene, int exponent);
 

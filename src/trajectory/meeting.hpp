@@ -50,21 +50,16 @@ struct MeetingEntry {
   }
 };
 
-/// The line is w + t v relative to the obstacle's centre. `far` is the largest number that went into w when
-/// the engine was asked.
+/// The line is w + t v relative to the obstacle's centre, and may be off by `slack`.
 template <class Real>
 LineMeeting<Real> meeting_of(const MeetingShape<Real>& shape, const Point<Real>& w, const Point<Real>& v,
-                             double far) {
-  constexpr double kRounding = 0x1p-48;
-  const double size =
-      std::fabs(high_part(w[0])) + std::fabs(high_part(w[1])) + std::fabs(high_part(w[2])) + far;
+                             double slack) {
   const auto in_frame = [&](const Point<Real>& a) {
     return shape.ball
                ? a
                : Point<Real>{inner(shape.dual[0], a), inner(shape.dual[1], a), inner(shape.dual[2], a)};
   };
-  const MeetingEntry<Real> entry(in_frame(w), in_frame(v), shape.radius,
-                                 kRounding * size * shape.inverse_size);
+  const MeetingEntry<Real> entry(in_frame(w), in_frame(v), shape.radius, slack * shape.inverse_size);
   const Point<Real>& y = entry.point;
   LineMeeting<Real> meeting;
   meeting.time = entry.time;

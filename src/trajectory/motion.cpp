@@ -27,15 +27,16 @@ MeetingShape<Real> shape_of(const Atom& atom, int dimension) {
   return shape;
 }
 
-// True beyond 2^53, where binary64 no longer holds every integer.
-bool is_far(std::int64_t n) {
-  constexpr std::int64_t kFar = std::int64_t{1} << 53;
-  return n > kFar || n < -kFar;
+// The low part is kept in a state of Wide numbers.
+template <class Real, class In>
+void put(const Point<In>& a, Vec& high, Vec& low) {
+  high = high_part(a);
+  if constexpr (std::is_same_v<Real, Wide>) low = low_part(a);
 }
 
 template <class Real>
-void put(const Point<Real>& a, Vec& high, Vec& low) {
-  high = high_part(a), low = low_part(a);
+double size_of(const Point<Real>& a) {
+  return std::fabs(high_part(a[0])) + std::fabs(high_part(a[1])) + std::fabs(high_part(a[2]));
 }
 
 void pass(Particle& particle, Wide flight) {
@@ -53,8 +54,8 @@ void move(Particle& particle, double until) {
   const Wide left = time_left(particle, until);
   if (!(left.hi > 0)) return;
   const Point<Real> v = joined<Real>(particle.velocity, particle.velocity_low);
-  put(plus(joined<Real>(particle.offset, particle.offset_low), joined<Real>(left.hi, left.lo), v),
-      particle.offset, particle.offset_low);
+  put<Real>(plus(joined<Real>(particle.offset, particle.offset_low), joined<Real>(left.hi, left.lo), v),
+            particle.offset, particle.offset_low);
   particle.time = until, particle.time_low = 0;
 }
 
@@ -80,67 +81,85 @@ void tell(const Particle& before, const LineMeeting<Real>& meeting, Collision& c
 }  // namespace
 
 template <class Real>
+template <class In>
+Motion<Real>::MotionRows<In>::MotionRows(const Lattice& lattice, int dimension) {
+  for (int i = 0; i < 3; ++i) vectors[i] = joined<In>(i < dimension ? lattice.vectors[i] : Vec{});
+  for (const Atom& atom : lattice.atoms)
+    obstacles.push_back({joined<In>(atom.position), shape_of<In>(atom, dimension)});
+}
+
+template <class Real>
 Motion<Real>::Motion(const Scene& scene) : places_(scene), one_lattice_(scene.lattices.size() == 1) {
   for (const Lattice& lattice : scene.lattices) {
-    MotionRows& rows = lattices_.emplace_back();
-    for (int i = 0; i < 3; ++i)
-      rows.vectors[i] = joined<Real>(i < scene.dimension ? lattice.vectors[i] : Vec{});
-    for (const Atom& atom : lattice.atoms)
-      rows.obstacles.push_back({joined<Real>(atom.position), shape_of<Real>(atom, scene.dimension)});
+    std::get<0>(rows_).emplace_back(lattice, scene.dimension);
+    std::get<1>(rows_).emplace_back(lattice, scene.dimension);
   }
 }
 
 template <class Real>
 Inquiry Motion<Real>::asked(const Particle& particle) const {
   if (one_lattice_) {
-    const Point<Real>& position = lattices_[0].obstacles[particle.atom].position;
+    const Point<Real>& position = rows<Real>(0).obstacles[particle.atom].position;
     return {sum(high_part(position), particle.offset), particle.velocity, {}};
   }
   const Point<Wide> place = places_.place(particle);
   return {high_part(place), particle.velocity, particle.cell};
 }
 
+// The cell in the scene of the obstacle that the engine named. Nothing if it has no 64 bits, or if it is so
+// far away that binary64 does not hold every integer.
+template <class Real>
+std::optional<std::array<std::int64_t, 3>> Motion<Real>::cell_of(const Particle& particle,
+                                                                 const Flight& named) const {
+  constexpr std::int64_t kFar = std::int64_t{1} << 53;
+  std::array<std::int64_t, 3> cell{};
+  for (int i = 0; i < places_.scene().dimension; ++i) {
+    if (named.cell[i] > kFar || named.cell[i] < -kFar) return std::nullopt;
+    cell[i] = named.cell[i];
+    if (one_lattice_ && __builtin_add_overflow(particle.cell[i], named.cell[i], &cell[i]))
+      return std::nullopt;
+  }
+  return cell;
+}
+
 // The vector from the centre of the obstacle from which the offset counts to the centre of the named one.
 template <class Real>
-Point<Real> Motion<Real>::step_at_home(const Particle& particle, const Flight& named) const {
-  const MotionRows& rows = lattices_[0];
-  Point<Real> step =
-      plus(rows.obstacles[named.atom].position, Real(-1), rows.obstacles[particle.atom].position);
-  for (int i = 0; i < places_.scene().dimension; ++i)
-    step = plus(step, Real(static_cast<double>(named.cell[i])), rows.vectors[i]);
-  return step;
-}
-
-template <class Real>
-Point<Real> Motion<Real>::step_in_scene(const Particle& particle, const Flight& named) const {
-  const Point<Wide> step = plus(places_.centre(named.lattice, named.atom, named.cell), Wide(-1),
-                                places_.centre(particle.lattice, particle.atom, particle.cell));
-  return joined<Real>(high_part(step), low_part(step));
-}
-
-template <class Real>
-bool Motion<Real>::see(const Particle& particle, const Flight& named, Point<Real>& w,
-                       std::array<std::int64_t, 3>& cell) const {
-  cell = {};
-  for (int i = 0; i < places_.scene().dimension; ++i) {
-    if (is_far(named.cell[i])) return false;
-    cell[i] = named.cell[i];
-    if (one_lattice_ && __builtin_add_overflow(particle.cell[i], named.cell[i], &cell[i])) return false;
+template <class In>
+Point<In> Motion<Real>::step_to(const Particle& particle, const Flight& named,
+                                const std::array<std::int64_t, 3>& cell) const {
+  if (one_lattice_) {
+    const MotionRows<In>& lattice = rows<In>(0);
+    Point<In> step =
+        plus(lattice.obstacles[named.atom].position, In(-1), lattice.obstacles[particle.atom].position);
+    for (int i = 0; i < places_.scene().dimension; ++i)
+      step = plus(step, In(static_cast<double>(named.cell[i])), lattice.vectors[i]);
+    return step;
   }
-  const Point<Real> step = one_lattice_ ? step_at_home(particle, named) : step_in_scene(particle, named);
-  w = plus(joined<Real>(particle.offset, particle.offset_low), Real(-1), step);
-  return true;
+  const Point<Wide> step = plus(places_.centre(named.lattice, named.atom, cell), Wide(-1),
+                                places_.centre(particle.lattice, particle.atom, particle.cell));
+  return joined<In>(high_part(step), low_part(step));
 }
 
+// The collision, computed with numbers In. Two errors are held against the obstacle's size. `told`: the engine
+// was asked about a line that may be so far from this one. `own`: rounding here. A particle stops where either
+// is more than 2^-10 of the size; from 2^-20 on, what binary64 loses is not lost by Wide.
 template <class Real>
+template <class In>
 Stop Motion<Real>::meet(Particle& particle, const Inquiry& asked, const Flight& named, double until,
                         Collision& collision) const {
-  Point<Real> w;
-  std::array<std::int64_t, 3> cell;
-  if (!see(particle, named, w, cell)) return Stop::overflow;
-  const double far = std::fabs(asked.x[0]) + std::fabs(asked.x[1]) + std::fabs(asked.x[2]);
-  const LineMeeting<Real> meeting = meeting_of(lattices_[named.lattice].obstacles[named.atom].shape, w,
-                                               joined<Real>(particle.velocity, particle.velocity_low), far);
+  constexpr bool of_binary64 = std::is_same_v<Real, double>, in_binary64 = std::is_same_v<In, double>;
+  const auto cell = cell_of(particle, named);
+  if (!cell) return Stop::overflow;
+  const Point<In> w =
+      plus(joined<In>(particle.offset, particle.offset_low), In(-1), step_to<In>(particle, named, *cell));
+  const MeetingShape<In>& shape = rows<In>(named.lattice).obstacles[named.atom].shape;
+  const double size = high_part(shape.radius) / shape.inverse_size, far = size_of(asked.x), way = size_of(w);
+  const double told = 0x1p-53 * (of_binary64 ? far : far + way),
+               own = (in_binary64 ? 0x1p-53 : 0x1p-100) * way;
+  if (in_binary64 && own > 0x1p-20 * size) return meet<Wide>(particle, asked, named, until, collision);
+  if (!(told + own <= 0x1p-10 * size)) return Stop::overflow;
+  const LineMeeting<In> meeting =
+      meeting_of(shape, w, joined<In>(particle.velocity, particle.velocity_low), 0x1p5 * (told + own));
   if (!meeting.on_the_line) return Stop::missed;
   const Wide flight(high_part(meeting.time), low_part(meeting.time));
   if (until < HUGE_VAL && (time_left(particle, until) - flight).hi < 0) {
@@ -149,10 +168,10 @@ Stop Motion<Real>::meet(Particle& particle, const Inquiry& asked, const Flight& 
   }
   tell(particle, meeting, collision);
   pass(particle, flight);
-  particle.lattice = named.lattice, particle.atom = named.atom, particle.cell = cell;
+  particle.lattice = named.lattice, particle.atom = named.atom, particle.cell = *cell;
   particle.leaves = true;
-  put(meeting.offset, particle.offset, particle.offset_low);
-  put(at_first_speed(meeting.velocity, particle), particle.velocity, particle.velocity_low);
+  put<Real>(meeting.offset, particle.offset, particle.offset_low);
+  put<Real>(at_first_speed(meeting.velocity, particle), particle.velocity, particle.velocity_low);
   ++particle.collisions;
   return Stop::none;
 }
@@ -162,7 +181,7 @@ Stop Motion<Real>::end(Particle& particle, const Inquiry& asked, const Flight& f
                        Collision& collision) const {
   switch (flight.outcome) {
     case Outcome::hit:
-      return meet(particle, asked, flight, until, collision);
+      return meet<Real>(particle, asked, flight, until, collision);
     case Outcome::never:
     case Outcome::later:
       if (!(until < HUGE_VAL)) return flight.outcome == Outcome::never ? Stop::never : Stop::later;

@@ -2,6 +2,8 @@
 // that an engine names. Private to src/trajectory.
 #pragma once
 
+#include <optional>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -61,25 +63,35 @@ class Motion {
            Collision& collision) const;
 
  private:
+  template <class In>
   struct Obstacle {
-    Point<Real> position;
-    MeetingShape<Real> shape;
+    Point<In> position;
+    MeetingShape<In> shape;
   };
+  template <class In>
   struct MotionRows {
-    std::array<Point<Real>, 3> vectors;
-    std::vector<Obstacle> obstacles;
+    MotionRows(const Lattice& lattice, int dimension);
+
+    std::array<Point<In>, 3> vectors;
+    std::vector<Obstacle<In>> obstacles;
   };
 
+  template <class In>
+  const MotionRows<In>& rows(std::size_t lattice) const {
+    return std::get<std::vector<MotionRows<In>>>(rows_)[lattice];
+  }
+  std::optional<std::array<std::int64_t, 3>> cell_of(const Particle& particle, const Flight& named) const;
+  template <class In>
+  Point<In> step_to(const Particle& particle, const Flight& named,
+                    const std::array<std::int64_t, 3>& cell) const;
+  template <class In>
   Stop meet(Particle& particle, const Inquiry& asked, const Flight& named, double until,
             Collision& collision) const;
-  bool see(const Particle& particle, const Flight& named, Point<Real>& w,
-           std::array<std::int64_t, 3>& cell) const;
-  Point<Real> step_at_home(const Particle& particle, const Flight& named) const;
-  Point<Real> step_in_scene(const Particle& particle, const Flight& named) const;
 
   Places places_;
   bool one_lattice_;
-  std::vector<MotionRows> lattices_;
+  /// For collisions that binary64 places well, and for others.
+  std::tuple<std::vector<MotionRows<double>>, std::vector<MotionRows<Wide>>> rows_;
 };
 
 extern template class Motion<double>;

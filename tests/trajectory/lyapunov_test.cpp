@@ -39,6 +39,18 @@ TEST_CASE("The exponent of a square lattice is the one of another program", "[ch
   check(measured(unit_scene(2, 0.01), 500'000).map[0], 9.09321, 0.00051);
 }
 
+TEST_CASE("Among the smallest obstacles exponent and mean flight are those of theory", "[chaos]") {
+  for (const double radius : {1e-6, 1e-9, 1e-12}) {
+    const Lyapunov result = measured(unit_scene(2, radius), 100'000);
+    INFO(radius);
+    CHECK(result.stopped == 0);
+    check(result.map[0], *exponent_of_small_discs(unit_scene(2, radius)), 0);
+    CHECK(std::fabs(result.mean_flight.value - 0.5 / radius) < 4 * result.mean_flight.error);
+  }
+  const Lyapunov balls = measured(unit_scene(3, 1e-6), 100'000);
+  check(balls.growing, *exponents_of_small_balls(unit_scene(3, 1e-6)), 0.002);
+}
+
 TEST_CASE("The exponents of a cubic lattice are those of another program", "[chaos]") {
   // By two tangent vectors, 2 10^6 collisions.
   const Lyapunov result = measured(unit_scene(3, 0.2), 300'000);
@@ -212,6 +224,12 @@ TEST_CASE("The closed forms of exponents and diffusion", "[chaos]") {
   CHECK(*exponents_of_small_balls(unit_scene(3, 0.01)) == Approx(27.631021 - 1.9851).epsilon(1e-5));
   CHECK_FALSE(exponent_of_small_discs(unit_scene(3, 0.1)));
   CHECK_FALSE(machta_zwanzig(unit_scene(2, 0.4)));
+  // The triangular lattice, in two bases.
+  Scene scene = unit_scene(2, 0.45);
+  scene.lattices[0].vectors[1] = {0.5, std::sqrt(0.75), 0};
+  const double walk = machta_zwanzig(scene).value();
+  scene.lattices[0].vectors[1] = {1.5, std::sqrt(0.75), 0};
+  CHECK(machta_zwanzig(scene).value() == Approx(walk));
   // Twice the size in another unit.
   Scene large = unit_scene(2, 0.002);
   for (Vec& u : large.lattices[0].vectors) u = scaled(u, 2);

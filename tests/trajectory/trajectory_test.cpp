@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <lorentz/geometry.hpp>
+#include <lorentz/itinerary.hpp>
 #include <lorentz/oracle.hpp>
 #include <lorentz/reduction.hpp>
 #include <lorentz/trajectory_batch.hpp>
@@ -222,6 +223,51 @@ TEST_CASE("A collision in binary64 is that in double-double, rounded", "[traject
     }
     CHECK(worst < 16);
   }
+}
+
+TEST_CASE("A collision with the smallest obstacles is the certified one, too", "[trajectory]") {
+  // In binary64 nothing of the place would be left: a flight is up to 10^24 times the radius.
+  Draw draw(31);
+  for (const Scene& scene :
+       {unit_scene(2, 1e-4), unit_scene(2, 1e-6), unit_scene(2, 1e-9), unit_scene(2, 1e-12),
+        unit_scene(3, 1e-3), unit_scene(3, 1e-5), unit_scene(3, 1e-7), ellipses(1e-8)}) {
+    const Reduction engine(scene);
+    const oracle::Itinerary itinerary(rational(scene));
+    for (int i = 0; i < 60; ++i) {
+      Trajectory trajectory(engine, scene, start_between(draw, scene.dimension));
+      REQUIRE(trajectory.advance());
+      const Particle before = trajectory.state();
+      REQUIRE(trajectory.advance());
+      const Vec x = sum(scene.lattices[0].atoms[before.atom].position, before.offset);
+      Start start;
+      start.from = ObstacleId{0, before.atom, {}};
+      for (int k = 0; k < 3; ++k) start.x[k] = x[k], start.v[k] = Surd(Rational(before.velocity[k]));
+      oracle::Journey one;
+      one.collisions = 1;
+      oracle::CertifiedCollision truth;
+      itinerary.follow(start, one, [&](const oracle::CertifiedCollision& told) {
+        truth = told;
+        return true;
+      });
+      const Particle& now = trajectory.state();
+      REQUIRE(now.atom == truth.obstacle.atom);
+      for (int k = 0; k < 3; ++k) REQUIRE(now.cell[k] - before.cell[k] == truth.obstacle.cell[k].int64());
+      const double u = 0x1p-20 / trajectory.collision().cosine, size = length(truth.offset);
+      CHECK(length(sum(now.offset, scaled(truth.offset, -1))) < u * size);
+      CHECK(length(sum(now.velocity, scaled(truth.velocity, -1))) < 8 * u * length(truth.velocity));
+    }
+  }
+}
+
+TEST_CASE("Superposed lattices: a particle ends where an ulp of its place is too much", "[trajectory]") {
+  const auto stop_among = [](double radius) {
+    Scene scene = two_lattices();
+    scene.lattices[0].atoms[0].radius = scene.lattices[1].atoms[0].radius = radius;
+    const Reduction engine(scene);
+    return Trajectory(engine, scene, {{0.31, 0.23, 0}, {1, 0.4142, 0}, {}}).run(200, HUGE_VAL, go_on);
+  };
+  CHECK(stop_among(1e-3) == Stop::collisions);
+  CHECK(stop_among(1e-8) == Stop::overflow);
 }
 
 TEST_CASE("Far from the origin a trajectory is the same, to the bit", "[trajectory]") {
@@ -590,7 +636,7 @@ TEST_CASE("A way whose square is beyond the range leads nowhere", "[trajectory]"
   const auto on_the_line = [](double way) {
     MeetingShape<double> shape;
     shape.radius = 1;
-    return meeting_of(shape, Point<double>{-way, 0, 0}, Point<double>{1, 0, 0}, 0).on_the_line;
+    return meeting_of(shape, Point<double>{-way, 0, 0}, Point<double>{1, 0, 0}, 0x1p-48 * way).on_the_line;
   };
   CHECK(on_the_line(1e150));
   CHECK_FALSE(on_the_line(1e160));
