@@ -85,29 +85,21 @@ std::optional<std::array<double, 4>> window_of(const SceneDrawOptions& options) 
   return std::array{numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
-// The widest corridors, or the widest planar channels and the same number of cylinders. Channels that are
-// open only because a radius was rounded are too narrow to be visible.
+// The widest corridors. Those that are open only because a radius was rounded are too narrow to be visible.
 std::vector<FreeWay> ways_of(const Scene& scene, std::size_t most) {
   if (!is_crystal(scene)) throw InputError("--channels: supports crystals only");
+  if (scene.dimension != 2)
+    throw InputError("--channels: is for scenes in the plane; lorentz horizon lists those of this one");
   std::vector<FreeWay> ways;
   try {
-    const oracle::Horizon horizon = oracle::horizon_of(scene, 0, true, search_progress());
-    const bool flat = scene.dimension == 2;
+    const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false, search_progress());
     const double narrow = 1e-6 * length(scene.lattices[0].vectors[0]);
     for (std::size_t i = 0; i < std::min(most, horizon.channels.size()); ++i) {
       const oracle::Channel& channel = horizon.channels[i];
       if (channel.width < narrow) break;
-      const std::string indices = decimals(components(channel.indices, scene.dimension), " ");
-      const std::string name = flat ? "corridor [" + indices + "]" : "channel (" + indices + ")";
-      ways.push_back({flat ? FreeWay::Kind::corridor : FreeWay::Kind::layer, channel.point, channel.vector,
-                      channel.width, fmt::format("{}: width {:.4g}", name, channel.width)});
-    }
-    for (std::size_t i = 0; i < std::min(most, horizon.cylinders.size()); ++i) {
-      const oracle::Cylinder& cylinder = horizon.cylinders[i];
-      if (cylinder.radius < narrow) break;
-      ways.push_back(
-          {FreeWay::Kind::cylinder, cylinder.point, cylinder.vector, 2 * cylinder.radius,
-           fmt::format("cylinder [{}]: radius {:.4g}", decimals(cylinder.direction, " "), cylinder.radius)});
+      ways.push_back({channel.point, channel.vector, channel.width,
+                      fmt::format("corridor [{}]: width {:.4g}",
+                                  decimals(components(channel.indices, 2), " "), channel.width)});
     }
     if (ways.empty()) say("no channels are drawn: none is known to be open, or none is wide enough");
   } catch (const oracle::TooManyChannels& error) {
@@ -169,8 +161,7 @@ Command scene_draw_command() {
           {"--radius", Positive{&options->radius}, "R", "radius of every ball"},
           {"--queries", &options->queries, "FILE",
            "query stream (NDJSON): its flights to their first hits, exactly; - is standard input"},
-          {"--channels", Whole{&options->channels, 1, 100}, "N",
-           "draw the N widest corridors (2D), planar channels and cylinders (3D)"},
+          {"--channels", Whole{&options->channels, 1, 100}, "N", "2D: draw the N widest corridors"},
           {"--window", &options->window, "X0,Y0,X1,Y1", "2D: the part of the plane to show"},
           {"--size", &options->size, "W[xH]", "in pixels: the width, or what the picture is to fit into"},
           {"-o,--output", &options->output, "FILE",

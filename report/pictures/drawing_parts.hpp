@@ -74,9 +74,6 @@ double cell_size(const Scene& scene);
 /// the lattice does not repeat, a block of `cells` cells has the first obstacle in its middle.
 Vec cell_at(const Scene& scene, const std::array<Vec, 3>& vectors, const Vec& point, double cells = 1);
 
-/// A short basis of the lattice.
-std::array<Vec, 3> short_vectors(const Lattice& lattice, int dimension);
-
 /// The number of an atom among all atoms of the scene; it determines the colour.
 std::size_t colour_index(const Scene& scene, const Placed& obstacle);
 
@@ -148,38 +145,7 @@ struct ShownCell {
 
 /// The cube of a body-centred or face-centred cubic lattice (rounded vectors are recognised), or the primitive
 /// cell.
-ShownCell shown_cell(const Lattice& lattice, const std::array<Vec, 3>& short_vectors);
-
-/// A parallelepiped.
-struct DrawnBlock {
-  Vec corner{};
-  std::array<Vec, 3> edges{};
-
-  Vec centre() const { return sum(corner, scaled(sum(sum(edges[0], edges[1]), edges[2]), 0.5)); }
-  Vec vertex(int number) const {  ///< 0 to 7
-    Vec p = corner;
-    for (int i = 0; i < 3; ++i)
-      if (number >> i & 1) p = sum(p, edges[i]);
-    return p;
-  }
-};
-
-/// A flat piece of { x : normal.x = level }.
-struct Facet {
-  std::vector<Vec> corners;
-  Vec normal{};
-  double level = 0;
-  std::size_t way = 0;  ///< number of its free way
-};
-
-/// The two faces of a layer in the block, for the translate nearest to the block's middle; fewer if they miss
-/// the block.
-std::vector<Facet> faces_of(const Scene& scene, const FreeWay& layer, std::size_t number,
-                            const DrawnBlock& block);
-
-/// The ends of a cylinder's middle line in the block, for the translate of which the longest part is there.
-std::optional<std::array<Vec, 2>> axis_of(const Scene& scene, const FreeWay& cylinder,
-                                          const DrawnBlock& block);
+ShownCell shown_cell(const Lattice& lattice);
 
 /// Pictures by dimension.
 Drawing draw_scene_2d(const Scene& scene, const DrawOptions& options,

@@ -13,26 +13,6 @@
 
 namespace lorentz::pictures {
 
-// Reduces pairs of vectors until none gets shorter, so that few cells are examined.
-std::array<Vec, 3> short_vectors(const Lattice& lattice, int dimension) {
-  std::array<Vec, 3> u = lattice.vectors;
-  constexpr int kMostSteps = 10'000;
-  bool shorter = true;
-  for (int step = 0; step < kMostSteps && shorter; ++step) {
-    shorter = false;
-    for (int i = 0; i < dimension; ++i)
-      for (int k = 0; k < dimension; ++k) {
-        const double share = i == k ? 0 : std::round(dot(u[i], u[k]) / dot(u[k], u[k]));
-        if (share == 0) continue;
-        const Vec next = plus(u[i], -share, u[k]);
-        if (!(dot(next, next) < dot(u[i], u[i]) * (1 - 1e-9))) continue;
-        u[i] = next;
-        shorter = true;
-      }
-  }
-  return u;
-}
-
 namespace {
 
 // The largest number of cells that are examined, whatever the scene is.
@@ -95,7 +75,7 @@ std::vector<Placed> obstacles_in(const Scene& scene, const Extent& box, bool& cu
   std::vector<Placed> found;
   cut = false;
   for (int l = 0; l < static_cast<int>(scene.lattices.size()); ++l) {
-    const std::array<Vec, 3> u = short_vectors(scene.lattices[l], scene.dimension);
+    const std::array<Vec, 3> u = with_short_vectors(scene.lattices[l], scene.dimension).vectors;
     for (int a = 0; a < static_cast<int>(scene.lattices[l].atoms.size()); ++a)
       add_obstacles(scene, {l, a, {}}, u, box, found, cut);
   }

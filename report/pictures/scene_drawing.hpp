@@ -17,13 +17,11 @@ struct DrawnFlight {
   Answer answer;  ///< hit, never or inside
 };
 
-/// A way that is free forever, to be shown.
+/// A corridor, to be shown.
 struct FreeWay {
-  enum class Kind { corridor, layer, cylinder };
-  Kind kind = Kind::corridor;
-  Vec point{};       ///< on its middle line or plane
-  Vec vector{};      ///< along it; for a layer the normal, the reciprocal vector of its planes
-  double width = 0;  ///< for a cylinder twice the radius
+  Vec point{};   ///< on its middle line
+  Vec vector{};  ///< along it
+  double width = 0;
   std::string name;  ///< for the legend
 };
 
@@ -32,7 +30,7 @@ struct DrawOptions {
   double width = 800;                           ///< of the picture, in pixels
   double height = 0;                            ///< maximum, legend included; 0: no limit
   std::optional<std::array<double, 4>> window;  ///< 2D: x0, y0, x1, y1, with x0 < x1 and y0 < y1
-  std::vector<FreeWay> ways;
+  std::vector<FreeWay> ways;                    ///< 2D
 };
 
 struct Drawing {

@@ -45,7 +45,8 @@ std::array<Vec, 3> upright(std::array<Vec, 3> cube) {
 
 }  // namespace
 
-ShownCell shown_cell(const Lattice& lattice, const std::array<Vec, 3>& short_vectors) {
+ShownCell shown_cell(const Lattice& lattice) {
+  const std::array<Vec, 3> short_vectors = with_short_vectors(lattice, 3).vectors;
   const double volume = cell_volume(lattice, 3);
   for (const int cells : {2, 4}) {
     const std::vector<Vec> edges = vectors_of_length(short_vectors, std::cbrt(cells * volume));
@@ -57,98 +58,6 @@ ShownCell shown_cell(const Lattice& lattice, const std::array<Vec, 3>& short_vec
             return {upright({edges[i], edges[k], edges[m]}), cells};
   }
   return {lattice.vectors, 1};
-}
-
-// ---- Layers and cylinders that are free forever, cut to a block of cells
-
-namespace {
-
-// A square in the plane, large enough to contain the whole block.
-Facet square_on(const Vec& normal, double level, const DrawnBlock& block) {
-  const Vec unit = scaled(normal, 1 / length(normal));
-  const Vec side = std::fabs(unit[0]) < 0.7 ? Vec{1, 0, 0} : Vec{0, 1, 0};
-  Vec a = cross(unit, side);
-  a = scaled(a, 1 / length(a));
-  const Vec b = cross(unit, a), middle = block.centre();
-  const Vec foot = sum(middle, scaled(unit, (level - dot(normal, middle)) / length(normal)));
-  double reach = 0;
-  for (const Vec& edge : block.edges) reach += length(edge);
-  Facet facet{{}, normal, level, 0};
-  for (const auto& [p, q] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}})
-    facet.corners.push_back(sum(foot, sum(scaled(a, p * reach), scaled(b, q * reach))));
-  return facet;
-}
-
-// The range of t for which the line p + t v is in the block.
-bool part_in_block(const DrawnBlock& block, const Vec& p, const Vec& v, double& first, double& last) {
-  first = -1e300, last = 1e300;
-  for (const Vec& row : dual_of(block.edges, 3)) {
-    const double at = dot(row, plus(p, -1, block.corner)), step = dot(row, v);
-    if (std::fabs(step) * length(block.edges[0]) < 1e-12 * length(v)) {
-      if (at < 0 || at > 1) return false;
-      continue;
-    }
-    first = std::max(first, std::min(-at / step, (1 - at) / step));
-    last = std::min(last, std::max(-at / step, (1 - at) / step));
-  }
-  return first < last;
-}
-
-// The part of the facet where sign * (normal.x - level) >= 0, by Sutherland and Hodgman's algorithm.
-Facet part_beside(const Facet& facet, const Vec& normal, double level, int sign) {
-  Facet part{{}, facet.normal, facet.level, facet.way};
-  const std::size_t count = facet.corners.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec &a = facet.corners[i], &b = facet.corners[(i + 1) % count];
-    const double at_a = sign * (dot(normal, a) - level), at_b = sign * (dot(normal, b) - level);
-    if (at_a >= 0) part.corners.push_back(a);
-    if ((at_a >= 0) != (at_b >= 0))
-      part.corners.push_back(sum(a, scaled(plus(b, -1, a), at_a / (at_a - at_b))));
-  }
-  return part;
-}
-
-}  // namespace
-
-std::vector<Facet> faces_of(const Scene& scene, const FreeWay& layer, std::size_t number,
-                            const DrawnBlock& block) {
-  // The planes of a single lattice are 1 apart in normal.x.
-  double middle = dot(layer.vector, layer.point);
-  if (scene.lattices.size() == 1) middle += std::round(dot(layer.vector, block.centre()) - middle);
-  std::vector<Facet> faces;
-  for (const int side : {-1, 1}) {
-    Facet face = square_on(layer.vector, middle + side * layer.width / 2 * length(layer.vector), block);
-    face.way = number;
-    for (const Vec& row : dual_of(block.edges, 3)) {
-      const double base = dot(row, block.corner);
-      face = part_beside(part_beside(face, row, base, 1), row, base + 1, -1);
-    }
-    if (face.corners.size() > 2) faces.push_back(face);
-  }
-  return faces;
-}
-
-std::optional<std::array<Vec, 2>> axis_of(const Scene& scene, const FreeWay& cylinder,
-                                          const DrawnBlock& block) {
-  const auto& u = scene.lattices[0].vectors;
-  const auto rows = dual_of(u, 3);
-  Vec near = cylinder.point;
-  for (int i = 0; i < 3; ++i)
-    near = sum(near, scaled(u[i], std::round(dot(rows[i], plus(block.centre(), -1, cylinder.point)))));
-  std::optional<std::array<Vec, 2>> longest;
-  double most = 0;
-  for (int n = 0; n < 27; ++n) {
-    const Vec p =
-        sum(near, sum(scaled(u[0], n % 3 - 1), sum(scaled(u[1], n / 3 % 3 - 1), scaled(u[2], n / 9 - 1))));
-    double first = 0, last = 0;
-    if (!part_in_block(block, p, cylinder.vector, first, last)) continue;
-    const Vec from = sum(p, scaled(cylinder.vector, first)), to = sum(p, scaled(cylinder.vector, last));
-    const double reach = length(plus(to, -1, from));
-    if (longest && !(reach > 1.001 * most)) continue;
-    longest = {from, to};
-    most = reach;
-  }
-  return longest;
 }
 
 // ---- The picture
@@ -180,12 +89,6 @@ struct SeenObstacle {
   std::array<Vec, 3> inverse;  // of its matrix, as rows
 };
 
-// Extended beyond the block at both ends, to show that it goes through.
-std::array<Vec, 2> longer(const std::array<Vec, 2>& axis) {
-  const Vec more = scaled(plus(axis[1], -1, axis[0]), 0.15);
-  return {plus(axis[0], -1, more), sum(axis[1], more)};
-}
-
 std::string shades() {
   std::string shades = "<defs>\n";
   for (std::size_t i = 0; i < 10; ++i)
@@ -203,9 +106,8 @@ class Picture3D {
   Picture3D(const Scene& scene, const DrawOptions& options, const std::vector<DrawnFlight>& flights)
       : scene_(scene),
         options_(options),
-        cell_(scene.lattices[0].rank < 3
-                  ? ShownCell{scene.lattices[0].vectors}
-                  : shown_cell(scene.lattices[0], short_vectors(scene.lattices[0], 3))) {
+        cell_(scene.lattices[0].rank < 3 ? ShownCell{scene.lattices[0].vectors}
+                                         : shown_cell(scene.lattices[0])) {
     lines_ = lines_of(scene, flights, drawing_.remarks);
     corner_ = cell_at(scene, cell_.vectors, lines_.empty() ? Vec{} : lines_[0].from, 2);
     choose_obstacles();
@@ -215,13 +117,7 @@ class Picture3D {
 
   Drawing draw() {
     svg_.raw(shades());
-    std::vector<Facet> facets;
-    for (const std::size_t number : legend_.ways)
-      if (options_.ways[number].kind == FreeWay::Kind::layer)
-        for (Facet& face : faces_of(scene_, options_.ways[number], number, block()))
-          facets.push_back(std::move(face));
-    add_contents(seen_, std::move(facets));
-    add_cylinders();
+    for (const SeenObstacle& seen : seen_) add_obstacle(seen);
     add_cell();
     for (const DrawnLine& line : lines_) add_flight(line);
     drawing_.svg = finished(svg_, scene_, options_, legend_, window_.top + window_.height());
@@ -233,7 +129,6 @@ class Picture3D {
     std::string colour;
     double width;
     bool arrow = false;
-    std::string seen = "", hidden = " stroke-opacity=\"0.45\" stroke-dasharray=\"2 3\"";
   };
 
   // Chooses the obstacles with centres in, or on the boundary of, a block of 2 x 2 x 2 primitive cells or a
@@ -246,7 +141,7 @@ class Picture3D {
                   cell_volume(lattice, 3);
     const double cells = cells_ = expected > 300 || cell_.primitive_cells > 1 ? 1 : 2;
     Extent box{corner_, corner_};
-    for (int n = 0; n < 8; ++n) box.include(block().vertex(n));
+    for (int n = 0; n < 8; ++n) box.include(vertex(cells_, n));
     bool cut = false;
     std::vector<Placed> obstacles = obstacles_in(scene_, box, cut);
     const auto rows = dual_of(u, 3);
@@ -294,12 +189,6 @@ class Picture3D {
       legend_.inside |= outcome == Outcome::inside;
       (line.ends ? legend_.hits : legend_.goes_on) |= outcome == Outcome::hit;
     }
-    for (std::size_t i = 0; i < options_.ways.size(); ++i) {
-      const FreeWay& way = options_.ways[i];
-      const bool there = way.kind == FreeWay::Kind::cylinder ? axis_of(scene_, way, block()).has_value()
-                                                             : !faces_of(scene_, way, i, block()).empty();
-      if (there) legend_.ways.push_back(i);
-    }
     legend_.notes = drawing_.remarks;
     if (!lines_.empty())
       legend_.notes.push_back("Beyond the block of cells, only obstacles that are hit are drawn.");
@@ -320,13 +209,7 @@ class Picture3D {
       box.include(eye_(line.from));
       box.include(eye_(line.to));
     }
-    const double reach = options_.ways.empty() ? 1 : cells_;
-    for (int n = 0; n < (has_cell ? 8 : 0); ++n) box.include(eye_(block(reach).vertex(n)));
-    for (const std::size_t number : legend_.ways)
-      if (options_.ways[number].kind == FreeWay::Kind::cylinder) {
-        for (const Vec& end : longer(*axis_of(scene_, options_.ways[number], block())))
-          box.include(eye_(end), options_.ways[number].width / 2);
-      }
+    for (int n = 0; n < (has_cell ? 8 : 0); ++n) box.include(eye_(vertex(1, n)));
     const double margin = 0.02 * box.width();
     for (int k = 0; k < 2; ++k) {
       box.low[k] -= margin;
@@ -367,7 +250,7 @@ class Picture3D {
       while (end < pieces && hidden_in(end) == hidden) ++end;
       svg_.polyline({at(point(i)), at(point(end))},
                     fmt::format("stroke=\"{}\" stroke-width=\"{:.4g}\"{}", pen.colour, pen.width,
-                                hidden ? pen.hidden : pen.seen));
+                                hidden ? " stroke-opacity=\"0.45\" stroke-dasharray=\"2 3\"" : ""));
       i = end;
     }
     if (pen.arrow) svg_.arrow(at(point(pieces - 1)), at(to), 11, pen.colour, pen.width);
@@ -379,46 +262,6 @@ class Picture3D {
     svg_.ellipse(window_(seen.view), to_scale(seen.shape, window_.scale, kSmallest),
                  fmt::format("fill=\"url(#shade{})\" stroke=\"{}\" stroke-width=\"{}\"", index % 10,
                              seen.hit ? kFlightColour : colour(index).dark, seen.hit ? 2.2 : 0.7));
-  }
-
-  // No obstacle crosses a face of a free layer. So the obstacles beyond it come first, then the face, then the
-  // obstacles before it. It cuts the other faces in two.
-  void add_contents(const std::vector<SeenObstacle>& obstacles, std::vector<Facet> facets) {
-    if (facets.empty()) {
-      for (const SeenObstacle& seen : obstacles) add_obstacle(seen);
-      return;
-    }
-    const Facet face = facets.back();
-    facets.pop_back();
-    const int nearer = dot(face.normal, eye_.towards) > 0 ? 1 : -1;
-    for (const int side : {-nearer, nearer}) {
-      std::vector<SeenObstacle> some;
-      for (const SeenObstacle& seen : obstacles)
-        if ((side * (dot(face.normal, seen.placed.centre) - face.level) >= 0)) some.push_back(seen);
-      std::vector<Facet> parts;
-      for (const Facet& other : facets) {
-        Facet part = part_beside(other, face.normal, face.level, side);
-        if (part.corners.size() > 2) parts.push_back(std::move(part));
-      }
-      add_contents(some, std::move(parts));
-      if (side == nearer) break;
-      std::vector<Point> outline;
-      for (const Vec& corner : face.corners) outline.push_back(at(corner));
-      svg_.polygon(outline,
-                   fmt::format("fill=\"{0}\" fill-opacity=\"0.28\" stroke=\"{0}\" stroke-width=\"0.8\"",
-                               way_colour(face.way)));
-    }
-  }
-
-  void add_cylinders() {
-    for (const std::size_t number : legend_.ways) {
-      const FreeWay& way = options_.ways[number];
-      if (way.kind != FreeWay::Kind::cylinder) continue;
-      const auto [from, to] = longer(*axis_of(scene_, way, block()));
-      add_line(from, to,
-               {way_colour(number), std::max(1.5, window_.scale * way.width), false,
-                " stroke-opacity=\"0.6\"", " stroke-opacity=\"0.15\""});
-    }
   }
 
   void add_cell() {
@@ -443,11 +286,13 @@ class Picture3D {
           fmt::format("fill=\"{}\" fill-opacity=\"{}\"", kFlightColour, is_hidden(line.to) ? 0.3 : 1.0));
   }
 
-  DrawnBlock block(double cells) const {
-    const auto& u = cell_.vectors;
-    return {corner_, {scaled(u[0], cells), scaled(u[1], cells), scaled(u[2], cells)}};
+  // A corner, 0 to 7, of the block with this number of cells along each edge.
+  Vec vertex(double cells, int number) const {
+    Vec p = corner_;
+    for (int i = 0; i < 3; ++i)
+      if (number >> i & 1) p = plus(p, cells, cell_.vectors[i]);
+    return p;
   }
-  DrawnBlock block() const { return block(cells_); }
   Point at(const Vec& place) const { return window_(eye_(place)); }
 
   const Scene& scene_;

@@ -145,7 +145,7 @@ TEST_CASE("3D: the cube of fcc and bcc, turned ones too, and no cube of others",
           "[pictures][scene_drawing]") {
   const auto cell_of = [](const std::array<Vec, 3>& vectors) {
     const Lattice lattice{vectors, {{{}, 0.1, {}}}};
-    return shown_cell(lattice, short_vectors(lattice, 3));
+    return shown_cell(lattice);
   };
   const std::array<Vec, 3> fcc{Vec{0, 0.5, 0.5}, Vec{0.5, 0, 0.5}, Vec{0.5, 0.5, 0}},
       bcc{Vec{-0.5, 0.5, 0.5}, Vec{0.5, -0.5, 0.5}, Vec{0.5, 0.5, -0.5}},
@@ -168,7 +168,7 @@ TEST_CASE("3D: the cube of fcc and bcc, turned ones too, and no cube of others",
   // Two edges at 30 degrees, and half the cube's volume: no two of the three right angles make a cube.
   const Vec a{1, 0, 0}, b{std::sqrt(0.75), 0.5, 0}, up{0, 0, 1};
   for (const auto& prism : {std::array{a, b, up}, {a, up, b}, {up, a, b}})
-    CHECK(shown_cell({prism, {{{}, 0.1, {}}}}, prism).primitive_cells == 1);
+    CHECK(cell_of(prism).primitive_cells == 1);
   // In the picture: the corners and the middles of the faces; of bcc, the middle.
   Scene scene = unit_scene(3, 0.1);
   scene.lattices[0].vectors = fcc;
@@ -178,10 +178,10 @@ TEST_CASE("3D: the cube of fcc and bcc, turned ones too, and no cube of others",
   CHECK(times(draw_scene(scene, {}, {}).svg, "url(#shade") == 9);
 }
 
-TEST_CASE("Corridors, layers and cylinders, where they are", "[pictures][scene_drawing]") {
+TEST_CASE("Corridors are where they are", "[pictures][scene_drawing]") {
   DrawOptions options;
   options.window = {{0, 0, 3, 3}};
-  options.ways = {{FreeWay::Kind::corridor, {0, 0.5}, {1, 0}, 0.6, "corridor [1 0]"}};
+  options.ways = {{{0, 0.5}, {1, 0}, 0.6, "corridor [1 0]"}};
   const std::string flat = draw_scene(unit_scene(2, 0.2), options, {}).svg;
   CHECK(times(flat, std::string("fill=\"") + way_colour(0) + "\" fill-opacity=\"0.2\"") == 3);
   CHECK(times(flat, "corridor [1 0]") == 1);
@@ -190,31 +190,4 @@ TEST_CASE("Corridors, layers and cylinders, where they are", "[pictures][scene_d
   const auto strip = flat.rfind("<polygon points=", flat.find("fill-opacity=\"0.2\""));
   REQUIRE(std::sscanf(flat.c_str() + strip, "<polygon points=\"%*f,%lf %*f,%*f %*f,%lf", &y1, &y2) == 2);
   CHECK(std::fabs(y1 - y2) == Approx(0.6 * 752 / 3).margin(0.02));
-
-  // Half way between the planes of the cubic lattice; beyond it obstacles are drawn first, then nearer ones.
-  const Scene cubic = unit_scene(3, 0.2);
-  const DrawnBlock block{{}, {Vec{2, 0, 0}, Vec{0, 2, 0}, Vec{0, 0, 2}}};
-  const FreeWay layer{FreeWay::Kind::layer, {0, -3.5, 0}, {0, 1, 0}, 0.6, "layer"};
-  const auto faces = faces_of(cubic, layer, 0, block);
-  REQUIRE(faces.size() == 2);
-  CHECK(faces[1].level - faces[0].level == Approx(0.6));
-  CHECK((faces[0].level == Approx(0.2) || faces[0].level == Approx(1.2)));
-  CHECK(faces[0].corners.size() == 4);
-  for (const Vec& corner : faces[0].corners) CHECK(block.edges[0][0] >= corner[0] - 1e-12);
-  options = {};
-  options.ways = {layer};
-  const std::string solid = draw_scene(cubic, options, {}).svg;
-  CHECK(times(solid, "fill-opacity=\"0.28\"") == 2);
-  const auto first = solid.find("fill-opacity=\"0.28\"");
-  const std::size_t behind = times(solid.substr(0, first), "url(#shade");
-  CHECK((behind == 9 || behind == 18));
-
-  const FreeWay cylinder{FreeWay::Kind::cylinder, {0.5, 7, -20.5}, {0, 1, 0}, 0.4, "cylinder"};
-  const auto axis = axis_of(cubic, cylinder, block);
-  REQUIRE(axis);
-  const auto& [from, to] = *axis;
-  CHECK(length(sum(to, scaled(from, -1))) == Approx(2));
-  CHECK(from[0] == Approx(std::floor(from[0]) + 0.5));
-  CHECK(from[2] > 0);
-  CHECK(from[2] < 2);
 }

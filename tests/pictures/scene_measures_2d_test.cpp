@@ -181,8 +181,8 @@ TEST_CASE("2D: corridors are drawn along their vector, as wide as they are, with
   const double width = std::sqrt(0.5) - 0.2;
   DrawOptions options;
   options.window = {{-1, 0, 3, 2.5}};
-  options.ways = {{FreeWay::Kind::corridor, {3.25, -2.75}, {1, 1}, width, "corridor [1 1]"},
-                  {FreeWay::Kind::corridor, {7.4, 100}, {0, -1}, 0.6, "corridor [0 1]"}};
+  options.ways = {{{3.25, -2.75}, {1, 1}, width, "corridor [1 1]"},
+                  {{7.4, 100}, {0, -1}, 0.6, "corridor [0 1]"}};
   const SvgPicture picture(draw_scene(unit_scene(2, 0.1), options, {}).svg);
   CHECK(picture.beyond_page() == "");
   const Plane plane = plane_of(*drawn_obstacles(picture).at(0).clip, *options.window);

@@ -208,69 +208,6 @@ TEST_CASE("3D: flights begin at x and end on what they hit, the others go on", "
   CHECK_FALSE(picture.says("inside"));
 }
 
-TEST_CASE("3D: a layer's faces and a cylinder are where they are, as wide as they are",
-          "[pictures][scene_drawing]") {
-  // The simple cubic lattice: the planes y = 1/2 -+ 0.3 across the block of 2 x 2 x 2, and a cylinder along
-  // z.
-  DrawOptions options;
-  options.title = "Ways";
-  options.ways = {{FreeWay::Kind::layer, {0, -3.5, 0}, {0, GENERATE(1.0, -1.0), 0}, 0.6, "layer"},
-                  {FreeWay::Kind::cylinder, {-3.5, 7.5, 1.25}, {0, 0, 1}, 0.4, "cylinder"}};
-  const SvgPicture picture(draw_scene(unit_scene(3, 0.2), options, {}).svg);
-  CHECK(picture.beyond_page() == "");
-  const auto wanted = in_block(obstacles_of(unit_scene(3, 0.2), 3, {"atom 0: radius 0.2"}, kRight, kUp),
-                               unit_scene(3, 1).lattices[0].vectors, {}, 2);
-  const Plane plane = fitted(balls_of(picture), wanted);
-  check_drawn(picture, balls_of(picture), plane, wanted);
-  const Inks faces = picture.all("polygon", "fill-opacity", "0.28");
-  REQUIRE(faces.size() == 2);
-  // Nearest to the block's middle, y = 1, of y = 1/2 and 3/2: either.
-  double middle = 0.5;
-  for (const Ink& face : faces)
-    for (const Spot point : face.points)
-      if (same_place(point, seen({0, 1.2, 0}), plane)) middle = 1.5;
-  for (const double side : {-0.3, 0.3})
-    for (const Vec& corner : {Vec{0, 0, 0}, Vec{2, 0, 0}, Vec{0, 0, 2}, Vec{2, 0, 2}}) {
-      std::size_t times = 0;
-      for (const Ink& face : faces)
-        for (const Spot point : face.points)
-          times += same_place(point, seen({corner[0], middle + side, corner[2]}), plane);
-      CHECK(times >= 1);
-    }
-  // The farther face first; and whatever is nearer to the eye (on the side of -y) after it.
-  std::vector<std::pair<std::string, double>> order;
-  for (const Ink& ink : picture.inks) {
-    if (ink.is("fill-opacity", "0.28") && ink.kind == "polygon") {
-      for (const double side : {-0.3, 0.3})
-        for (const Spot point : ink.points)
-          if (same_place(point, seen({0, middle + side, 0}), plane)) order.push_back({"face", middle + side});
-    }
-    for (const Wanted& one : wanted)
-      if (ink["fill"].find("url(") == 0 && same_place(ink.centre, one.centre, plane))
-        order.push_back({"ball", one.place[1]});
-  }
-  for (std::size_t i = 0; i < order.size(); ++i)
-    for (std::size_t k = i + 1; k < order.size(); ++k)
-      if (order[i].first != order[k].first) CHECK(order[i].second > order[k].second);
-  CHECK(faces[0]["fill"] == picture.mark_of("layer")["fill"]);
-  CHECK(picture.mark_of("layer")["fill"] != picture.mark_of("cylinder")["fill"]);
-  // The cylinder: as wide as it is, in pieces from 15 % below to 15 % above the block.
-  const Inks pieces = picture.all("line", "stroke", picture.mark_of("cylinder")["fill"]);
-  REQUIRE_FALSE(pieces.empty());
-  double covered = 0;
-  Vec foot{};
-  for (const double x : {0.5, 1.5})
-    for (const double y : {0.5, 1.5})
-      if (same_place(pieces.front().points[0], seen({x, y, -0.3}), plane)) foot = {x, y, -0.3};
-  CHECK(foot != Vec{});
-  CHECK(same_place(pieces.back().points.back(), seen(sum(foot, {0, 0, 2.6})), plane));
-  for (const Ink& piece : pieces) {
-    CHECK(piece.number("stroke-width") == Approx(0.4 * plane.scale).epsilon(1e-3));
-    covered += distance(piece.points[0], piece.points[1]) / plane.scale;
-  }
-  CHECK(covered == Approx(2.6 * kUp[2]).epsilon(1e-3));
-}
-
 TEST_CASE("Flights that start far away, together, the legend of flights in space",
           "[pictures][scene_drawing]") {
   const pictures::DrawnFlight far{{{1000.5, 0.5}, {1, 0}, {}}, Answer::never()};
