@@ -38,7 +38,7 @@ std::optional<double> exponents_of_small_balls(const Scene& scene) {
 std::optional<double> machta_zwanzig(const Scene& scene) {
   const Atom* disc = only_ball(scene, 2);
   if (!disc) return std::nullopt;
-  const auto& u = scene.lattices[0].vectors;
+  const auto u = with_short_vectors(scene.lattices[0], 2).vectors;
   const double square = dot(u[0], u[0]), cosine = dot(u[0], u[1]) / square;
   const bool triangular =
       std::fabs(dot(u[1], u[1]) / square - 1) < 1e-12 && std::fabs(std::fabs(cosine) - 0.5) < 1e-12;

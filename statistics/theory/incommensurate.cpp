@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <lorentz/geometry.hpp>
@@ -25,7 +26,8 @@ bool is_reciprocal(const Vec& k, const Lattice& lattice, int dimension) {
   return largest > 0.5 && far <= kCoincidence * largest;
 }
 
-// The reciprocal vectors with indices up to `most`, including zero.
+// The reciprocal vectors with indices up to `most`, including zero, each as far from the begin as its opposite
+// is from the end.
 std::vector<Vec> reciprocal_vectors(const Lattice& lattice, int dimension, int most) {
   const std::array<Vec, 3> dual = dual_of(lattice.vectors, dimension);
   const int third = dimension == 3 ? most : 0;
@@ -37,18 +39,38 @@ std::vector<Vec> reciprocal_vectors(const Lattice& lattice, int dimension, int m
   return found;
 }
 
-bool two_add_up(const Lattice& a, const Lattice& b, int dimension) {
-  const std::vector<Vec> all = reciprocal_vectors(a, dimension, dimension == 2 ? 100 : 20);
-  return std::any_of(all.begin(), all.end(), [&](const Vec& k) { return is_reciprocal(k, b, dimension); });
+// One of each vector and its opposite, and zero.
+std::span<const Vec> half_of(const std::vector<Vec>& vectors) {
+  return std::span(vectors).first(vectors.size() / 2 + 1);
 }
 
-bool three_add_up(const Lattice& a, const Lattice& b, const Lattice& c, int dimension) {
-  const int most = dimension == 2 ? 12 : 3;
-  const std::vector<Vec> first = reciprocal_vectors(a, dimension, most),
-                         second = reciprocal_vectors(b, dimension, most);
-  for (const Vec& k : first)
-    for (const Vec& m : second)
-      if (is_reciprocal(sum(k, m), c, dimension)) return true;
+bool two_add_up(const Lattice& a, const Lattice& b, int dimension) {
+  const std::vector<Vec> all = reciprocal_vectors(a, dimension, dimension == 2 ? 100 : 20);
+  return std::ranges::any_of(half_of(all), [&](const Vec& k) { return is_reciprocal(k, b, dimension); });
+}
+
+// Whether k + m is a reciprocal vector of c. Then the fractional parts of k.u and m.u add up to an integer for
+// its vector u: only the m whose parts fit are tried.
+bool three_add_up(const std::vector<Vec>& first, const std::vector<Vec>& second, const Lattice& c,
+                  int dimension) {
+  const Vec& u = c.vectors[0];
+  double largest = 0;  // of k, of m, of the lattice's vectors
+  std::vector<std::pair<double, const Vec*>> parts;
+  for (const Vec& m : second) {
+    parts.emplace_back(dot(m, u) - std::floor(dot(m, u)), &m);
+    largest = std::max(largest, length(m));
+  }
+  std::sort(parts.begin(), parts.end());
+  for (const Vec& k : first) largest = std::max(largest, length(k));
+  const double near = kCoincidence * 2 * largest * length(c.vectors[dimension - 1]);
+  for (const Vec& k : half_of(first))
+    for (const double whole : {0, 1, 2}) {
+      const double part = whole - (dot(k, u) - std::floor(dot(k, u)));
+      for (auto m = std::lower_bound(parts.begin(), parts.end(),
+                                     std::pair<double, const Vec*>(part - near, nullptr));
+           m != parts.end() && m->first <= part + near; ++m)
+        if (is_reciprocal(sum(k, *m->second), c, dimension)) return true;
+    }
   return false;
 }
 
@@ -68,10 +90,32 @@ std::vector<Vec> normals_of_ways(const Lattice& lattice, int dimension) {
   return found;
 }
 
-}  // namespace
+// The lattices with short vectors, so that what small integers show does not depend on the basis.
+std::vector<Lattice> short_lattices(const Scene& scene) {
+  std::vector<Lattice> lattices;
+  for (const Lattice& lattice : scene.lattices)
+    lattices.push_back(with_short_vectors(lattice, scene.dimension));
+  return lattices;
+}
 
-bool commensurable(const Lattice& a, const Lattice& b, int dimension) {
-  // Are all coordinates of the vectors of b in the basis of a rational, after scaling the largest to 1?
+std::optional<double> least_angle_of_ways(const std::vector<Lattice>& all, int dimension) {
+  std::vector<std::vector<Vec>> others;
+  for (std::size_t i = 1; i < all.size(); ++i) others.push_back(normals_of_ways(all[i], dimension));
+  std::optional<double> least;
+  for (const Vec& normal : normals_of_ways(all[0], dimension)) {
+    double largest = 0;  // of the angles to the nearest normal of each other lattice
+    for (const std::vector<Vec>& normals : others) {
+      double nearest = 1;
+      for (const Vec& other : normals) nearest = std::min(nearest, length(cross(normal, other)));
+      largest = std::max(largest, nearest);
+    }
+    if (largest > 0 && largest <= kCoincidence) least = std::min(least.value_or(largest), largest);
+  }
+  return least;
+}
+
+// Are all coordinates of the vectors of b in the basis of a rational, after scaling the largest to 1?
+bool fits_into(const Lattice& a, const Lattice& b, int dimension) {
   const std::array<Vec, 3> dual = dual_of(a.vectors, dimension);
   std::vector<double> ratios;
   double largest = 0;
@@ -88,32 +132,33 @@ bool commensurable(const Lattice& a, const Lattice& b, int dimension) {
   return false;
 }
 
+}  // namespace
+
+bool commensurable(const Lattice& a, const Lattice& b, int dimension) {
+  const Lattice first = with_short_vectors(a, dimension), second = with_short_vectors(b, dimension);
+  return fits_into(first, second, dimension) || fits_into(second, first, dimension);
+}
+
 bool independent(const Scene& scene) {
-  const auto& all = scene.lattices;
+  const int dimension = scene.dimension;
+  const std::vector<Lattice> all = short_lattices(scene);
+  std::vector<std::vector<Vec>> few;
+  for (const Lattice& lattice : all)
+    few.push_back(reciprocal_vectors(lattice, dimension, dimension == 2 ? 12 : 3));
   for (std::size_t i = 0; i < all.size(); ++i)
-    for (std::size_t k = i + 1; k < all.size(); ++k) {
-      if (two_add_up(all[i], all[k], scene.dimension)) return false;
-      for (std::size_t m = k + 1; m < all.size(); ++m)
-        if (three_add_up(all[i], all[k], all[m], scene.dimension)) return false;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (i == k) continue;
+      if (two_add_up(all[i], all[k], dimension)) return false;
+      for (std::size_t m = 0; m < i; ++m)
+        if (m != k && three_add_up(few[i], few[m], all[k], dimension)) return false;
     }
   return true;
 }
 
+// In short vectors ways have small indices; but rounding these may make ways parallel that are not.
 std::optional<double> nearly_common_way(const Scene& scene) {
-  std::vector<std::vector<Vec>> others;
-  for (std::size_t i = 1; i < scene.lattices.size(); ++i)
-    others.push_back(normals_of_ways(scene.lattices[i], scene.dimension));
-  std::optional<double> least;
-  for (const Vec& normal : normals_of_ways(scene.lattices[0], scene.dimension)) {
-    double largest = 0;  // of the angles to the nearest normal of each other lattice
-    for (const std::vector<Vec>& normals : others) {
-      double nearest = 1;
-      for (const Vec& other : normals) nearest = std::min(nearest, length(cross(normal, other)));
-      largest = std::max(largest, nearest);
-    }
-    if (largest > 0 && largest <= kCoincidence) least = std::min(least.value_or(largest), largest);
-  }
-  return least;
+  const auto of_short = least_angle_of_ways(short_lattices(scene), scene.dimension);
+  return of_short ? of_short : least_angle_of_ways(scene.lattices, scene.dimension);
 }
 
 }  // namespace lorentz::flights

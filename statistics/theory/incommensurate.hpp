@@ -20,7 +20,8 @@ bool commensurable(const Lattice& a, const Lattice& b, int dimension);
 
 /// Whether a point that moves through space takes independent positions in the cells of the lattices. It does
 /// if reciprocal vectors, one from each lattice and not all zero, never add up to zero. The test covers the
-/// vectors of two and of three lattices with small indices.
+/// vectors of two and of three lattices with small indices, and takes a second for kMostLattices.
+inline constexpr std::size_t kMostLattices = 24;
 bool independent(const Scene& scene);
 
 /// The angle, in radians, between channels that each lattice alone leaves open, if they are parallel up to

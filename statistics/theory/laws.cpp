@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <lorentz/geometry.hpp>
 #include <lorentz/scene_check.hpp>
 #include "src/problem/scene_geometry.hpp"
 #include "statistics/theory/incommensurate.hpp"
@@ -128,10 +129,8 @@ double smooth_from(const Scene& scene, Ensemble ensemble) {
   constexpr double kSpacings = 64;
   if (ensemble == Ensemble::uniform) return 0;
   double largest = 0;
-  for (const Lattice& lattice : scene.lattices) {
-    const Vec &a = lattice.vectors[0], &b = lattice.vectors[1];
-    largest = std::max({largest, std::hypot(a[0], a[1]), std::hypot(b[0], b[1])});
-  }
+  for (const Lattice& lattice : scene.lattices)
+    largest = std::max(largest, length(with_short_vectors(lattice, 2).vectors[1]));
   return kSpacings * largest;
 }
 
@@ -180,7 +179,7 @@ MeanFreePath of_independent(const Scene& scene) {
   }
   const double mean = (scene.dimension == 2 ? std::numbers::pi : 4) * free / surface;
   if (!std::isfinite(mean)) return {std::nullopt, kBeyond};
-  return {mean, "exact for incommensurate lattices: free volume over surface, with overlaps"};
+  return {mean, "exact for independent lattices: free volume over surface, with overlaps"};
 }
 
 }  // namespace
@@ -191,8 +190,10 @@ MeanFreePath mean_free_path_of(const Scene& scene) {
   if (std::string why = overlap_in(scene, oracle::Pairs::within_lattices); !why.empty())
     return {std::nullopt, why};
   if (scene.lattices.size() == 1) return without_overlaps(scene);
-  if (independent(scene)) return of_independent(scene);
-  if (std::string why = overlap_in(scene, oracle::Pairs::all); !why.empty()) return {std::nullopt, why};
+  const bool are_few = scene.lattices.size() <= kMostLattices;
+  if (are_few && independent(scene)) return of_independent(scene);
+  if (const std::string why = overlap_in(scene, oracle::Pairs::all); !why.empty())
+    return {std::nullopt, are_few ? why : "not given: more than 24 lattices are not compared"};
   return without_overlaps(scene);
 }
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <utility>
 
 #include <lorentz/geometry.hpp>
 #include "src/problem/scene_geometry.hpp"
@@ -72,16 +71,6 @@ namespace {
 // good as an integral if the points lie in many rows.
 constexpr double kMostPoints = 1e7, kManyRows = 1000;
 
-// Reduces a and b, so that |a| <= |b| and b is the shortest of b + n a.
-void reduce(Vec& a, Vec& b) {
-  for (int step = 0; step < 1000; ++step) {
-    if (dot(b, b) < dot(a, a)) std::swap(a, b);
-    const double share = std::round(dot(a, b) / dot(a, a));
-    if (share == 0) return;
-    b = sum(b, scaled(a, -share));
-  }
-}
-
 }  // namespace
 
 // A corridor along the primitive vector g has the width area / |g| - 2 r. C = sum of |g| width^2 / (pi free
@@ -89,8 +78,8 @@ void reduce(Vec& a, Vec& b) {
 std::optional<double> corridor_tail_constant(const Lattice& lattice, bool* of_limit) {
   const double area = cell_volume(lattice, 2), r = lattice.atoms[0].radius, longest = area / (2 * r),
                free = area - volume_of(lattice.atoms[0], 2);
-  Vec a = lattice.vectors[0], b = lattice.vectors[1];
-  reduce(a, b);
+  const Lattice same = with_short_vectors(lattice, 2);
+  const Vec &a = same.vectors[0], &b = same.vectors[1];
   const double a2 = dot(a, a), along = dot(a, b) / a2, row = area / std::sqrt(a2);
   if (std::numbers::pi / 2 * longest / (2 * r) > kMostPoints) {
     if (longest < kManyRows * row) return std::nullopt;

@@ -164,6 +164,63 @@ TEST_CASE("Independent lattices: no reciprocal vectors add up", "[flights][mean]
   CHECK_FALSE(independent(cubes));
 }
 
+TEST_CASE("What lattices have in common does not depend on their bases", "[flights][laws]") {
+  const auto skewed = [](Scene scene, std::size_t which, double times) {
+    auto& vectors = scene.lattices[which].vectors;
+    for (int k = 0; k < 3; ++k) vectors[1][k] += times * vectors[0][k];
+    return scene;
+  };
+  Scene columns = turned_squares(0.1, {0, 0});
+  columns.lattices[1].vectors[1][1] = std::sqrt(2);
+  columns.lattices[1].atoms[0].position = {0.5, 0, 0};
+  Scene cubes = unit_scene(3, 0.1);
+  cubes.lattices.push_back(turned(cubes.lattices[0], kPi / 5));
+  Scene turns = turned_squares(0.1, {0, std::atan(20 / 21.0)});
+  for (Vec& vector : turns.lattices[0].vectors) vector = scaled(vector, 29);
+  const Scene none = turned_squares(0.1, {0, kPi / 5});
+  for (const std::size_t which : {0, 1})
+    for (const double times : {1, 7, 50, 101, 1009, 123457}) {
+      INFO(which << " " << times);
+      CHECK_FALSE(independent(skewed(columns, which, times)));
+      CHECK_FALSE(independent(skewed(cubes, which, times)));
+      CHECK(independent(skewed(none, which, times)));
+      CHECK(mean_free_path_of(skewed(columns, which, times)).value.value() ==
+            Approx(mean_free_path_of(columns).value.value()));
+      const auto two = [](const Scene& scene) {
+        return commensurable(scene.lattices[0], scene.lattices[1], 2);
+      };
+      CHECK(two(skewed(turns, which, times)));
+      CHECK_FALSE(two(skewed(columns, which, times)));
+      CHECK_FALSE(two(skewed(none, which, times)));
+      const Scene rounded = skewed(turned_squares(0.01, {0, std::atan(0.75)}), which, times);
+      if (times < 1000) CHECK(nearly_common_way(rounded).has_value());
+    }
+}
+
+TEST_CASE("Many lattices are compared soon, more than a few tens not at all", "[flights][mean]") {
+  test::Draw draw(17);
+  Scene scene{2, {}};
+  while (scene.lattices.size() < kMostLattices) {
+    Lattice lattice = unit_scene(2, 0.01).lattices[0];
+    for (int k = 0; k < 2; ++k)
+      lattice.vectors[k][k] += draw.between(0, 1), lattice.vectors[k][1 - k] = draw.between(0, 0.5);
+    scene.lattices.push_back(lattice);
+  }
+  CHECK(independent(scene));
+  CHECK(mean_free_path_of(scene).value.has_value());
+  scene.lattices.push_back(turned(scene.lattices[0], 0.3));
+  const MeanFreePath of_more = mean_free_path_of(scene);
+  CHECK_FALSE(of_more.value.has_value());
+  CHECK(of_more.how == "not given: more than 24 lattices are not compared");
+  scene.lattices.pop_back();
+  // The last has a reciprocal vector that is the sum of one of each of two others.
+  const auto dual = [&](int i) { return dual_of(scene.lattices[i].vectors, 2)[0]; };
+  const Vec k = sum(dual(3), dual(19));
+  const double k2 = dot(k, k);
+  scene.lattices.back().vectors = {{{k[0] / k2, k[1] / k2, 0}, {-0.8123 * k[1], 0.8123 * k[0], 0}}};
+  CHECK_FALSE(independent(scene));
+}
+
 TEST_CASE("Mean free path: by Santalo's formula where obstacles don't overlap", "[flights][mean]") {
   CHECK(mean_free_path_of(unit_scene(2, 0.2)).value == Approx((1 - kPi * 0.04) / 0.4).epsilon(1e-14));
   CHECK(mean_free_path_of(unit_scene(3, 0.3)).value ==
