@@ -334,10 +334,10 @@ TEST_CASE("Published among ellipses and ellipsoids: of drawn flights hardly one 
     }
 }
 
-TEST_CASE("Published skips obstacles on flights that leave an ellipse or ellipsoid",
+TEST_CASE("Published skips obstacles on flights that leave an ellipse, and none on those from an ellipsoid",
           "[engines][published_bravais]") {
   INFO("seed 100");
-  for (const auto& [dimension, seen] : {std::pair{2, 380}, {3, 4157}}) {
+  for (const auto& [dimension, least, most] : {std::tuple{2, 285, 475}, {3, 0, 4}}) {
     Draw draw(100);
     Count sum;
     for (int i = 0; i < 20; ++i) {
@@ -345,10 +345,10 @@ TEST_CASE("Published skips obstacles on flights that leave an ellipse or ellipso
       scene.lattices[0].atoms[0] = ellipsoid(draw, dimension, 0.4);
       add(sum, hold_against_oracle(scene, starts::free_starts(scene, starts::Kind::surface, 100, 1000)));
     }
-    INFO(sum.wrong << " wrong, " << sum.right << " right; " << seen << " wrong seen");
+    INFO(sum.wrong << " wrong, " << sum.right << " right");
     CHECK(sum.wrong + sum.right == 20'000);
-    CHECK(sum.wrong > seen * 3 / 4);
-    CHECK(sum.wrong < seen * 5 / 4);
+    CHECK(sum.wrong >= least);  // 380 seen in the plane, none in space
+    CHECK(sum.wrong <= most);
     CHECK(sum.worst < 1e-11);  // 2.8e-13 seen
   }
 }

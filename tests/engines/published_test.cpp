@@ -126,6 +126,19 @@ TEST_CASE("Late sphere: a step of 1 - 2r lands inside the next sphere", "[engine
   CHECK(both.exact.obstacle.cell == cell(-8, 1, 0));
 }
 
+TEST_CASE("Spheres in a column of the one that is left are not passed over", "[engines][published]") {
+  // In the plane xy both have the same projection.
+  const Query up{{0, 0, 0.25}, {1, 1, 8}, ObstacleId{0, 0, {0, 0, 0}}};
+  CHECK(ask(unit_scene(3, 0.25), up).published.obstacle.cell == cell(0, 0, 1));
+  for (const double radius : {0.1, 0.2, 0.3, 0.4}) {
+    const Scene scene = unit_scene(3, radius);
+    const Share share = share_wrong(scene, starts::free_starts(scene, starts::Kind::surface, 84, 4000));
+    INFO(radius << ": " << share.wrong << " wrong of " << share.answered);
+    CHECK(share.answered > 3900);
+    CHECK(share.wrong <= 8);
+  }
+}
+
 TEST_CASE("Late spheres are about one in a thousand", "[engines][published]") {
   Draw draw(83);
   INFO("seed 83");

@@ -157,9 +157,8 @@ Answer PublishedBravais::flight_3d(const Ray& ray, double limit, Proposals& prop
     if (!entry || !(*entry >= 0) || (has_from && n == from)) return std::nullopt;
     return *entry * speed;
   };
-  const auto result =
-      first_sphere<double>(transformed_place(ray.x), v, circumscribed_, has_from ? &from : nullptr,
-                           {Published::kMaxTotalPasses, true}, limit * speed, is_hit);
+  const auto result = first_sphere<double>(transformed_place(ray.x), v, circumscribed_,
+                                           {Published::kMaxTotalPasses, true}, limit * speed, is_hit);
   if (result.none) return *result.none;
   return Answer::hit(obstacle_of(result.centre), result.distance / speed);
 }

@@ -237,10 +237,11 @@ struct SpaceResult {
 
 // The 3D procedure from x along the unit vector v, up to the distance `limit`. It calls
 // `is_hit(centre, x, elapsed)` for each sphere on which the planes agree; this returns the distance from x to
-// the hit, or nothing.
+// the hit, or nothing. The planes are not told which sphere is left, as in the authors' program: all spheres in
+// its columns have the same projection.
 template <class T, class IsHit>
-SpaceResult<T> first_sphere(Triple<T> x, const Triple<T>& v, const T& r, const Triple<T>* from, Passes passes,
-                            const T& limit, const IsHit& is_hit) {
+SpaceResult<T> first_sphere(Triple<T> x, const Triple<T>& v, const T& r, Passes passes, const T& limit,
+                            const IsHit& is_hit) {
   T elapsed = 0;  // in units of length
   const T farthest = farthest_place<T>();
   const auto advance = [&](const T& distance) {
@@ -254,10 +255,8 @@ SpaceResult<T> first_sphere(Triple<T> x, const Triple<T>& v, const T& r, const T
     for (int plane = 0; plane < 3; ++plane) {
       const auto [i, k] = kPlanes[plane];
       if (!(fabs(x[i]) < farthest && fabs(x[k]) < farthest)) return {Answer::undecided()};
-      const Disc<T> leaving = from ? Disc<T>{(*from)[i], (*from)[k]} : Disc<T>{};
       if (!passes.is_total) passes_left = passes.most;
-      const PlaneResult<T> result =
-          first_disc<T>({x[i], x[k]}, {v[i], v[k]}, r, from && round == 0 ? &leaving : nullptr, passes_left);
+      const PlaneResult<T> result = first_disc<T>({x[i], x[k]}, {v[i], v[k]}, r, nullptr, passes_left);
       if (auto answer = answer_for(result.found)) return {answer};
       disc[plane] = result.disc;
     }

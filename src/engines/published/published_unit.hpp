@@ -64,7 +64,7 @@ Answer published_3d(const ColumnLine<T>& line, const T& r, const Triple<T>* from
     return time;
   };
   const SpaceResult<T> result =
-      first_sphere<T>(line.x, v, r, from, {Published::kMaxPasses, false}, T(kNoLimit), is_hit);
+      first_sphere<T>(line.x, v, r, {Published::kMaxPasses, false}, T(kNoLimit), is_hit);
   if (result.none) return *result.none;
   return Answer::hit(obstacle_of(result.centre), NumberType<T>::binary64(result.distance / speed));
 }
