@@ -55,7 +55,8 @@ std::optional<ScanFinding> lyapunov_at(const ScanPlace& place, const ChaosOption
   with_work(options, "lyapunov", words,
             [&](const chaos::Work& work) { found = chaos::lyapunov_of(plan, work); });
   if (found.collisions == 0) {
-    say("no part was done: there is nothing to report");
+    say("{}: there is nothing to report",
+        found.is_whole ? "all particles ended on the way (docs/chaos.md#errors)" : "no part was done");
     return std::nullopt;
   }
   return ScanFinding{options.json ? found.json() : found.table(), found.csv(), found.is_whole};

@@ -77,6 +77,10 @@ bool move_to_edge(const std::function<double()>& off_edge, const Scene& scene, c
       semiaxes_of(scene.lattices[answer.obstacle.lattice].atoms[answer.obstacle.atom], scene.dimension);
   Vec y = coordinates(axes, answer.detail->normal), w = coordinates(dual_of(axes, scene.dimension), query.v);
   if (scene.dimension == 2) y[2] = w[2] = 0;
+  for (Vec* one : {&y, &w}) {  // whatever the unit
+    const double largest = std::max({std::fabs((*one)[0]), std::fabs((*one)[1]), std::fabs((*one)[2])});
+    for (double& component : *one) component /= largest;
+  }
   const double length = std::sqrt(dot(y, y)), along = dot(y, w) / length / dot(w, w);
   for (int i = 0; i < 3; ++i) y[i] = y[i] / length - along * w[i];
   const double distance = std::sqrt(dot(y, y)), place = 1 + off_edge();

@@ -56,8 +56,13 @@ struct Diffusion {
  private:
   static constexpr double kLeastPaths = 20;
   bool is_uniform() const { return plan.from == flights::Ensemble::uniform; }
+  /// T in mean free paths: in collisions of a particle, if the exact mean is not known.
+  double paths() const {
+    return mean_free_path ? plan.time / *mean_free_path
+                          : static_cast<double>(collisions) / static_cast<double>(particles + stopped);
+  }
   /// True if the particles have hardly collided, so that the MSD does not grow linearly yet.
-  bool is_too_short() const { return mean_free_path && plan.time < kLeastPaths * *mean_free_path; }
+  bool is_too_short() const { return paths() < kLeastPaths; }
   bool has_corridors() const { return tail.open.value_or(false); }
   Estimate rate(const Displacement& at) const;  ///< MSD / (2 d t)
   std::string lines_of_coefficient() const;

@@ -21,7 +21,7 @@ std::string Diffusion::lines_of_coefficient() const {
       is_too_short() ? fmt::format(
                            "T is {:.3g} mean free paths: too short for this to be near its limit, and the "
                            "error does not show it; {:g} or more are needed\n",
-                           plan.time / *mean_free_path, kLeastPaths)
+                           paths(), kLeastPaths)
                      : "";
   if (!has_corridors())
     return fmt::format("D = {}, {}\n{}{}long free paths: {}\n", estimate, kWhat, too_short,

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <exception>
 #include <mutex>
-#include <thread>
 
 #include <lorentz/errors.hpp>
 #include "src/exchange/json_piece.hpp"
+#include "src/problem/threads.hpp"
 
 namespace lorentz::chaos {
 
@@ -70,8 +70,7 @@ AllSums for_each_group(const Work& work, const std::function<Sums(std::uint64_t)
     }
   };
   {
-    std::vector<std::jthread> others;
-    for (unsigned job = 1; job < std::min<std::uint64_t>(work.jobs, kGroups); ++job) others.emplace_back(run);
+    const auto others = threads_of(std::min<std::uint64_t>(work.jobs, kGroups) - 1, run);
     run();
   }
   if (failure) std::rethrow_exception(failure);

@@ -1,5 +1,6 @@
 // The predictions of theory for a run.
 #include <algorithm>
+#include <cmath>
 
 #include "statistics/flights/report.hpp"
 
@@ -25,8 +26,18 @@ FlightsFindings::FlightsFindings(const FlightsReport& report)
 
 std::optional<TailConstant> FlightsFindings::measured_constant_of(const Tail& tail) const {
   if (!tail.exponent || !tail.approach || !mean.value || total == 0) return std::nullopt;
+  // The model has two terms: where the power is less of the flights, others are extrapolated.
+  constexpr double kLeastShareOfPower = 0.75;
   const double power = *tail.exponent - 1;
-  return tail_constant(edges, counts, total, power, *tail.approach, tail_begins(power, total) * *mean.value);
+  const auto share_of_power = [&](const TailConstant& found) {
+    return tail.constant.value_or(found.value) * std::pow(found.from, -power) * static_cast<double>(total) /
+           static_cast<double>(found.count);
+  };
+  for (double from = tail_begins(power, total) * *mean.value;;) {
+    const auto found = tail_constant(edges, counts, total, power, *tail.approach, from);
+    if (!found || share_of_power(*found) >= kLeastShareOfPower) return found;
+    from = std::nextafter(found->from, HUGE_VAL);
+  }
 }
 
 // All paths that show the lattice itself are one bin.

@@ -45,8 +45,10 @@ std::string remark_on_mean(Ensemble from, const Tail& long_paths) {
 }
 
 std::string line_of_measured_constant(const Tail& tail, const FlightsFindings& found) {
+  if (!tail.exponent || !tail.approach) return "";
   const auto measured = found.measured_constant_of(tail);
-  if (!measured) return "";
+  if (!measured)
+    return "  not measured: where this power is three quarters of all flights, too few were counted\n";
   const double power = *tail.exponent - 1;
   std::string text = fmt::format("  measured: P(tau > t) ~ {:.5g} / t^{:g}, standard error {:.2g}",
                                  measured->value, power, measured->error);
@@ -171,6 +173,8 @@ std::string FlightsReport::table() const {
       fmt::format(": {} hits, {} never, {} undecided; {} starts lay in an obstacle, and were drawn anew\n",
                   tally.hits, tally.never, tally.undecided, tally.inside);
   if (tally.hits == 0) return text + "nothing was hit: there are no free paths to speak of\n";
+  if (tally.undecided > 0)
+    text += "what follows is without the undecided flights: wrong, if those are the longest\n";
   text += '\n' + line_of_mean(*this, found) + '\n';
   if (plan.from == Ensemble::uniform) text += line_of_mean_free_path(found);
   text += fmt::format("mean of ln tau {:.8g}; shortest {:.6g}, longest {:.6g}\n", tally.mean_log(),

@@ -3,19 +3,22 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <future>
 #include <mutex>
 #include <numeric>
 
 #include <lorentz/errors.hpp>
+#include <lorentz/geometry.hpp>
 #include "question/engines.hpp"
 #include "src/engines/gpu/gpu_batch.hpp"
+#include "src/problem/scene_geometry.hpp"
+#include "src/problem/threads.hpp"
 #include "statistics/flights/card_flights.hpp"
 
 namespace lorentz::flights {
 namespace {
 
 constexpr std::chrono::milliseconds kBetweenNews{200};
+constexpr int kMostExponent = 250;  // squares of paths, which may be 2^60 times as long, are numbers then
 
 // Draws the starts of flights, flies them and counts the results, block by block. Each thread has its own.
 class Flyer {
@@ -98,8 +101,23 @@ class Flyer {
   std::vector<std::uint64_t> missing_;  // starts whose last candidate, if any, lay in an obstacle
 };
 
+bool has_moderate_lengths(const Scene& scene) {
+  bool good = true;
+  const auto see = [&](double length) { good &= std::abs(std::ilogb(length)) < kMostExponent; };
+  for (const Lattice& lattice : scene.lattices) {
+    for (int i = 0; i < lattice.rank_in(scene.dimension); ++i) see(length(lattice.vectors[i]));
+    for (const Atom& atom : lattice.atoms)
+      for (int i = 0; i < scene.dimension; ++i) see(principal_semiaxes(atom, scene.dimension)[i]);
+  }
+  return good;
+}
+
 // Who flies starts that are drawn here. Those of a card's plan, which are its own, are left to the processor.
 question::SceneEngine engine_of(const FlightsPlan& plan, bool on_card) {
+  if (!has_moderate_lengths(plan.scene))
+    throw InputError(fmt::format(
+        "free paths are measured in scenes whose lengths lie between 2^-{0} and 2^{0}; choose another unit",
+        kMostExponent));
   if (on_card) gpu::prepared(plan.scene);  // throws with the reason
   const question::EngineInfo info = question::engine_named(on_card ? "gpu" : plan.engine);
   if (const auto why = info.traits.is_exact ? std::nullopt : Reduction::beyond(plan.scene);
@@ -178,7 +196,7 @@ void fly_left(const FlightsPlan& plan, const question::SceneEngine& engine, unsi
   };
   std::vector<std::future<FlightTally>> others;
   for (unsigned job = 1; job < jobs && job < left.size(); ++job)
-    others.push_back(std::async(std::launch::async, share, job));
+    others.push_back(std::async(kInThreadIfPossible, share, job));
   tally.add(share(0));
   for (std::future<FlightTally>& other : others) tally.add(other.get());
 }
@@ -245,8 +263,12 @@ void run(const FlightsPlan& plan, const FlightBounds& bounds, Account& account,
     }
   };
   std::vector<std::future<void>> threads;
-  for (unsigned job = 0; job < (draws_there ? 1 : bounds.jobs); ++job)
-    threads.push_back(std::async(std::launch::async, fly));
+  try {
+    for (unsigned job = 0; job < (draws_there ? 1 : bounds.jobs); ++job)
+      threads.push_back(std::async(std::launch::async, fly));
+  } catch (const std::system_error&) {  // those that were started do it all
+    if (threads.empty()) throw;
+  }
   for (std::future<void>& thread : threads) {
     while (thread.wait_for(kBetweenNews) != std::future_status::ready) work.tell(on_progress);
     thread.get();

@@ -1,6 +1,7 @@
 // Starts in no obstacle: exactly, of every kind, and as hard as they are said to be. Seeds are fixed.
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <map>
 
 #include <lorentz/errors.hpp>
@@ -9,6 +10,7 @@
 #include <lorentz/oracle.hpp>
 #include "question/starts/candidates.hpp"
 #include "question/starts/free_starts.hpp"
+#include "src/problem/scene_geometry.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -104,6 +106,16 @@ TEST_CASE("A start that rounding puts into an obstacle is drawn again", "[flight
     const Query start = starts[i];
     CHECK(consists_of(start, NumberFormat::binary32));
     CHECK(oracle.first_hit(start).outcome != Outcome::inside);
+  }
+}
+
+TEST_CASE("Grazing starts are found in any unit", "[flights][starts]") {
+  for (const int exponent : {-900, -530, 0, 530, 900}) {
+    const Scene scene = scaled(unit_scene(2, 0.1), exponent);
+    const FreeStarts starts(scene, Kind::grazing, kSeed);
+    const Query start = starts[3];
+    CHECK(std::isfinite(start.x[0]));
+    CHECK(std::ldexp(start.x[0], -exponent) < 1e3);
   }
 }
 
