@@ -209,6 +209,7 @@ const std::string& command_line() {
 }
 
 int run(int argc, char** argv) {
+  reserve_standard_streams();
   end_in_order();
   called = "lorentz";
   for (int i = 1; i < argc; ++i) called += ' ' + shell_quoted(argv[i]);

@@ -24,6 +24,7 @@
 #include "fuzz/campaign/ranks.hpp"
 #include "question/answerer.hpp"
 #include "report/claim_words.hpp"
+#include "src/problem/threads.hpp"
 
 namespace lorentz::cli {
 
@@ -150,8 +151,8 @@ class JournalWithProgress final : public fuzz::Journal {
 
 // Ends the program if this thread lives for more than a second: a thread may be at an exact answer of
 // thousands of bits, which is not waited for once the report is printed.
-std::jthread last_resort_of(const std::function<void()>& end) {
-  return std::jthread([end](const std::stop_token& in_time) {
+std::vector<std::jthread> last_resort_of(const std::function<void()>& end) {
+  return threads_of(1, [end](const std::stop_token& in_time) {
     std::mutex mutex;
     std::condition_variable_any changed;
     std::unique_lock lock(mutex);
@@ -194,18 +195,26 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, fuzz::Bound
                  const question::MakeAnswerer& make_answerer, fuzz::Ranks* ranks) {
   const Interrupt interrupt;
   bounds.stop = &Interrupt::came();
-  Store store(options.store.value_or(":memory:"), Store::Access::write);
-  FuzzReport report = opened(store, plan, options);
+  std::optional<Store> store(std::in_place, options.store.value_or(":memory:"), Store::Access::write);
+  FuzzReport report = opened(*store, plan, options);
   std::vector<fuzz::Finding> known;
   for (const fuzz::Stored& one : report.findings) known.push_back(one.finding);
-  std::jthread last_resort;
+  std::optional<int> of_none;
+  std::vector<std::jthread> last_resort;
   const auto on_end = [&](double silent) {
-    report.findings = findings_of(store, report.campaign);
+    report.findings = findings_of(*store, report.campaign);
     print(options.json ? report.json() : report.text());
     say_how_it_ended(options, silent);
-    const int status = exit_status(report, options.times, false);
-    last_resort = last_resort_of([ranks, status] {
-      std::fflush(nullptr);
+    of_none = status_of_none(report, plan, bounds);
+    last_resort = last_resort_of([&, ranks] {
+      int status = of_none.value_or(exit_status(report, options.times, false));
+      try {
+        finish_output();
+      } catch (const FileError& error) {
+        say("{}", error.what());
+        status = kFailed;
+      }
+      store.reset();
       question::kill_programs();
       if (ranks) ranks->abort(status);
       std::_Exit(status);
@@ -213,12 +222,11 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, fuzz::Bound
   };
   bool failed = false;
   {
-    JournalWithProgress journal(store, report.campaign, bounds, plan.targets.size(), on_end);
+    JournalWithProgress journal(*store, report.campaign, bounds, plan.targets.size(), on_end);
     failed = fuzz::run(plan, bounds, make_answerer, report.tallies, journal, ranks, known);
   }
-  last_resort = {};
-  if (const auto status = status_of_none(report, plan, bounds)) return *status;
-  return exit_status(report, options.times, failed);
+  last_resort.clear();
+  return of_none ? *of_none : exit_status(report, options.times, failed);
 }
 
 int run_fuzz(const FuzzOptions& options) {

@@ -1,7 +1,6 @@
 #include "judge/judge_report.hpp"
 
 #include <algorithm>
-#include <future>
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 #include "judge/simplest.hpp"
 #include "question/race.hpp"
 #include "src/problem/scene_geometry.hpp"
+#include "src/problem/threads.hpp"
 
 namespace lorentz::judge {
 
@@ -80,10 +80,10 @@ void run_campaign(TimedExamination& first, JudgePlan& plan, const Terms& terms) 
   std::vector<std::future<void>> threads;
   for (unsigned part = 1; part < jobs; ++part) {
     others.push_back(terms.silent_examination(terms.answerer.listener));
-    threads.push_back(
-        std::async(std::launch::async, [seconds, &its = *others.back(), source = plan.campaign(part, jobs)] {
-          its.run(campaign_row(), source, seconds);
-        }));
+    const auto work = [seconds, &its = *others.back(), source = plan.campaign(part, jobs)] {
+      its.run(campaign_row(), source, seconds);
+    };
+    threads.push_back(std::async(kInThreadIfPossible, work));
   }
   first.run(campaign_row(), plan.campaign(0, jobs), seconds);
   for (std::future<void>& thread : threads) thread.get();

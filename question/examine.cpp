@@ -2,11 +2,11 @@
 
 #include <cmath>
 #include <deque>
-#include <future>
 #include <limits>
 #include <mutex>
 
 #include "src/problem/same_answer.hpp"
+#include "src/problem/threads.hpp"
 
 namespace lorentz::question {
 namespace {
@@ -113,7 +113,7 @@ void in_stretches(std::size_t count, std::size_t jobs,
   const auto bound = [&](std::size_t job) { return job * count / jobs; };
   std::vector<std::future<void>> others;
   for (std::size_t job = 1; job < jobs; ++job)
-    others.push_back(std::async(std::launch::async, [&, job] { act(job, bound(job), bound(job + 1)); }));
+    others.push_back(std::async(kInThreadIfPossible, [&, job] { act(job, bound(job), bound(job + 1)); }));
   act(0, bound(0), bound(1));
   for (std::future<void>& other : others) other.get();
 }

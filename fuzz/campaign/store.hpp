@@ -4,10 +4,12 @@
 
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
 #include <map>
 #include <string>
 #include <vector>
 
+#include <lorentz/verdict.hpp>
 #include "fuzz/campaign/campaign.hpp"
 #include "report/runs/database.hpp"
 
@@ -33,6 +35,13 @@ struct CampaignManifest {
   std::uint64_t seed = 0;
   std::string options;  ///< the other options, in words
   Claim claim;          ///< by which answers are judged; also in the words
+
+  /// The tolerance, which the words of the options begin with: "ulps 4, ..".
+  double ulps() const {
+    double k = oracle::kDefaultUlps;
+    std::sscanf(options.c_str(), "ulps %lf", &k);
+    return k;
+  }
 
   friend bool operator==(const CampaignManifest&, const CampaignManifest&) = default;
   friend auto members_of(CampaignManifest& self) {

@@ -8,10 +8,10 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "fuzz/campaign/stint.hpp"
+#include "src/problem/threads.hpp"
 
 namespace lorentz::fuzz {
 
@@ -61,7 +61,9 @@ class Workers {
  public:
   Workers(const Plan& plan, const MakeAnswerer& make_answerer, WorkSource& source, unsigned jobs)
       : plan_(plan), make_answerer_(make_answerer), source_(source) {
-    for (unsigned i = 0; i < jobs; ++i) threads_.emplace_back([this] { work(); });
+    threads_ = threads_of(jobs, [this] { work(); });
+    if (threads_.empty())
+      throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
   }
   void join() { threads_.clear(); }
 

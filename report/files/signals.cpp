@@ -1,5 +1,6 @@
 #include "report/files/signals.hpp"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -35,6 +36,11 @@ void take_leave(int number) {
 }
 
 }  // namespace
+
+void reserve_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
 
 void end_in_order() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {

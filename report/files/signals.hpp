@@ -11,6 +11,10 @@ namespace lorentz {
 /// an error like a full disk. Signals that the caller ignores stay ignored.
 void end_in_order();
 
+/// From here on no file that is opened gets the number of a standard stream that the caller has closed, and what
+/// is meant for that. To read from it, or to write to it, fails as before.
+void reserve_standard_streams();
+
 /// A file that would look whole but is not. It is removed if a signal ends the program while this object lives.
 class Unfinished {
  public:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <system_error>
 #include <thread>
 
 #include <lorentz/errors.hpp>
@@ -171,8 +172,11 @@ std::size_t Batch::fly(const QueryColumns& queries, const FlightColumns& flights
   };
   {
     std::vector<std::jthread> others;
-    for (std::size_t job = 1; job < std::min<std::size_t>(std::max(jobs, 1), pieces); ++job)
-      others.emplace_back(work);
+    try {
+      for (std::size_t job = 1; job < std::min<std::size_t>(std::max(jobs, 1), pieces); ++job)
+        others.emplace_back(work);
+    } catch (const std::system_error&) {  // those that could be started do it all
+    }
     work();
   }
   return left;
