@@ -161,7 +161,7 @@ class Errors {
 };
 
 // Asks an engine the questions and judges its answers.
-void examine_into(Cell& cell, Examination& examination, std::span<const Question> questions) {
+void examine_into(Cell& cell, Examination& examination, std::span<const Question> questions, double ulps) {
   ExaminedRow row;
   Errors errors;
   examination.ask(questions, [&](const Judged& judged) {
@@ -176,6 +176,7 @@ void examine_into(Cell& cell, Examination& examination, std::span<const Question
   cell.conditions = report::histogram_of(errors.in_conditions());
   cell.calls = errors.calls();
   cell.worst = errors.worst(cell);
+  if (cell.worst) cell.worst->command += report::arguments_of({}, ulps);
 }
 
 // Times the engines with these numbers, and writes the times into their cells. True if one of them failed.
@@ -210,7 +211,7 @@ std::vector<Cell> measured_cells(const Bench& bench, const Cell& like, bool& fai
     cell.dimension = dimension, cell.engine = bench.engines[i].name;
     if ((cell.skipped = counts[i] < kFewestQueries)) continue;
     Examination examination(bench.engines[i], bench.asking, bench.options.tolerance());
-    examine_into(cell, examination, std::span(questions).first(counts[i]));
+    examine_into(cell, examination, std::span(questions).first(counts[i]), bench.options.tolerance());
     if (!cell.skipped && !examination.failed()) racing.push_back(i);
     examination.finish();
     failed |= examination.failed();

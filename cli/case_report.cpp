@@ -22,7 +22,8 @@ std::vector<std::string> commands_of(const CaseReport& report) {
   std::vector<std::string> commands{report.command, lines + " | lorentz first-hit --engine oracle --detail"};
   if (!report.engine.empty())
     commands.push_back(fmt::format("{} | lorentz compare --queries - --engine {}{}", lines,
-                                   shell_quoted(report.engine), report::arguments_of(report.claim)));
+                                   shell_quoted(report.engine),
+                                   report::arguments_of(report.claim, report.ulps)));
   return commands;
 }
 

@@ -9,6 +9,7 @@
 #include <lorentz/claim.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
+#include <lorentz/verdict.hpp>
 #include "cli/command.hpp"
 
 namespace lorentz::cli {
@@ -27,7 +28,8 @@ struct CaseReport {
   std::optional<ObstacleId> decisive;  ///< the obstacle that decides about the given answer
   std::optional<double> by_ulps;       ///< the distance that the inputs must move for the answer to be right
   std::vector<std::string> more;       ///< further lines after the reason
-  Claim claim;                         ///< the claim by which it is judged
+  Claim claim;                         ///< the claim by which it is judged,
+  double ulps = oracle::kDefaultUlps;  ///< and the tolerance
   std::string engine;                  ///< the engine that gave the answer; empty: none
 };
 

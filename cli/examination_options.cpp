@@ -15,7 +15,9 @@ using O = ExaminationOptions;
 std::vector<Option> rows_of_sources(O& o) {
   return {
       {"--scene", &o.scenes, "SCENE",
-       "scene files, or names of the catalogue, with commas between them (default: square)", kCommas},
+       "scene files, or names of the catalogue, with commas between them (default: square; bench: "
+       "square,cubic)",
+       kCommas | kToldDefault},
       {"--radius", &o.radii, "R", "radii of every ball of --scene, with commas between them", kCommas},
       {"--difficulty", &o.difficulties, "drawn|near-rational|grazing",
        "kinds of queries (default: drawn,near-rational,grazing)", kCommas | kToldDefault},
@@ -45,7 +47,7 @@ std::vector<Option> rows_of_sources(O& o) {
 std::vector<Option> rows_of_engines(O& o) {
   return {
       {"-e,--engine", &o.engines, "ENGINE",
-       std::string(kEngineHelp) + "; several with commas between them, or the option several times",
+       std::string(kEngineHelp) + "; compare, golden check and bench take several, with commas between them",
        kOneAtATime | kToldDefault},
       {"--answers", &o.answers, "NAME=FILE",
        "also judges the answers in FILE, which some program wrote, as those of an engine called NAME: a "

@@ -111,6 +111,7 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
                                shell_quoted(store.path()), files.as_typed());
   const fuzz::CampaignManifest manifest = manifest_of(store, one);
   report.claim = manifest.claim;
+  report.ulps = manifest.ulps();
   report.engine = manifest.engine;
   report.cause = finding.cause;
   report.where = "campaign target " + finding.target;

@@ -42,7 +42,8 @@ std::size_t ask_set(const std::string& path, const ExaminationOptions& options, 
   const golden::Header& header = reader.header();
   const Claim claim = options.claim.claim(header.precision);
   CheckedSet& set = sets.emplace_back(CheckedSet{label_of(header, claim, options), claim});
-  AskedPart part{{}, path, report::arguments_of(claim)};
+  AskedPart part{
+      {}, path, report::arguments_of(claim, options.tolerance()) + (options.times ? " --times" : "")};
   if (claim.precision == NumberFormat::binary64 && header.precision != claim.precision)
     part.claim += " --precision binary64";
   const std::uint64_t first = options.first.value_or(std::numeric_limits<std::uint64_t>::max());
@@ -50,7 +51,8 @@ std::size_t ask_set(const std::string& path, const ExaminationOptions& options, 
   const Source records = golden::questions_of(reader, claim);
   std::size_t asked = 0;
   lineup.begin(header.name);
-  for (std::uint64_t read = 0; read < first; progress.at(++read)) {
+  std::uint64_t read = 0;
+  for (; read < first; progress.at(++read)) {
     std::optional<Question> question = records();
     if (!question) break;
     if (options.id && !question->where.starts_with(*options.id)) continue;
@@ -65,6 +67,10 @@ std::size_t ask_set(const std::string& path, const ExaminationOptions& options, 
       part.questions.push_back(std::move(*question));
     if (part.questions.size() == kTogether) lineup.ask(part), part.questions.clear();
   }
+  if (read < first ? read != header.count : read > header.count)
+    throw InputError(
+        fmt::format("{}: the header says {} records, there are {}{}; lorentz golden verify says more", path,
+                    header.count, read, read < first ? "" : " or more"));
   lineup.ask(part);
   lineup.end(!options.id && first >= header.count && set.of_other_numbers + set.outside_domain == 0);
   return asked;

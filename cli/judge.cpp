@@ -82,21 +82,28 @@ JudgeOrder order_of(ExaminationOptions options) {
   return order;
 }
 
-// A golden set with the simplest case of each fault.
+// A golden set with the simplest case of each fault. Records have no limit: faults that need one are left out.
 std::string golden_set_of(const JudgeReport& report) {
   golden::GivenQuestions given({.name = "findings",
                                 .description = "The simplest case of each fault of an engine.",
                                 .generator = report.command,
                                 .version = LORENTZ_VERSION,
                                 .precision = report.claim.precision});
+  std::size_t with_limit = 0;
   for (const judge::Finding& finding : report.findings) {
     const question::Question& question = finding.simplest.question;
     if (!question.is_query()) continue;
+    with_limit += question.has_limit();
+    if (question.has_limit()) continue;
     const std::string tag(judge::name_of(finding.cause()));
     const Scene& scene = question.place->scene();
-    if (!given.header.explains(tag)) given.header.tags.emplace_back(tag, finding.summary());
+    if (!given.header.explains(tag)) given.header.tags.emplace_back(tag, judge::title_of(finding.cause()));
     given.add({scene, golden::question_of(question.query, scene), question.query, {tag}});
   }
+  if (with_limit > 0)
+    say("--golden: {} of {} findings are left out: their questions have a limit (max_time), which no record "
+        "has",
+        with_limit, report.findings.size());
   return made_set(given).first;
 }
 

@@ -191,7 +191,7 @@ struct Limit {
 };
 constexpr Limit kLimits[] = {
     {"depth", &Features::depth, LimitSide::below, 0.1,
-     "where the line enters the obstacle by less than {:g} of its radii"},
+     "where the line enters the obstacle that is hit by less than {:g} of its radii"},
     {"short-chord", &Features::chord, LimitSide::below, 1,
      "where the chord in the obstacle is shorter than {:g}"},
     {"near-surface", &Features::start_gap, LimitSide::below, 0.01,

@@ -81,7 +81,7 @@ constexpr CauseWords kCauseWords[]{
     {"passed-over-grazing", "names a later obstacle than one it grazes",
      "passes over obstacles that the line enters", SentenceEnd::below},
     {"passed-over", "passes through an obstacle",
-     "passes over the obstacle that is hit first, and names a later one", SentenceEnd::part, "entered"},
+     "passes over an obstacle that the line enters, and names a later one", SentenceEnd::part, "entered"},
     {"never-for-grazing", "misses what it grazes", "says never of lines that enter obstacles",
      SentenceEnd::below},
     {"never-for-hit", "misses what it hits", "says never where an obstacle is hit", SentenceEnd::part,

@@ -57,7 +57,7 @@ std::vector<std::string> commands_of(const Finding& finding, const JudgeReport& 
   const std::string lines = report::printed(finding.simplest.question.place->scene(),
                                             members_of(finding.simplest), finding.repetitions);
   std::string engine = shell_quoted(report.engine.name);
-  const std::string claim = report::arguments_of(report.claim);
+  const std::string claim = report::arguments_of(report.claim, report.ulps);
   if (finding.cause() == Cause::no_answer) engine += fmt::format(" --timeout {:g}", report.longest_wait);
   if (finding.simplest.question.is_query())
     return {fmt::format("{} | lorentz compare --queries - --engine {}{}{}", lines, engine, claim,

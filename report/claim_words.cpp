@@ -47,13 +47,14 @@ std::string full_words_of(const Claim& claim) {
   return precision + words_of({NumberFormat::binary64, claim.time_tolerance});
 }
 
-std::string arguments_of(const Claim& claim) {
+std::string arguments_of(const Claim& claim, double ulps) {
   std::string text;
   if (claim.precision != NumberFormat::binary64)
     text += fmt::format(" --precision {}", name_of(claim.precision));
   if (claim.time_tolerance) text += fmt::format(" --time-tolerance {}", *claim.time_tolerance);
   if (const std::string domain = domain_text(claim.domain); !domain.empty()) text += " --domain " + domain;
   if (claim.inside != StartInside::inside) text += fmt::format(" --starts-inside {}", name_of(claim.inside));
+  if (ulps != oracle::kDefaultUlps) text += fmt::format(" --ulps {}", ulps);
   return text;
 }
 

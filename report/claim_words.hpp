@@ -4,6 +4,7 @@
 #include <string>
 
 #include <lorentz/claim.hpp>
+#include <lorentz/verdict.hpp>
 #include "src/exchange/json_writer.hpp"
 
 namespace lorentz::report {
@@ -14,8 +15,8 @@ std::string words_of(const Claim& claim);
 /// " in binary64, times by ulps": always has both.
 std::string full_words_of(const Claim& claim);
 
-/// As arguments, each with a space before it; empty if nothing is claimed.
-std::string arguments_of(const Claim& claim);
+/// As arguments, each with a space before it, with the tolerance; empty if all is as usual.
+std::string arguments_of(const Claim& claim, double ulps = oracle::kDefaultUlps);
 
 void add_claim(json::Members& object, const Claim& claim);
 

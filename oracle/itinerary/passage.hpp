@@ -333,10 +333,10 @@ class Passage {
 
   // Gives the requested digits. A number that is known much better, and still could be rounded to either
   // side, is midway between two decimals or nearly so; then one or two digits more are given. A number that
-  // cannot be told from 0, far below its `scale`, is "0e-k": it is less than 10^-k, and no digit is certain.
+  // cannot be told from 0, far below its `scale`, is "0e-k", or "0e+k": it is less than 10^-k (10^k), and no digit is certain.
   // (Times have no `scale`, because they are above 0.)
   std::optional<std::string> decimal(const Ball& number, const Bound* scale = nullptr) const {
-    constexpr double kDigitsABit = 0.30102;
+    constexpr double kDigitsABit = 0.30102, kMoreThanDigitsABit = 0.30103;  // log10(2) is between
     constexpr long kMidway = 96, kNothing = 256;
     const int digits = route_.journey.digits;
     if (auto text = certain_decimal(number, digits)) return text;
@@ -345,7 +345,10 @@ class Passage {
     const auto enough = static_cast<long>(kBitsADigit * digits);
     if (!number.is_positive() && !number.is_negative()) {
       if (!scale || scale->exponent() - size.exponent() < enough + kNothing) return std::nullopt;
-      return "0e-" + std::to_string(static_cast<long>(-kDigitsABit * static_cast<double>(size.exponent())));
+      const double octaves = static_cast<double>(size.exponent());
+      const auto most =
+          static_cast<long>(std::ceil(octaves * (octaves > 0 ? kMoreThanDigitsABit : kDigitsABit)));
+      return (most > 0 ? "0e+" : "0e-") + std::to_string(std::labs(most));
     }
     if (size.exponent() - radius.exponent() < enough + kMidway) return std::nullopt;
     for (int more = digits + 1; more <= digits + 2; ++more)

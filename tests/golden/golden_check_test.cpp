@@ -74,6 +74,36 @@ TEST_CASE("golden check: exact engines agree, the published one does not", "[gol
   CHECK(contains(once.out, "\"records\":1,\"agree\":0,"));
 }
 
+TEST_CASE("golden check: the rules by which a record failed are those by which it is asked again",
+          "[golden][golden_check]") {
+  const Folder folder;
+  for (const std::string rules :
+       {"-e classical --ulps 0", "-e published-float --times"}) {
+    const Run bad = folder.lorentz("golden check --first 200 --failures 1 ties axis-and-diagonal " + rules);
+    REQUIRE(bad.status == 1);
+    CHECK(folder.lorentz(between(bad.out, "again: lorentz ", "\n")).status == 1);
+  }
+}
+
+TEST_CASE("golden check: half a set is not a set", "[golden][golden_check]") {
+  const Folder folder;
+  std::istringstream whole(folder.run("cat " + kCommitted + "published-faults.ndjson").out);
+  std::string half, twice;
+  for (std::string line; std::getline(whole, line);) {
+    twice += line + '\n';
+    if (lines(half) < 40) half += line + '\n';
+  }
+  twice += twice.substr(twice.rfind("{\"id\""));
+  for (const std::string& text : {half, twice}) {
+    const Run run =
+        folder.lorentz("golden check -e published --baseline known " + folder.write("set.ndjson", text));
+    CHECK(run.status == 2);
+    CHECK(contains(run.err, "set.ndjson: the header says "));
+    CHECK_FALSE(contains(run.err, "stale"));
+  }
+  CHECK(folder.lorentz("golden check -e oracle --first 5 " + folder.file("set.ndjson")).status == 0);
+}
+
 TEST_CASE("golden check: a machine that rounds otherwise gives wrong answers", "[golden][golden_check]") {
   const Folder folder;
   const std::string check = "golden check --engine reduction axis-and-diagonal";

@@ -133,6 +133,11 @@ def text_cells(answer):
     return answer | {"cell": [str(n) for n in answer["cell"]]} if "cell" in answer else answer
 
 
+def with_cells(answer, change):
+    """The same answer with other numbers for the integers of its cell that are numbers."""
+    return answer | {"cell": [change(n) if isinstance(n, int) else n for n in answer["cell"]]} if "cell" in answer else answer
+
+
 def require_statuses(programs, work):
     """Status 0 if all answers are right, 1 if all are missing or have no outcome; a time that is not a number is wrong."""
     path, answers = SETS / "smoke/smoke.ndjson", work / "answers"
@@ -140,7 +145,10 @@ def require_statuses(programs, work):
     right = [{"id": record["id"], **answer_of(record["expect"])} for record in records]
     untimed = [{**answer, "time": None} if "time" in answer else answer for answer in right]
     empty = [{"id": answer["id"]} for answer in right]
-    for told, status, word, least in ((right, 0, "agree", len(records)), ([], 1, "missing", len(records)),
+    halves, nulls, floats = ([with_cells(answer, change) for answer in right]
+                             for change in (lambda n: n + 0.5 if n >= 0 else n - 0.5, lambda n: None, float))
+    for told, status, word, least in ((halves, 1, "wrong", 40), (nulls, 1, "wrong", 40), (floats, 0, "agree", len(records)),
+                                      (right, 0, "agree", len(records)), ([], 1, "missing", len(records)),
                                       (untimed, 0, "wrong-time", 50), (empty, 1, "wrong", 50)):
         answers.write_text("".join(json.dumps(answer) + "\n" for answer in told))
         for language, command in programs.items():

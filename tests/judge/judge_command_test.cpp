@@ -251,6 +251,32 @@ TEST_CASE("judge --golden: the simplest case of each fault is a set", "[judge][j
   CHECK(contains(check.out, "\"agree\":"));
 }
 
+TEST_CASE("judge --golden: a fault that needs a limit is left out, and this is said",
+          "[judge][judge_command]") {
+  // `later` where the hit comes before the limit, but after half of it.
+  const Folder folder;
+  const std::string script = folder.write(
+      "engine.py",
+      "import json, subprocess, sys\n"
+      "limits = {}\n"
+      "asker = subprocess.Popen([sys.argv[1], 'first-hit'], stdin=-1, stdout=-1, text=True, bufsize=1)\n"
+      "for line in sys.stdin:\n"
+      "    question = json.loads(line)\n"
+      "    asker.stdin.write(line)\n"
+      "    if 'x' not in question: continue\n"
+      "    answer = json.loads(asker.stdout.readline())\n"
+      "    limit = question.get('max_time')\n"
+      "    if answer.get('outcome') == 'hit' and limit and answer['time'] > limit / 2:\n"
+      "        answer = {'id': answer['id'], 'outcome': 'later'}\n"
+      "    print(json.dumps(answer), flush=True)\n");
+  const Run run = folder.lorentz("judge --questions 5 -e 'cmd:" LORENTZ_PYTHON " " + script +
+                                 " " LORENTZ_PROGRAM "' --golden " + folder.file("set"));
+  INFO(run.out << run.err);
+  CHECK(run.status == 1);
+  CHECK(contains(run.err, "--golden: 1 of 1 findings are left out: their questions have a limit (max_time)"));
+  CHECK_FALSE(contains(folder.read("set"), "\"id\""));
+}
+
 TEST_CASE("flights makes pages of its curves", "[judge][judge_command]") {
   if (!lorentz::report::has_page()) return;
   const Folder folder;

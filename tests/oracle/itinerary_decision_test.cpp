@@ -133,7 +133,7 @@ TEST_CASE("Itinerary: what is left is near while two obstacles are entered at ne
     scene.lattices[0].vectors = {};
     scene.lattices[0].rank = 0;
     const RationalAtom left{{exact("-10/41"), exact("9/164")}, exact("1/4"), {}};
-    const auto radius = [](int below) {  // 1/4, less so many tenths of 2^-34
+    const auto radius = [](int below) {  // in tenths of 2^-34 below 1/4
       return exact(std::to_string((10L << 32) - below) + "/" + std::to_string(10L << 34));
     };
     const std::array<RationalAtom, 2> ahead{

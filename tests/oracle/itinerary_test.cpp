@@ -281,6 +281,15 @@ TEST_CASE("Itinerary: numbers far below the unit have digits, too") {
   const Told axis = follow(unit(2, "1/4"), start_at({"1/2", "0"}, {"sqrt(2)", "0"}), journey);
   CHECK(begins(axis.collisions.back().x[1], "0e-"));
   CHECK(std::stod(axis.collisions.back().x[1]) == 0);
+  // At a speed of 10^200 that 0 is told to be less than a large number.
+  const Told fast = follow(unit(2, "1/3"), start_at({"1/2", "0"}, {"1e200", "sqrt(2)"}), journey);
+  const Told nothing = follow(unit(2, "1/3"), start_at({"1/2", "0"}, {"1e200", "0"}), journey);
+  for (const Told* told : {&fast, &nothing})
+    for (const std::string& text : told->end.v) {
+      std::size_t read = 0;
+      std::stod(text, &read);
+      CHECK(read == text.size());
+    }
 }
 
 TEST_CASE("Itinerary: a number midway between two decimals has a digit more") {

@@ -22,13 +22,15 @@ static double number(const cJSON* object, const char* key, double otherwise) {
 
 static const char* integer(const cJSON* n, char* room, size_t size) { /* beyond 2^53 it is a decimal string */
   if (cJSON_IsString(n)) return n->valuestring;
-  snprintf(room, size, "%.0f", n->valuedouble);
+  if (!cJSON_IsNumber(n) || n->valuedouble != floor(n->valuedouble)) return NULL;
+  snprintf(room, size, "%.0f", n->valuedouble + 0.0);
   return room;
 }
 
 static int same_integer(const cJSON* a, const cJSON* b) {
   char one[512], other[512];
-  return !strcmp(integer(a, one, sizeof one), integer(b, other, sizeof other));
+  const char *m = integer(a, one, sizeof one), *n = integer(b, other, sizeof other);
+  return m && n && !strcmp(m, n);
 }
 
 static int same(const cJSON* a, const cJSON* b) {

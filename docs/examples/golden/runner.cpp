@@ -14,9 +14,11 @@
 
 using Json = nlohmann::json;
 
-// An integer as text; it is a decimal string beyond 2^53.
+// An integer as text; it is a decimal string beyond 2^53. Empty for anything else.
 static std::string integer(const Json& n) {
-  return n.is_string() ? n.get<std::string>() : std::to_string(n.get<long long>());
+  if (n.is_string()) return n.get<std::string>();
+  const double number = n.is_number() ? n.get<double>() : 0.5;
+  return number == std::floor(number) ? std::to_string(n.get<long long>()) : "";
 }
 
 static bool same(const Json& a, const Json& b) {

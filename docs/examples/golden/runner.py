@@ -10,12 +10,22 @@ import math
 import sys
 
 LARGEST = 3.4028235677973366e38  # from here on a binary32 is infinite
-SAME = ("outcome", "lattice", "atom")
 
 
-def same(one, other):
-    cells = [[int(n) for n in answer.get("cell", [])] for answer in (one, other)]
-    return all(one.get(key) == other.get(key) for key in SAME) and cells[0] == cells[1]
+def integer(n):
+    """The integer in a number, or in a decimal string (beyond 2^53); None for anything else."""
+    try:
+        return int(n) if isinstance(n, str) or n == int(n) else None
+    except (TypeError, ValueError, OverflowError):
+        return None
+
+
+def same(answer, other):
+    pairs = [(answer.get(key), other.get(key)) for key in ("lattice", "atom") if key in other]
+    cells = [one.get("cell") or [] for one in (answer, other)]
+    pairs += zip(*cells)
+    return (answer.get("outcome") == other["outcome"] and len(cells[0]) == len(cells[1])
+            and all(integer(n) is not None and integer(n) == integer(m) for n, m in pairs))
 
 
 def ulp(t, binary32):
@@ -60,7 +70,9 @@ def lines(path):
     try:
         for number, line in enumerate(open(path), 1):
             if line.strip():
-                yield json.loads(line)
+                if not isinstance(one := json.loads(line), dict):
+                    raise ValueError("not an object")
+                yield one
     except (OSError, ValueError) as why:
         refuse(f"{path}:{number}: {why}")
 

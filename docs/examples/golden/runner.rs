@@ -7,7 +7,8 @@ use std::collections::{BTreeMap, HashMap};
 
 // The integers of a cell as text; beyond 2^53 they are decimal strings.
 fn cell(answer: &Value) -> Vec<String> {
-    let text = |n: &Value| n.as_str().map_or(n.to_string(), str::to_string);
+    let whole = |n: &Value| n.as_f64().filter(|x| x.fract() == 0.0).map_or("none".to_string(), |x| format!("{:.0}", x + 0.0));
+    let text = |n: &Value| n.as_str().map_or(whole(n), str::to_string);
     answer["cell"].as_array().map_or(vec![], |cell| cell.iter().map(text).collect())
 }
 
