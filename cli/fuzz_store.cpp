@@ -160,7 +160,7 @@ Command fuzz_show_command() {
                   {"--json", &options->json, "", "one JSON object"}},
                  options->files.rows()),
           "Example:\n  lorentz fuzz show --store published.campaign\n"
-          "  lorentz fuzz show 1/leaving/6 --store published.campaign",
+          "  lorentz fuzz show 1/published-faults/0 --store published.campaign",
           [options] { return run_fuzz_store(*options); }};
 }
 

@@ -77,8 +77,7 @@ TEST_CASE("golden check: exact engines agree, the published one does not", "[gol
 TEST_CASE("golden check: the rules by which a record failed are those by which it is asked again",
           "[golden][golden_check]") {
   const Folder folder;
-  for (const std::string rules :
-       {"-e classical --ulps 0", "-e published-float --times"}) {
+  for (const std::string rules : {"-e classical --ulps 0", "-e published-float --times"}) {
     const Run bad = folder.lorentz("golden check --first 200 --failures 1 ties axis-and-diagonal " + rules);
     REQUIRE(bad.status == 1);
     CHECK(folder.lorentz(between(bad.out, "again: lorentz ", "\n")).status == 1);
