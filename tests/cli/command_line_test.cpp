@@ -169,7 +169,7 @@ TEST_CASE("With fewer threads than asked for, the same is found", "[cli][command
     const std::string preload = "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" LORENTZ_FEW_THREADS
                                 " LORENTZ_FEW_THREADS=" +
                                 std::to_string(threads);
-    return folder.run(preload + " timeout 60 " LORENTZ_PROGRAM " " + arguments);
+    return folder.run(preload + " timeout 300 " LORENTZ_PROGRAM " " + arguments);
   };
   for (const std::string arguments :
        {"fuzz -e published -t tie --count 40 --json", "flights --count 3e4 --json",
