@@ -224,8 +224,8 @@ int run_campaign(const FuzzOptions& options, const fuzz::Plan& plan, fuzz::Bound
   {
     JournalWithProgress journal(*store, report.campaign, bounds, plan.targets.size(), on_end);
     failed = fuzz::run(plan, bounds, make_answerer, report.tallies, journal, ranks, known);
+    last_resort.clear();  // before the journal, which uses the store
   }
-  last_resort.clear();
   return of_none ? *of_none : exit_status(report, options.times, failed);
 }
 

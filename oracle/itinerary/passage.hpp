@@ -333,8 +333,8 @@ class Passage {
 
   // Gives the requested digits. A number that is known much better, and still could be rounded to either
   // side, is midway between two decimals or nearly so; then one or two digits more are given. A number that
-  // cannot be told from 0, far below its `scale`, is "0e-k", or "0e+k": it is less than 10^-k (10^k), and no digit is certain.
-  // (Times have no `scale`, because they are above 0.)
+  // cannot be told from 0, far below its `scale`, is "0e-k", or "0e+k": it is less than 10^-k, or 10^k, and no
+  // digit is certain. (Times have no `scale`, because they are above 0.)
   std::optional<std::string> decimal(const Ball& number, const Bound* scale = nullptr) const {
     constexpr double kDigitsABit = 0.30102, kMoreThanDigitsABit = 0.30103;  // log10(2) is between
     constexpr long kMidway = 96, kNothing = 256;

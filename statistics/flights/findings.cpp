@@ -25,12 +25,12 @@ FlightsFindings::FlightsFindings(const FlightsReport& report)
 }
 
 std::optional<TailConstant> FlightsFindings::measured_constant_of(const Tail& tail) const {
-  if (!tail.exponent || !tail.approach || !mean.value || total == 0) return std::nullopt;
+  if (!tail.approach || !tail.constant || !mean.value || total == 0) return std::nullopt;
   // The model has two terms: where the power is less of the flights, others are extrapolated.
   constexpr double kLeastShareOfPower = 0.75;
   const double power = *tail.exponent - 1;
   const auto share_of_power = [&](const TailConstant& found) {
-    return tail.constant.value_or(found.value) * std::pow(found.from, -power) * static_cast<double>(total) /
+    return *tail.constant * std::pow(found.from, -power) * static_cast<double>(total) /
            static_cast<double>(found.count);
   };
   for (double from = tail_begins(power, total) * *mean.value;;) {

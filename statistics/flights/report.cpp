@@ -45,17 +45,15 @@ std::string remark_on_mean(Ensemble from, const Tail& long_paths) {
 }
 
 std::string line_of_measured_constant(const Tail& tail, const FlightsFindings& found) {
-  if (!tail.exponent || !tail.approach) return "";
+  if (!tail.approach || !tail.constant || !found.mean.value) return "";
   const auto measured = found.measured_constant_of(tail);
   if (!measured)
     return "  not measured: where this power is three quarters of all flights, too few were counted\n";
-  const double power = *tail.exponent - 1;
-  std::string text = fmt::format("  measured: P(tau > t) ~ {:.5g} / t^{:g}, standard error {:.2g}",
-                                 measured->value, power, measured->error);
-  if (tail.constant)
-    text += fmt::format(": off by {:.2f} of these", (measured->value - *tail.constant) / measured->error);
-  return text +
-         fmt::format("; extrapolated from {} flights longer than {:.6g}\n", measured->count, measured->from);
+  return fmt::format(
+      "  measured: P(tau > t) ~ {:.5g} / t^{:g}, standard error {:.2g}: off by {:.2f} of these; extrapolated "
+      "from {} flights longer than {:.6g}\n",
+      measured->value, *tail.exponent - 1, measured->error,
+      (measured->value - *tail.constant) / measured->error, measured->count, measured->from);
 }
 
 std::string theory_lines(const FlightsFindings& found) {

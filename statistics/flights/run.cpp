@@ -103,7 +103,8 @@ class Flyer {
 
 bool has_moderate_lengths(const Scene& scene) {
   bool good = true;
-  const auto see = [&](double length) { good &= std::abs(std::ilogb(length)) < kMostExponent; };
+  const double most = std::ldexp(1.0, kMostExponent);
+  const auto see = [&](double length) { good &= length > 1 / most && length < most; };
   for (const Lattice& lattice : scene.lattices) {
     for (int i = 0; i < lattice.rank_in(scene.dimension); ++i) see(length(lattice.vectors[i]));
     for (const Atom& atom : lattice.atoms)

@@ -273,7 +273,12 @@ TEST_CASE("Flights: lengths whose squares overflow are refused", "[flights][flig
                           "]]\n[[lattices.atoms]]\nposition = [0, 0]\nradius = " + radius + "\n");
     return folder.lorentz("flights --scene " + scene + " -e certified --from surface --count 200");
   };
-  for (const auto& [spacing, radius] : {std::pair{"1e160", "4e159"}, {"1e-160", "4e-161"}, {"1", "1e-100"}}) {
+  for (const auto& [spacing, radius] : {std::pair{"1e160", "4e159"},
+                                        {"1e-160", "4e-161"},
+                                        {"1", "1e-100"},
+                                        {"1e200", "4e199"},
+                                        {"1e-200", "4e-201"},
+                                        {"1e300", "1e290"}}) {
     const Run refused = run(spacing, radius);
     CHECK(refused.status == 2);
     CHECK(contains(refused.err, "lengths lie between 2^-250 and 2^250; choose another unit"));
