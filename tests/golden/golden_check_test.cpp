@@ -94,8 +94,8 @@ TEST_CASE("golden check: half a set is not a set", "[golden][golden_check]") {
   }
   twice += twice.substr(twice.rfind("{\"id\""));
   for (const std::string& text : {half, twice}) {
-    const Run run =
-        folder.lorentz("golden check -e published --baseline known " + folder.write("set.ndjson", text));
+    const Run run = folder.lorentz("golden check -e published --baseline " + folder.file("known") + " " +
+                                   folder.write("set.ndjson", text));
     CHECK(run.status == 2);
     CHECK(contains(run.err, "set.ndjson: the header says "));
     CHECK_FALSE(contains(run.err, "stale"));
