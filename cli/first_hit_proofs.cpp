@@ -80,7 +80,7 @@ int write_records(GivenQueries& queries, const std::string& arguments) {
   std::size_t others = 0;
   const golden::GivenQuestions given = questions_in(queries, std::move(header), others);
   const auto [text, counts] = made_set(given);
-  print(text);
+  print_data(text);
   say_unproved(counts);
   return queries.had_bad_input() ? kBadInput : counts.left_out > 0 ? kDisagreement : kDone;
 }

@@ -153,8 +153,8 @@ void check_folder(const fs::path& folder) {
 int make_all(golden::Order order, const std::string& folder) {
   const auto in_folder = [&](const std::string& name) { return (fs::path(folder) / name).string(); };
   std::error_code error;
-  fs::create_directories(in_folder("smoke"), error);
   check_folder(folder);
+  fs::create_directories(in_folder("smoke"), error);
   std::vector<std::string> names, wide;
   for (const golden::Set& set : golden::sets()) {
     if (!set.is_committed) continue;
@@ -176,7 +176,7 @@ golden::RecordCounts make(const golden::Order& order, const std::string& output)
   if (output != "-") return make_file(order, output);
   Progress progress(name_of(order), order.count, 1);
   const auto write = [](std::string_view text) {
-    print(text);
+    print_data(text);
     if (std::ferror(stdout)) finish_output();
   };
   return golden::produce(order, write, [&](std::uint64_t done) { progress.at(done); });
@@ -247,8 +247,8 @@ void check(const MakeOptions& options) {
     throw InputError(
         "name a set (--set NAME), a file of queries (--queries FILE), or a folder for all sets (--all "
         "FOLDER)");
-  if (options.folder && (options.count || options.precision))
-    throw InputError("--all makes every set as it is committed; leave --count and --precision out");
+  if (options.folder && (options.count || options.precision || options.output != "-"))
+    throw InputError("--all makes every set as it is committed; leave --count, --precision and -o out");
   if (options.queries && options.count) throw InputError("--count: not with --queries, which are all taken");
   if (options.queries && options.seed != starts::kDefaultSeed)
     throw InputError("--seed: not with --queries, which are not drawn");

@@ -11,11 +11,15 @@
 
 namespace lorentz::cli {
 
-/// Prints text on stdout. Characters that act on a terminal are escaped; line ends and tabs stay. JSON and
-/// SVG contain no such characters. At its end the program checks that all text arrived (finish_output).
+/// Writes data on stdout, byte for byte: golden sets quote the lines of others.
+inline void print_data(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+/// Prints text on stdout. Characters that act on a terminal are escaped; line ends and tabs stay. At its end the
+/// program checks that all text arrived (finish_output).
 inline void print(std::string_view text) {
-  const std::string shown = printable(text, Lines::kept);
-  std::fwrite(shown.data(), 1, shown.size(), stdout);
+  print_data(printable(text, Lines::kept));
 }
 
 /// Throws FileError if printed text did not arrive.

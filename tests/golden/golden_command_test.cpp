@@ -138,6 +138,7 @@ TEST_CASE("golden make: bad usage, and folders that cannot be written", "[golden
   for (const char* jobs : {"0", "-1", "5000"}) refused(std::string("--set ties --jobs ") + jobs, "--jobs");
   refused("--set ties --all " + folder.file("all"), "--all");
   refused("--precision binary32 --all " + folder.file("all"), "--all");
+  refused("-o set --all " + folder.file("all"), "-o");
   refused("--set bad-queries --precision binary32", "the set bad-queries is of binary64 only");
   refused("--set ties-binary32 --precision binary64", "the set ties-binary32 is of binary32 only");
   refused("--set ties --precision binary16", "--precision");

@@ -44,7 +44,9 @@ TEST_CASE("golden make: tags of each query, but those that the program gives its
 {"tags":["beta","alpha"],"x":[0.5,0.4],"v":[1,0.3]}
 {"x":[0.5,0.6],"v":[1,0.3]}
 {"x":[0.5,0.3],"v":[1,0.3],"tags":["late"]}
-{"x":[0,0],"v":[0,0],"tags":["gamma"]}
+{"x":[")"
+                       "\x7f\u202e"
+                       R"("],"v":[0,0],"tags":["gamma"]}
 )");
   CHECK(run.status == 2);  // an invalid query
   for (const char* tags :
@@ -72,6 +74,7 @@ TEST_CASE("golden make --all leaves an index and sums of others as they are", "[
     CHECK(run.status == 2);
     CHECK(contains(run.err, std::string(name) + ": was not written by this command"));
     CHECK(folder.read(std::string("sets/") + name) == "{\"mine\":1}");
+    CHECK_FALSE(fs::exists(folder.file("sets/smoke")));
     fs::remove(folder.file(std::string("sets/") + name));
   }
 }
