@@ -39,7 +39,10 @@ judge::OnJudged recorder(const ExaminationOptions& options, FailureLedger& ledge
     const Scene& scene = question.place->scene();
     const std::string id = question.is_query() ? golden::id_of(scene, question.query)
                                                : golden::id_of(scene_line(scene), question.text);
-    ledger.take(row, id, failure_of(judged.judgement, options.times, options.strict));
+    std::optional<std::string> failure = failure_of(judged.judgement, options.times, options.strict);
+    if (!question.is_query() && judged.judgement.verdict == oracle::Verdict::wrong)
+      failure = options.strict ? std::optional("nonsense") : std::nullopt;
+    ledger.take(row, id, failure);
   };
 }
 
@@ -136,7 +139,9 @@ int run_judge(const ExaminationOptions& options) {
     say("{}: this is what was found so far", Interrupt::what());
     return kFailed;
   }
-  for (const auto& row : report.rows) ledger.end(row.name);
+  for (const auto& row : report.rows)  // of others it is not known what fails no more
+    if (row.asked() > 0 && row.scenes_given_up == 0 && row.tally[question::Count::too_slow] == 0)
+      ledger.end(row.name);
   ledger.finish(order.engine.name);
   return exit_status(report, ledger, options);
 }

@@ -128,10 +128,8 @@ void TimedExamination::take(const Judged& judged, ExaminedRow& row) {
   const bool is_slowness =
       order_.takes_silence_for_slowness() && has_answered_ && reply.origin == Origin::silent;
   if (is_slowness) question.place->note_silence();
-  const std::size_t nonsense = row.tally[Count::nonsense];
   results_.take(judged, example_in(judged), is_slowness, row);
-  if (order_.questions && order_.on_judged && row.tally[Count::nonsense] == nonsense)
-    order_.on_judged(row.name, judged);
+  if (order_.questions && order_.on_judged) order_.on_judged(row.name, judged);
   question.place->note(judgement.verdict == oracle::Verdict::unsupported);
 }
 

@@ -44,7 +44,7 @@ struct JudgeOrder {
   std::optional<double> timeout = {};  ///< for an external engine; nothing: a tenth of the time
   question::Listener listener = {};
   std::function<void(const std::string& row)> on_progress = {};  ///< called often, with the name of the row
-  OnJudged on_judged = {};  ///< called for each answer, but not for nonsense, if questions are counted
+  OnJudged on_judged = {};  ///< called for each answer, if questions are counted
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< of the time
 
   /// Duration from `begun` on; meaningless if questions are counted. Only an engine of this program or of the

@@ -271,10 +271,8 @@ TEST_CASE("Answers with their proofs, and golden sets of them", "[cli][first_hit
   const auto with_bad = folder.write("b", kScene + kGood + "\n" + bad);
   CHECK(folder.lorentz("first-hit --prove " + with_bad).status == 2);
   CHECK(folder.lorentz("first-hit --prove --records " + with_bad).status == 2);
-  const auto liar =
-      folder.write("liar", R"(exec sed -un 's/.*"id":\([^,]*\),.*/{"id":\1,"outcome":"never"}/p')");
-  const Run never =
-      folder.lorentz("first-hit --prove --engine 'cmd:sh " + liar + "' " + folder.write("g", kScene + kGood));
+  const Run never = folder.lorentz("first-hit --prove --engine " + folder.never() + " " +
+                                   folder.write("g", kScene + kGood));
   INFO(never.out << never.err);
   CHECK((never.status == 1 && contains(never.err, "can't be proved") && !contains(never.out, "certificate")));
   for (const std::string options :

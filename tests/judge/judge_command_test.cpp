@@ -112,6 +112,14 @@ TEST_CASE("judge --baseline: failures that are known by row and id do not count"
   CHECK(other.status == 1);
   CHECK(contains(other.err, "new: " + first + "\n"));
   CHECK(contains(other.err, "stale: " + stale + " fails no more"));
+  // What breaks at once was not asked, so nothing is known to fail no more; answers to nonsense count with --strict.
+  const Run broken = folder.lorentz("judge --questions 8 -e cmd:false --baseline " + folder.file("known"));
+  CHECK((broken.status == 3 && !contains(broken.err, "stale")));
+  const std::string lenient =
+      "judge --questions 8 --strict --baseline " + folder.file("strict") + " -e " + folder.never();
+  CHECK(folder.lorentz(lenient).status == 1);
+  CHECK(contains(folder.read("strict"), " nonsense\n"));
+  CHECK(folder.lorentz(lenient).status == 0);
   // Without a number of questions another run asks others.
   for (const std::string option : {"--baseline ", "--junit "})
     CHECK(folder.lorentz("judge --time 1 -e published " + option + folder.file("known")).status == 2);

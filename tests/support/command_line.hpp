@@ -46,6 +46,13 @@ class Folder {
     const int status = std::system((command + " >" + file("out") + " 2>" + file("err")).c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out"), read("err")};
   }
+  /// An engine that answers `never`, as an argument; first it writes the line of introduction, if there is one.
+  std::string never(const std::string& introduction = "") const {
+    const std::string said = introduction.empty() ? "" : "echo '" + introduction + "'; ";
+    return "'cmd:sh " +
+           write("never.sh", said + R"(exec sed -un 's/.*"id":\([^,}]*\).*/{"id":\1,"outcome":"never"}/p')") +
+           "'";
+  }
 
  private:
   fs::path path_;
