@@ -44,20 +44,23 @@ struct Bench {
   const AnswererOptions asking{.timeout = options.longest_wait(), .listener = terminal()};
 };
 
-std::vector<Question> questions_in(const Bench& bench, const Cell& like) {
-  const NumberFormat format = bench.claim.precision;
-  const auto place = std::make_shared<Place>(
-      rounded_scene(load_scene(like.scene, like.radius), format, like.scene), bench.claim);
+// What the engines claim to answer, except where that depends on the answer.
+std::vector<Question> questions_in(const Bench& bench, const Cell& like,
+                                   const std::shared_ptr<Place>& place) {
   const starts::Kind kind = like.difficulty == "drawn" ? starts::Kind::uniform
                                                        : starts::kind_named(like.difficulty, "--difficulty");
-  return question::questions_of(
-      place, starts::free_starts(place->scene(), kind, bench.options.seed, bench.options.count, format));
+  std::vector<Question> questions =
+      question::questions_of(place, starts::free_starts(place->scene(), kind, bench.options.seed,
+                                                        bench.options.count, bench.claim.precision));
+  std::erase_if(questions, [&](const Question& question) { return !place->takes(question.query); });
+  return questions;
 }
 
 // How many of the queries an engine answers in the time of a round, estimated from the first kPilot, or from
 // the first two if these already take too long.
 std::size_t affordable(const Bench& bench, const std::vector<Question>& all, const EngineInfo& engine,
                        bool& failed) {
+  if (all.size() < kFewestQueries) return 0;
   RaceOptions options;
   options.rounds = engine.runs_apart() ? 3 : 1;  // the first round of an external engine includes its start
   options.answerer = bench.asking;
@@ -196,20 +199,28 @@ bool race(const Bench& bench, const std::vector<Question>& questions, const std:
 // true if an external engine failed.
 std::vector<Cell> measured_cells(const Bench& bench, const Cell& like, bool& failed) {
   std::vector<Cell> cells;
-  std::vector<Question> questions = questions_in(bench, like);
-  const int dimension = questions[0].place->scene().dimension;
+  const auto place = std::make_shared<Place>(
+      rounded_scene(load_scene(like.scene, like.radius), bench.claim.precision, like.scene), bench.claim);
+  std::vector<Question> questions = questions_in(bench, like, place);
+  std::size_t outside = bench.options.count - questions.size();
   std::vector<std::size_t> counts;
   for (const EngineInfo& engine : bench.engines)
     counts.push_back(affordable(bench, questions, engine, failed));
   const std::size_t most = *std::max_element(counts.begin(), counts.end());
   questions.resize(most < kFewestQueries ? 0 : most);
   answer_exactly(questions, bench.asking.listener);
+  outside += std::erase_if(
+      questions, [&](const Question& question) { return !place->takes(question.query, question.exact); });
   for (Question& question : questions) question.condition = condition_of(question);
   std::vector<std::size_t> racing;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     Cell& cell = cells.emplace_back(like);
-    cell.dimension = dimension, cell.engine = bench.engines[i].name;
-    if ((cell.skipped = counts[i] < kFewestQueries)) continue;
+    cell.dimension = place->scene().dimension, cell.engine = bench.engines[i].name;
+    counts[i] = std::min(counts[i], questions.size());
+    if ((cell.skipped = counts[i] < kFewestQueries)) {
+      cell.queries = cell.counts[Count::unsupported] = outside;
+      continue;
+    }
     Examination examination(bench.engines[i], bench.asking, bench.options.tolerance());
     examine_into(cell, examination, std::span(questions).first(counts[i]), bench.options.tolerance());
     if (!cell.skipped && !examination.failed()) racing.push_back(i);

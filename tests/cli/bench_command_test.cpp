@@ -66,6 +66,11 @@ TEST_CASE("bench counts wrong times apart from wrong answers", "[cli][bench_comm
   INFO(run.out);
   CHECK(contains(run.out, "published: no wrong answer in "));
   CHECK(contains(run.out, " wrong times of right obstacles\n"));
+  // What an engine does not claim it is not asked.
+  const std::string solid = folder.never(R"({"engine":{"dimensions":[3]}})");
+  const Run none =
+      folder.lorentz("bench --scene square --radius 0.1 --count 64 --difficulty drawn -e " + solid);
+  CHECK(contains(none.out, "too slow for 0 cells of this table, 1 unsupported"));
 }
 
 TEST_CASE("bench fails if an engine does, at once or later", "[cli][bench_command]") {
