@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "cli/numbers.hpp"
 #include "src/exchange/nearest_name.hpp"
@@ -28,7 +29,7 @@ Domain::Range range_from(const std::string& text, const std::string& name) {
   return range;
 }
 
-void take_part(const std::string& part, Domain& domain) {
+void take_part(const std::string& part, Domain& domain, std::set<std::string>& said) {
   const std::size_t equals = part.find('=');
   const std::string key = part.substr(0, equals), value = equals == part.npos ? "" : part.substr(equals + 1);
   const std::string name = "--domain: " + key;
@@ -37,6 +38,7 @@ void take_part(const std::string& part, Domain& domain) {
   const std::size_t ranges = names.size();
   names.insert(names.end(), {"dimension", "shape", "limits"});
   const std::size_t number = index_of_name(key, names, "--domain");
+  if (!said.insert(key).second) throw InputError(name + ": comes twice");
   const auto choice = [&](const std::vector<std::string>& two) {
     return index_of_name(value, two, name) == 0;
   };
@@ -52,7 +54,8 @@ void take_part(const std::string& part, Domain& domain) {
 
 Domain domain_from(const std::string& text) {
   Domain domain;
-  for (const std::string& part : items_of(text, "--domain")) take_part(part, domain);
+  std::set<std::string> said;
+  for (const std::string& part : items_of(text, "--domain")) take_part(part, domain, said);
   return domain;
 }
 

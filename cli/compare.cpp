@@ -125,7 +125,7 @@ class ComparedQuestions {
       if (drawn_ == 0) starts_.emplace(place_->scene(), options_.seed, claim_);
       for (; drawn_ < options_.count && questions.size() < most; ++drawn_) {
         const starts::VariedStart start = (*starts_)[drawn_];
-        add(questions, start.query, std::to_string(count_), start.max_time);
+        add(questions, start.query, std::to_string(number_++), start.max_time);
       }
       if (drawn_ < options_.count) break;
     }
@@ -146,6 +146,7 @@ class ComparedQuestions {
   DisagreementFile& disagreements_;
   std::vector<Scene> named_;                    // the scenes of --scene and --radius
   std::size_t drawn_ = 0, scene_ = 0;           // queries of the current one of these; the next one
+  std::size_t number_ = 0;                      // of queries drawn in all; their ids
   std::optional<starts::VariedStarts> starts_;  // in the current one
   std::optional<GivenQueries> given_;           // or drawn
   std::shared_ptr<Place> place_;
@@ -263,6 +264,9 @@ int run_compare(ExaminationOptions options) {
   const std::vector<EngineInfo> engines = options.named_engines();
   if (!options.queries && !options.answers.empty())
     throw InputError("--answers needs --queries: the queries that were answered");
+  if (options.no_oracle && (options.disagreements || options.files.first_option()))
+    throw InputError(options.files.first_option().value_or("--disagreements") +
+                     ": needs the oracle; leave --no-oracle out");
   options.claim.ask(engines, options.strict);
   Lineup lineup(options, engines);
   ComparedQuestions questions(options, lineup.disagreements());

@@ -53,7 +53,11 @@ bool GivenQueries::next_row(GivenQuery& given) {
   if (row_ == rows_.count) {
     rows_.clear();
     row_ = flaw_ = 0;
-    if (!columns_->next(rows_, kRowsTogether)) return false;
+    if (!columns_->next(rows_, kRowsTogether)) {
+      if (bad_rows_ > kMostComplaints)
+        say("{}: {} more bad rows", columns_->name(), bad_rows_ - kMostComplaints);
+      return false;
+    }
   }
   if (row_ < rows_.count) take_row(given);
   return true;

@@ -444,6 +444,9 @@ TEST_CASE("compare --no-oracle takes times and judges nothing", "[cli][compare_c
   CHECK(contains(timed.out, R"("judge":null)"));
   CHECK(contains(timed.out, R"("queries":20,"agree":null)"));
   CHECK_FALSE(contains(folder.lorentz("compare --no-oracle --count 20 -e classical").out, "agree"));
+  for (const char* option : {"--junit", "--baseline", "--disagreements"})
+    CHECK(contains(folder.lorentz(std::string("compare --no-oracle -e classical ") + option + " file").err,
+                   std::string(option) + ": needs the oracle"));
 }
 
 TEST_CASE("compare draws in each scene at each radius, and takes a baseline and a report of JUnit",
@@ -576,6 +579,9 @@ TEST_CASE("compare: columns that cannot be matched or read are told of", "[cli][
   refuses(run(csv.queries, folder.write("t.csv", names + "hit,0,0,1,0,soon,q 0\n")), 2, "column time");
   refuses(run(csv.queries, folder.write("n.csv", "outcome,lattice\n")), 2, "there is no column atom");
   refuses(run(folder.write("x.csv", "x1,x2,v1,v2\n0.5,0,1,0\n1,,2,3\n0.5,0,0,0\n"), ""), 2, "row 1: ");
+  std::string many = "x1,x2,v1,v2\n";
+  for (int i = 0; i < 30; ++i) many += "0.5,0,0,0\n";
+  refuses(run(folder.write("many.csv", many), ""), 2, "many.csv: 10 more bad rows\n");
   refuses(run(folder.write("l.csv", "x1,x2,v1,v2,max_time\n0.5,0,1,0,0\n"), ""), 2, "column max_time");
   // An id that comes twice is told of, and the rows behind it are read.
   const Run twice =
@@ -719,12 +725,19 @@ TEST_CASE("compare: questions outside of the declared domain are counted, not as
   CHECK(asked("--domain flight=..1e-3") == 1);
   CHECK(asked("--starts-inside unsupported") == 4);
   for (const char* bad : {"speed", "speed=1", "speed=2..1", "speed=-1..1", "sped=1..2", "shape=box",
-                          "limits=1", "=", "speed=1..2,"}) {
+                          "limits=1", "=", "speed=1..2,", "speed=..1,speed=2..3"}) {
     INFO(bad);
     const Run run = folder.lorentz("compare --count 5 --domain " + std::string(bad));
     CHECK(run.status == 2);
     CHECK(contains(run.err, "--domain"));
   }
+  // No two of the drawn ones have one id, whichever are not asked.
+  const std::string failed = folder.file("failed");
+  folder.lorentz("compare --radius 0.3 --count 10500 --domain flight=..1 -e " + folder.never() +
+                 " --disagreements " + failed);
+  folder.write("answers", folder.lorentz("first-hit " + failed).out);
+  CHECK(folder.lorentz("compare --queries " + failed + " --answers me=" + folder.file("answers")).status ==
+        0);
 }
 
 TEST_CASE("compare: an engine that passes obstacles around the start is right by its own rule",
