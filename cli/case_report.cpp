@@ -48,7 +48,8 @@ std::optional<double> radii_of(const CaseReport& report, const oracle::Margins& 
 
 // The drawing, or an empty text if there is nothing to draw.
 std::string drawing_of(const CaseReport& report) {
-  return pictures::finding_drawing(report.scene, report.query, report.given, report.exact, report.decisive);
+  return pictures::finding_drawing(report.scene, report.query, report.given, report.exact, report.decisive,
+                                   report.claim.precision);
 }
 
 void add_report(json::Members& object, const CaseReport& report) {
@@ -68,7 +69,7 @@ void add_report(json::Members& object, const CaseReport& report) {
 std::string page_json(const CaseReport& report) {
   return json::line_of([&](json::Members& page) {
     page.add("format", 1, "kind", "case", "title", report.title, "manifest",
-             report::manifest_of(0, report.command), "findings",
+             report::manifest_of(report.seed, report.command), "findings",
              json::objects(std::span(&report, 1), add_report));
   });
 }

@@ -16,8 +16,9 @@ namespace lorentz::cli {
 
 struct CaseReport {
   std::string title;
-  std::string command;  ///< the command that makes this report
-  std::string cause;    ///< the name of the cause
+  std::string command;     ///< the command that makes this report
+  std::uint64_t seed = 0;  ///< of the campaign that found it
+  std::string cause;       ///< the name of the cause
   std::string explanation;
   std::string where;    ///< the source of the case
   std::string verdict;  ///< wrong, ill-posed, wrong-time, undecided, ..; "exact": no answer was given

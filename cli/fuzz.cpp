@@ -55,10 +55,9 @@ void check_claim(const Store& store, const Claim& claim) {
     const Claim& known = campaign.manifest.claim;
     if (known == claim) continue;
     const std::string arguments = report::arguments_of(known);
-    throw InputError(
-        fmt::format("{}: its campaign {} is judged{}; go on with {}, or name another store", store.path(),
-                    campaign.id, report::full_words_of(known),
-                    arguments.empty() ? "neither --precision nor --time-tolerance" : arguments.substr(1)));
+    throw InputError(fmt::format("{}: its campaign {} is judged{}; go on {}, or name another store",
+                                 store.path(), campaign.id, report::full_words_of(known),
+                                 arguments.empty() ? "without options of a claim" : "with" + arguments));
   }
 }
 
@@ -94,7 +93,8 @@ class JournalWithProgress final : public fuzz::Journal {
         on_end_(std::move(on_end)) {
     progress_.emplace(
         by_time_ ? "seconds" : "indices",
-        by_time_ ? static_cast<std::size_t>(std::max(bounds.seconds, 0.0)) : bounds.count * targets, 1);
+        by_time_ ? static_cast<std::size_t>(std::clamp(bounds.seconds, 0.0, 1e18)) : bounds.count * targets,
+        1);
   }
 
   void record(const cases::Target& target, const fuzz::TargetTally& tally,

@@ -70,7 +70,7 @@ std::vector<FindingCause> causes_of(const std::vector<fuzz::Stored>& findings);
 std::string table_of(const std::vector<FindingCause>& causes);
 
 /// A case as text lines with remarks. Ulps are those of the precision.
-std::string text_of(const fuzz::CaseText& text, NumberFormat precision);
+std::string text_of(const fuzz::CaseText& text, const Claim& claim);
 
 /// Adds a finding to a JSON object. Its lines are included in the form that they have in streams.
 void add_finding(json::Members& object, const fuzz::Stored& finding);

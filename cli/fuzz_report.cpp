@@ -59,11 +59,11 @@ void add_target(json::Members& object, const std::string& name, const TargetTall
   const bool none = tally.counts[Kind::wrong] == 0 && n > 0;
   object.add("binary64", tally.stages[0], "double_double", tally.stages[1], "exact", tally.stages[2],
              "smallest_margin", json::finite(tally.margin), "wrong_at_most",
-             none ? std::optional(3.0 / static_cast<double>(n)) : std::nullopt);
+             none ? std::optional(report::bound_of_none(n)) : std::nullopt);
 }
 
 // By how much the obstacle in question is hit or missed, if two answers differ.
-std::string reason_in(const fuzz::CaseText& text, NumberFormat precision) {
+std::string reason_in(const fuzz::CaseText& text, const Claim& claim) {
   const fuzz::ReadCase one = fuzz::case_in(text);
   const auto says_what = [](const Answer& answer) {
     return names_obstacle(answer) || answer.outcome == Outcome::never;
@@ -71,8 +71,8 @@ std::string reason_in(const fuzz::CaseText& text, NumberFormat precision) {
   if (!says_what(one.given) || !says_what(one.exact)) return "";
   std::string reason;
   for (const std::string& line :
-       report::reason_of(oracle::Margins(one.scene, precision), one.scene, one.query, one.exact, one.given,
-                         report::decisive_of(one.scene, one.query, one.exact, one.given)))
+       report::reason_of(oracle::Margins(one.scene, claim.precision), one.scene, one.query, one.exact,
+                         one.given, report::decisive_of(one.scene, one.query, one.exact, one.given, claim)))
     reason += line + '\n';
   return reason;
 }
@@ -126,7 +126,7 @@ std::string FuzzReport::text() const {
   out += "\nthe simplest finding of each cause (--store FILE keeps all):\n";
   for (const FindingCause& cause : causes_of(findings))
     out += fmt::format("\n{}: {}\n{}", cause.simplest->label(), cause.name,
-                       text_of(cause.simplest->finding.shrunk, manifest.claim.precision));
+                       text_of(cause.simplest->finding.shrunk, manifest.claim));
   return out;
 }
 
@@ -178,7 +178,7 @@ std::string table_of(const std::vector<FindingCause>& causes) {
   return table.text();
 }
 
-std::string text_of(const fuzz::CaseText& text, NumberFormat precision) {
+std::string text_of(const fuzz::CaseText& text, const Claim& claim) {
   std::string out =
       fmt::format("{}\n{}\nsays  {}\ntruth {}\n", text.scene, text.query, text.given, text.exact);
   if (std::isinf(text.departs))
@@ -186,7 +186,7 @@ std::string text_of(const fuzz::CaseText& text, NumberFormat precision) {
   else if (text.departs > 0)
     out += fmt::format("departs by {:.3g} ulps at least\n", text.departs);
   if (text.margin) out += fmt::format("margin of the exact answer: {:.3g} ulps\n", *text.margin);
-  return out + reason_in(text, precision);
+  return out + reason_in(text, claim);
 }
 
 void add_finding(json::Members& object, const fuzz::Stored& stored) {

@@ -75,8 +75,8 @@ int list(const Store& store, const ShowOptions& options) {
   return kDone;
 }
 
-std::string lines_of(const std::string& heading, const fuzz::CaseText& text, NumberFormat precision) {
-  return '\n' + heading + '\n' + text_of(text, precision);
+std::string lines_of(const std::string& heading, const fuzz::CaseText& text, const Claim& claim) {
+  return '\n' + heading + '\n' + text_of(text, claim);
 }
 
 // The campaign that found it.
@@ -96,9 +96,8 @@ std::string text_of(const std::string& id, const fuzz::Finding& f, const Claim& 
   if (!f.words.empty()) out += fmt::format("in other words: {}\n", f.words);
   if (f.shrinking == fuzz::Shrinking::due)
     return out + "not shrunk yet: the campaign does so when it is resumed\n" +
-           lines_of("as found:", f.text, claim.precision);
-  return out + lines_of(heading_of_shrunk(f), f.shrunk, claim.precision) +
-         lines_of("as found:", f.text, claim.precision);
+           lines_of("as found:", f.text, claim);
+  return out + lines_of(heading_of_shrunk(f), f.shrunk, claim) + lines_of("as found:", f.text, claim);
 }
 
 // The report of the shrunk case, which is the one to examine.
@@ -110,7 +109,7 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
   report.command = fmt::format("lorentz fuzz show {} --store {}{}", shell_quoted(one.label()),
                                shell_quoted(store.path()), files.as_typed());
   const fuzz::CampaignManifest manifest = manifest_of(store, one);
-  report.claim = manifest.claim;
+  report.claim = manifest.claim, report.seed = manifest.seed;
   report.ulps = manifest.ulps();
   report.engine = manifest.engine;
   report.cause = finding.cause;
@@ -120,7 +119,8 @@ CaseReport case_report(const Store& store, const Stored& one, const CaseFiles& f
   report.query = read.query;
   report.given = read.given;
   report.exact = read.exact;
-  report.decisive = report::decisive_of(report.scene, report.query, report.exact, *report.given);
+  report.decisive =
+      report::decisive_of(report.scene, report.query, report.exact, *report.given, report.claim);
   const auto dispute = report::dispute_of(oracle::Margins(report.scene, report.claim.precision), report.scene,
                                           report.query, report.exact, *report.given, report.decisive);
   if (dispute) report.explanation = dispute->text;

@@ -149,14 +149,14 @@ std::string lattice_in_words(const Scene& scene, std::size_t l) {
   return out;
 }
 
-std::string contact_in_words(const oracle::Contact& contact, int dimension) {
+std::string contact_in_words(const oracle::Contact& contact, const Components& count) {
   if (!contact.cell) return oracle::description_of(contact) + " somewhere";
   return fmt::format("lattice {}: atom {} {} atom {} of cell ({})", contact.lattice, contact.atom,
                      contact.overlap ? "overlaps" : "touches", contact.other_atom,
-                     decimals(components(*contact.cell, dimension)));
+                     decimals(components(*contact.cell, count.of_cells(contact.lattice))));
 }
 
-std::string contacts_in_words(const oracle::Contacts& contacts, int dimension) {
+std::string contacts_in_words(const oracle::Contacts& contacts, const Components& cells) {
   const std::size_t count = contacts.found.size();
   const bool complete = contacts.end == oracle::SearchEnd::complete;
   if (count == 0)
@@ -167,7 +167,7 @@ std::string contacts_in_words(const oracle::Contacts& contacts, int dimension) {
   std::string out = line("obstacles", fmt::format("{}{} overlap, {} touch (pairs, up to translations)",
                                                   complete ? "" : "at least ", overlaps, count - overlaps));
   for (std::size_t i = 0; i < count && i < kContactsShown; ++i)
-    out += line("", contact_in_words(contacts.found[i], dimension));
+    out += line("", contact_in_words(contacts.found[i], cells));
   if (count > kContactsShown) out += line("", fmt::format("and {} more", count - kContactsShown));
   return out;
 }
@@ -179,7 +179,7 @@ void show_text(const std::string& name, const std::string& file, const Scene& sc
   if (const std::string what = description_in(file); !what.empty()) out += line("what it is", what);
   out += line("file", file) + line("dimension", std::to_string(d));
   for (std::size_t l = 0; l < scene.lattices.size(); ++l) out += lattice_in_words(scene, l);
-  out += contacts_in_words(findings.contacts, d);
+  out += contacts_in_words(findings.contacts, scene);
   if (findings.filling) {
     const Filling& filling = *findings.filling;
     out += line("filling", fmt::format("{:.10g} of {} is taken by obstacles", filling.fraction,

@@ -60,11 +60,12 @@ std::vector<DrawnFlight> flights_of(QueryStream& stream, std::optional<Scene>& s
       }
       if (!certified) certified = question::engine_named("certified").in(*scene);
       question::Reply reply;
-      certified->ask(item.query, {}, reply);
+      certified->ask(item.query, {.max_time = item.max_time}, reply);
       DrawnFlight flight{item.query, std::move(reply.answer)};
-      if (flight.answer.outcome == Outcome::error) {
+      const bool is_cut = flight.answer.outcome == Outcome::later;
+      if (is_cut || flight.answer.outcome == Outcome::error) {
         ++refused;
-        reason = flight.answer.message;
+        reason = is_cut ? "nothing is hit before max_time" : flight.answer.message;
       } else {
         flights.push_back(std::move(flight));
       }

@@ -113,8 +113,9 @@ class TrajectoryRun {
   bool engine_failed() const { return engine_failed_; }
   const std::optional<pictures::PathDrawing>& picture() const { return picture_; }
 
+  /// Leaves an old table as it is if no start was followed.
   void commit() {
-    if (csv_) csv_->commit();
+    if (csv_ && columns_ > 0) csv_->commit();
   }
 
  private:
@@ -184,10 +185,13 @@ void end_drawing(pictures::PathDrawing& drawing, const Arrival& arrival, Rival* 
   if (arrival.end == JourneyEnd::never && arrival.v.size() == 2)
     drawing.escape = {*nearest_decimal(arrival.v[0]), *nearest_decimal(arrival.v[1]), 0};
   if (!rival || !rival->diverged()) return;
+  drawing.parting = *rival->diverged();
+  const std::string why = rival->stopped();
+  drawing.other_words =
+      fmt::format("{}: {} at collision {}", engine,
+                  why.empty() ? "another obstacle" : "stopped (" + why + ")", drawing.parting);
   rival->go_on(arrival.collisions);
   drawing.other = rival->path();
-  drawing.parting = *rival->diverged();
-  drawing.other_name = engine;
 }
 
 void TrajectoryRun::follow(const Id& id, const RationalScene& scene, const Start& start) {

@@ -193,9 +193,9 @@ std::string text_of(Blame group, const JudgeReport& report, int& number) {
 // Nothing for an invalid question, or if the case cannot be drawn.
 std::optional<std::string> drawing_of(const Example& example) {
   if (!example.question.is_query()) return std::nullopt;
-  std::string drawing =
-      pictures::finding_drawing(example.question.place->scene(), example.question.query, example.given,
-                                example.question.exact, example.judgement.obstacle);
+  std::string drawing = pictures::finding_drawing(
+      example.question.place->scene(), example.question.query, example.given, example.question.exact,
+      example.judgement.obstacle, example.question.place->claim().precision);
   return drawing.empty() ? std::nullopt : std::optional(std::move(drawing));
 }
 

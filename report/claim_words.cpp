@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace lorentz::report {
@@ -41,10 +42,10 @@ std::string words_of(const Claim& claim) {
                       : fmt::format(", times within {}", *claim.time_tolerance));
 }
 
-std::string full_words_of(const Claim& claim) {
-  const std::string precision = std::string(" in ") + name_of(claim.precision);
-  if (!claim.time_tolerance) return precision + ", times by ulps";
-  return precision + words_of({NumberFormat::binary64, claim.time_tolerance});
+std::string full_words_of(Claim claim) {
+  const NumberFormat precision = std::exchange(claim.precision, NumberFormat::binary64);
+  return fmt::format(" in {}{}{}", name_of(precision), claim.time_tolerance ? "" : ", times by ulps",
+                     words_of(claim));
 }
 
 std::string arguments_of(const Claim& claim, double ulps) {

@@ -13,7 +13,7 @@ namespace lorentz::report {
 std::string words_of(const Claim& claim);
 
 /// " in binary64, times by ulps": always has both.
-std::string full_words_of(const Claim& claim);
+std::string full_words_of(Claim claim);
 
 /// As arguments, each with a space before it, with the tolerance; empty if all is as usual.
 std::string arguments_of(const Claim& claim, double ulps = oracle::kDefaultUlps);

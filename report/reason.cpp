@@ -56,9 +56,10 @@ namespace {
 
 // The case that the answer is wrong because of the obstacle that it names.
 std::optional<Dispute> about_named(const oracle::Approach& approach, const Answer& given,
-                                   const std::string& name) {
+                                   const std::string& name, bool is_left) {
   if (given.outcome == Outcome::inside)
     return approach.start_gap >= 0 ? std::optional(about_start(approach, name)) : std::nullopt;
+  if (is_left) return Dispute{approach.start_gap, name + " is the obstacle that the flight leaves"};
   if (approach.start_gap >= 0 && !approach.ahead)
     return Dispute{approach.start_gap, name + " lies behind the start"};
   return approach.gap >= 0 ? std::optional(about_line(approach, name, "")) : std::nullopt;
@@ -72,8 +73,8 @@ std::optional<Dispute> dispute_of(const oracle::Margins& margins, const Scene& s
   const bool names = names_obstacle(given, query, scene);
   if (names && given.outcome == exact.outcome && given.obstacle == exact.obstacle) return std::nullopt;
   if (names && decisive.value_or(given.obstacle) == given.obstacle)
-    if (auto dispute =
-            about_named(margins.approach(query, given.obstacle), given, name_of(given.obstacle, scene)))
+    if (auto dispute = about_named(margins.approach(query, given.obstacle), given,
+                                   name_of(given.obstacle, scene), query.from == given.obstacle))
       return dispute;
   if (!names_obstacle(exact)) return std::nullopt;
   const ObstacleId& obstacle = decisive ? *decisive : exact.obstacle;
@@ -86,9 +87,9 @@ std::optional<Dispute> dispute_of(const oracle::Margins& margins, const Scene& s
 }
 
 std::optional<ObstacleId> decisive_of(const Scene& scene, const Query& query, const Answer& exact,
-                                      const Answer& given) {
+                                      const Answer& given, const Claim& claim) {
   if (!names_obstacle(exact)) return std::nullopt;
-  return oracle::Judge(scene).judge(query, exact, given).obstacle;
+  return oracle::Judge(scene, claim).judge(query, exact, given).obstacle;
 }
 
 std::vector<std::string> reason_of(const oracle::Margins& margins, const Scene& scene, const Query& query,

@@ -33,10 +33,10 @@ std::optional<Dispute> dispute_of(const oracle::Margins& margins, const Scene& s
                                   const Answer& exact, const Answer& given,
                                   const std::optional<ObstacleId>& decisive);
 
-/// The obstacle by which such an answer is judged, with the usual tolerance; nothing if the exact answer
-/// names none.
+/// The obstacle by which such an answer is judged, with the usual tolerance in ulps of the claim; nothing if
+/// the exact answer names none.
 std::optional<ObstacleId> decisive_of(const Scene& scene, const Query& query, const Answer& exact,
-                                      const Answer& given);
+                                      const Answer& given, const Claim& claim);
 
 /// The dispute and the hard decision, one line each. Empty if the two agree.
 std::vector<std::string> reason_of(const oracle::Margins& margins, const Scene& scene, const Query& query,

@@ -17,13 +17,14 @@ Vec unit(const Vec& a) {
 }
 
 FindingCase::FindingCase(const Scene& its_scene, const Query& its_query, const Answer* its_given,
-                         const Answer& its_exact, const std::optional<ObstacleId>& decisive, int its_exponent)
+                         const Answer& its_exact, const std::optional<ObstacleId>& decisive, int its_exponent,
+                         NumberFormat precision)
     : scene(its_scene),
       query(its_query),
       given(its_given),
       exact(its_exact),
       exponent(its_exponent),
-      margins(its_scene),
+      margins(its_scene, precision),
       surroundings(its_scene),
       along(unit(its_query.v)) {
   if (given) compare_answers(decisive);

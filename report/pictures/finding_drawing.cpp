@@ -229,7 +229,8 @@ std::optional<Answer> in_units(std::optional<Answer> answer, int exponent) {
 }  // namespace
 
 std::string finding_drawing(const Scene& scene, const Query& query, const std::optional<Answer>& given,
-                            const Answer& exact, const std::optional<ObstacleId>& decisive) {
+                            const Answer& exact, const std::optional<ObstacleId>& decisive,
+                            NumberFormat precision) {
   if (!can_be_drawn(scene, query, exact)) return "";
   int exponent = length_exponent(scene);
   Scene its_scene = scaled(scene, -exponent);
@@ -239,7 +240,7 @@ std::string finding_drawing(const Scene& scene, const Query& query, const std::o
     its_scene = scene, its_query = query, exponent = 0;
   const auto its_given = in_units(given, exponent), its_exact = in_units(exact, exponent);
   const FindingCase finding(its_scene, its_query, its_given ? &*its_given : nullptr, *its_exact, decisive,
-                            exponent);
+                            exponent, precision);
   return Sheet(finding, given ? &*given : nullptr, exact).draw();
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <lorentz/answer.hpp>
+#include <lorentz/claim.hpp>
 #include <lorentz/query.hpp>
 #include <lorentz/scene.hpp>
 
@@ -20,8 +21,9 @@ namespace lorentz::pictures {
 /// `exact` is the oracle's answer: hit, inside or never. The text is empty if scene, query or `exact` cannot
 /// be drawn (flaw_of). `given` may be any answer; without one, the decision of smallest margin is shown.
 /// `decisive` is the obstacle by which it is judged (Judgement::obstacle), which is therefore shown; the exact
-/// one if that is not known.
+/// one if that is not known. Margins are in ulps of the precision.
 std::string finding_drawing(const Scene& scene, const Query& query, const std::optional<Answer>& given,
-                            const Answer& exact, const std::optional<ObstacleId>& decisive = {});
+                            const Answer& exact, const std::optional<ObstacleId>& decisive = {},
+                            NumberFormat precision = NumberFormat::binary64);
 
 }  // namespace lorentz::pictures

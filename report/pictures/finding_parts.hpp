@@ -27,9 +27,10 @@ enum class Issue {
 class FindingCase {
  public:
   /// `given` may be null. `decisive` is the obstacle by which it is judged, if known. The arguments must
-  /// outlive this object. Lengths and times are in units of 2^exponent.
+  /// outlive this object. Lengths and times are in units of 2^exponent, ulps those of the precision.
   FindingCase(const Scene& scene, const Query& query, const Answer* given, const Answer& exact,
-              const std::optional<ObstacleId>& decisive = {}, int exponent = 0);
+              const std::optional<ObstacleId>& decisive = {}, int exponent = 0,
+              NumberFormat precision = NumberFormat::binary64);
 
   const Scene& scene;
   const Query& query;

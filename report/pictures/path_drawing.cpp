@@ -59,9 +59,7 @@ double add_notes(Svg& svg, const PathDrawing& drawing, double top, bool all_obst
     svg.text({kMargin, top += kLegendLine}, words, fmt::format("fill=\"{}\" font-size=\"15\"", its_colour));
   };
   note(fmt::format("the certified path, from the ring on: {} collisions", drawing.collisions), kPathColour);
-  if (!drawing.other.empty())
-    note(fmt::format("{}: another obstacle at collision {}", drawing.other_name, drawing.parting),
-         kOtherColour);
+  if (!drawing.other.empty()) note(drawing.other_words, kOtherColour);
   if (!all_obstacles) note("obstacles are left out: there are too many to be seen", "#555");
   return top + kMargin;
 }

@@ -50,7 +50,7 @@ struct PathDrawing {
   std::optional<Vec> escape;  ///< the velocity with which it goes on forever, if it does
   std::vector<Vec> other;     ///< another path beside it, or empty
   std::size_t parting = 0;    ///< index in `other` of the first place in which they differ
-  std::string other_name;     ///< the name of the other path
+  std::string other_words;    ///< what the legend says of it
 };
 
 /// The picture as SVG, at most 800 pixels wide. Obstacles are left out if there are too many to be seen.

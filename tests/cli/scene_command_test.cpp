@@ -91,6 +91,13 @@ TEST_CASE("scene show: contacts, filling and mean free path, or why there are no
   CHECK(contains(overlapping.out, "not given, for obstacles overlap"));
   CHECK(contains(folder.lorentz("scene show square --radius 1e9").out, "and 990 more"));
   CHECK(contains(folder.lorentz("scene show superposition-pi-5").out, "of two lattices overlap"));
+  CHECK(contains(
+      folder
+          .lorentz("scene show " + folder.write("row.toml",
+                                                "dimension = 3\nlattices = [{vectors = [[1, 0, 0]], atoms = "
+                                                "[{position = [0, 0, 0], radius = 0.6}]}]\n"))
+          .out,
+      "of cell (1)\n"));
   const Run json = folder.lorentz("scene show square --radius 0.5 --json");
   CHECK(contains(json.out,
                  R"("contacts":{"count":2,"complete":true,"first":[{"lattice":0,"atom":0,"other_lattice":0,)"
@@ -229,6 +236,9 @@ TEST_CASE("scene draw: flights end at the exact first hit", "[cli][scene_command
                  "first scene"));
   CHECK(folder.lorentz("scene draw --queries " + folder.write("q4", kScene + "bad\n" + kGood)).status == 2);
   CHECK(folder.lorentz("scene draw --queries " + folder.write("q5", kGood)).status == 2);
+  const std::string limited = folder.write("q6", kScene + R"({"x":[0.5,0],"v":[1,0],"max_time":0.1})");
+  CHECK(
+      contains(folder.lorentz("scene draw --queries " + limited).err, "1 (nothing is hit before max_time)"));
 }
 
 namespace {

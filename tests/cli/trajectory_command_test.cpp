@@ -82,6 +82,8 @@ TEST_CASE("trajectory: an engine held against it", "[cli][trajectory]") {
       "id,collision,lattice,atom,cell1,cell2,time,bits,engine_bits\n7,1,0,0,3,2,3.0657078058760461,"));
   CHECK(lines(folder.read("table")) == 31);
   CHECK(contains(folder.read("picture"), "reduction: another obstacle at collision 8"));
+  folder.lorentz(command + " --svg " + folder.file("picture") + " -e " + folder.never());
+  CHECK(contains(folder.read("picture"), ": stopped (never) at collision 1"));
   // Another program is an engine, too; and the truth does not part from itself for a few collisions.
   const Run program = folder.lorentz(command + " --engine cmd:" LORENTZ_NAIVE_ENGINE);
   CHECK(contains(last_line(program.out), R"("diverged":8)"));
@@ -144,6 +146,10 @@ TEST_CASE("trajectory: bad input is told with its place", "[cli][trajectory]") {
       folder.lorentz("trajectory --collisions 1 " +
                      folder.write("starts", "{\"scene\":{\"dimension\":2,\"lattices\":[]}}\n" + kChallenge));
   CHECK(no_scene.status == 2);
+  folder.write("table", "id,collision");  // a table of nothing takes no other's place
+  CHECK(folder.lorentz("trajectory --scene square --collisions 1 --x 0 --v 1,0 --csv " + folder.file("table"))
+            .status == 2);
+  CHECK(folder.read("table") == "id,collision");
   CHECK(contains(no_scene.err, "starts:1: a scene needs at least one lattice"));
   CHECK(contains(no_scene.err, "starts:2: the scene in line 1 was bad"));
 }

@@ -16,7 +16,7 @@ TEST_CASE("A path: obstacles, both paths, where they part, and what is written o
   PathDrawing drawing{crowd(), 3, {{0.5, 0}, {1.5, 0.5}, {0.7, 1.9}, {-0.4, 1}}, {}, {}, 0, ""};
   drawing.other = {{0.5, 0}, {1.5, 0.5}, {-1, 1.2}, {-1.5, -0.4}};
   drawing.parting = 2;
-  drawing.other_name = "reduction";
+  drawing.other_words = "reduction: another obstacle at collision 2";
   const SvgPicture picture(draw_path(drawing));
   CHECK(picture.beyond_page() == "");
   const Ink note = picture.text("the certified path, from the ring on: 3 collisions"),

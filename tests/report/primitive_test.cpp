@@ -25,6 +25,10 @@ TEST_CASE("A line that touches a ball is said to miss it, by nothing", "[report]
                                           Answer::hit({0, 0, {1, 0, 0}}, 0.5), {});
   REQUIRE(dispute);
   CHECK(dispute->text == "the line misses lattice 0, atom 0, cell (1, 0) by 0 of its radii");
+  const Query leaving{{0.5, 0.25, 0}, {1, 0, 0}, ObstacleId{0, 0, {1, 0, 0}}};
+  const auto left = report::dispute_of(oracle::Margins(square), square, leaving, Answer::never(),
+                                       Answer::hit({0, 0, {1, 0, 0}}, 0.5), {});
+  CHECK(left->text == "lattice 0, atom 0, cell (1, 0) is the obstacle that the flight leaves");
   const auto words = [&](double y) {
     return primitive(square, {{0.5, y, 0}, {1, 0, 0}, {}}, {0, 0, {1, 0, 0}}).cpp;
   };
