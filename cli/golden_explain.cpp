@@ -14,6 +14,14 @@
 namespace lorentz::cli {
 namespace {
 
+// The record in question, with what its set says of it.
+struct Found {
+  std::string path, scene_line;
+  golden::Header header;
+  Scene scene;
+  golden::ReadRecord read;
+};
+
 struct ExplainOptions {
   std::string id;
   std::vector<std::string> sets;
@@ -29,26 +37,29 @@ std::string passed_table(const std::vector<oracle::PassedObstacle>& passed, cons
   return table.text();
 }
 
-void explain(const golden::Reader& reader, const golden::ReadRecord& read) {
+void explain(const Found& found) {
   constexpr std::size_t kMostPassed = 12;
+  const golden::ReadRecord& read = found.read;
   const golden::Record& record = read.record;
-  const Components count(reader.scene());
-  print(fmt::format("{}:{}: {}\n\n{}\n{}\n\n", reader.path(), read.line, record.id, reader.scene_line(),
-                    read.text));
-  for (const auto& [tag, note] : reader.header().tags)
+  const Components count(found.scene);
+  print(
+      fmt::format("{}:{}: {}\n\n{}\n{}\n\n", found.path, read.line, record.id, found.scene_line, read.text));
+  for (const auto& [tag, note] : found.header.tags)
     for (const std::string& own : record.tags)
       if (own == tag) print(fmt::format("{}: {}\n", tag, note));
   if (!read.query) {
     print(fmt::format("\nIt is not a valid query: {}. The answer is `error`.\n", read.flaw));
     return;
   }
-  const NumberFormat precision = reader.header().precision;
-  const oracle::Margins margins(reader.scene(), precision);
+  const NumberFormat precision = found.header.precision;
+  const oracle::Margins margins(found.scene, precision);
   const Answer& expect = record.expect;
+  const auto decision = margins.hardest_decision(*read.query, expect);
   if (expect.outcome == Outcome::never) {
-    print(
-        "\nNothing is ever hit: the flight is periodic, and no row of obstacles along it is met. There is no "
-        "margin.\n");
+    print(decision
+              ? "\nNothing is ever hit.\n" + report::decision_text(*decision, count) + '\n'
+              : "\nNothing is ever hit: the flight is periodic, and no row of obstacles along it is met. "
+                "There is no margin.\n");
     return;
   }
   const bool hit = expect.outcome == Outcome::hit;
@@ -59,63 +70,60 @@ void explain(const golden::Reader& reader, const golden::ReadRecord& read) {
                       margins.condition(*read.query, expect)));
   if (precision != NumberFormat::binary64)
     print(fmt::format("An ulp here is one of {}, of {} bits.\n", name_of(precision), bits_of(precision)));
-  print(report::decision_text(*margins.hardest_decision(*read.query, expect), count) + '\n');
+  print(report::decision_text(*decision, count) + '\n');
   if (hit)
     print("\nThe nearest obstacles on the way (below 0: met):\n\n" +
           passed_table(margins.passed(*read.query, expect, kMostPassed), expect.obstacle, count));
 }
 
 // The tags say what the record is designed to break. They name the case, and their notes explain it.
-CaseReport case_report(const golden::Reader& reader, const golden::ReadRecord& read, const CaseFiles& files) {
-  const golden::Record& record = read.record;
+CaseReport case_report(const Found& found, const ExplainOptions& options) {
+  const golden::Record& record = found.read.record;
   CaseReport report;
-  report.title = fmt::format("golden record {} of {}", record.id, reader.header().name);
-  report.command = "lorentz golden explain " + shell_quoted(record.id) + files.as_typed();
-  report.where = "golden " + reader.header().name;
+  report.title = fmt::format("golden record {} of {}", record.id, found.header.name);
+  report.command = "lorentz golden explain " + shell_quoted(record.id);
+  for (const std::string& set : options.sets) report.command += ' ' + shell_quoted(set);
+  report.command += options.files.as_typed();
+  report.where = "golden " + found.header.name;
   report.verdict = "exact";
-  for (const auto& [tag, note] : reader.header().tags)
+  for (const auto& [tag, note] : found.header.tags)
     for (const std::string& own : record.tags)
       if (own == tag) {
         report.cause += (report.cause.empty() ? "" : ", ") + tag;
         report.explanation += (report.explanation.empty() ? "" : "; ") + note;
       }
-  if (report.cause.empty()) report.cause = reader.header().name;
-  report.claim.precision = reader.header().precision;
-  report.scene = reader.scene();
-  report.query = *read.query;
+  if (report.cause.empty()) report.cause = found.header.name;
+  report.claim.precision = found.header.precision;
+  report.scene = found.scene;
+  report.query = *found.read.query;
   report.exact = record.expect;
   if (record.condition)
     report.more.push_back(
         fmt::format("An ulp in each input moves the time by up to {:.4g} of its ulps{}.", *record.condition,
-                    reader.header().precision == NumberFormat::binary64 ? "" : ", which are of binary32"));
+                    found.header.precision == NumberFormat::binary64 ? "" : ", which are of binary32"));
   return report;
 }
 
 int run_golden_explain(const ExplainOptions& options) {
   std::set<std::string> ids;
-  std::string place;  // the set of the first match
+  std::optional<Found> found;  // the first
   for (const std::string& path : golden::find_sets(options.sets)) {
     golden::Reader reader(path);
     for (golden::ReadRecord read; reader.next(read);) {
       if (!read.record.id.starts_with(options.id)) continue;
-      if (ids.empty()) place = path;
       ids.insert(read.record.id);
+      if (!found) found = {path, reader.scene_line(), reader.header(), reader.scene(), read};
     }
   }
   if (ids.empty()) throw InputError("no record has the id " + json_quoted(options.id));
   if (ids.size() > 1)
     throw InputError(fmt::format("{} records have ids that begin with {}; the first is {}", ids.size(),
                                  json_quoted(options.id), *ids.begin()));
-  golden::Reader reader(place);
-  golden::ReadRecord read;
-  do
-    if (!reader.next(read)) throw FileError(place + ": the record is gone; the set was changed meanwhile");
-  while (!read.record.id.starts_with(options.id));
-  if (options.files.any() && !read.query)
+  if (options.files.any() && !found->read.query)
     throw InputError(
-        fmt::format("{}: the record is not a valid query, so there is nothing to draw", read.record.id));
-  if (options.files.any()) options.files.write(case_report(reader, read, options.files));
-  explain(reader, read);
+        fmt::format("{}: the record is not a valid query, so there is nothing to draw", *ids.begin()));
+  if (options.files.any()) options.files.write(case_report(*found, options));
+  explain(*found);
   return kDone;
 }
 

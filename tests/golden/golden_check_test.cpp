@@ -1,4 +1,5 @@
 // lorentz golden check and explain: engines against sets, one record in full.
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -436,7 +437,11 @@ TEST_CASE("golden explain: a hit, inside, never, and an invalid query", "[golden
   CHECK(contains(folder.read("tie.svg"), ">at one point</text>"));
   CHECK(contains(explained("boundary-starts", "\"expect\":{\"outcome\":\"inside\""),
                  "It starts inside lattice "));
-  CHECK(contains(explained("never", "\"outcome\":\"never\""), "Nothing is ever hit"));
+  CHECK(contains(explained("never", "\"outcome\":\"never\""), "Nothing is ever hit: the flight is periodic"));
+  CHECK(contains(explained("ball-3d", "\"outcome\":\"never\""), "Nothing is ever hit.\nThe hard decision: "));
+  const std::string single = explained("grazing-binary32", "\"outcome\":\"hit\"", " --svg " + picture);
+  CHECK(contains(folder.read("tie.svg"),
+                 fmt::format("{:.3g} ulps in each", std::stod(between(single, "Yes, by ", " ulps.")))));
   CHECK(contains(explained("bad-queries", "\"tags\":[\"v-zero\"]"), "It is not a valid query: "));
   const std::string id = first_id("grazing", "\"outcome\":\"hit\"");
   const std::string page = folder.file("page.html");
@@ -445,11 +450,13 @@ TEST_CASE("golden explain: a hit, inside, never, and an invalid query", "[golden
   CHECK(no_query.status == 2);
   CHECK(contains(no_query.err, "nothing to draw"));
   CHECK_FALSE(std::filesystem::exists(page));
-  const Run paged = folder.lorentz("golden explain --html " + page + " " + id);
+  const Run paged = folder.run(LORENTZ_PROGRAM " golden explain --html " + page + " " + id + " - < " +
+                               kCommitted + "grazing.ndjson");
   CHECK(std::filesystem::exists(page) == report::has_page());
   if (report::has_page()) {
     CHECK(paged.status == 0);
     CHECK(contains(folder.read("page.html"), "\"kind\":\"case\",\"title\":\"golden record " + id));
+    CHECK(contains(folder.read("page.html"), "lorentz golden explain " + id + " - --html "));
     CHECK(contains(folder.read("page.html"), "\"drawing\":\"\\u003csvg"));
   } else {
     CHECK(paged.status == 3);
