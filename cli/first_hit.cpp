@@ -179,7 +179,7 @@ void check_proving(const FirstHitOptions& options) {
 
 int run_first_hit(const FirstHitOptions& options) {
   check_proving(options);
-  if (options.x && (options.format != "ndjson" || options.records))
+  if ((options.x || options.v) && (options.format != "ndjson" || options.records))
     throw InputError("--x and --v: ask one query, without columns or records; leave " +
                      std::string(options.records ? "--records" : "--format") + " out");
   const std::size_t format = index_of_name(options.format, {"ndjson", "csv", "npy"}, "--format");

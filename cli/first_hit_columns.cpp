@@ -101,18 +101,24 @@ int answer_all(const ColumnOrder& order) {
     answer();
     output.flush();
   });
+  const auto finish = [&] {
+    output.flush();
+    complaints.finish(reader.name());
+  };
   try {
     const std::size_t together =
         std::max<std::size_t>(order.engine.traits.together, 4096) * static_cast<std::size_t>(order.jobs);
     for (; reader.next(queries, together); output.flush_if_due()) answer();
     format.finish();
-  } catch (const InputError& error) {  // the rows before it have their answers
-    output.flush();
-    complaints.finish(reader.name());
+  } catch (const InputError&) {  // the rows before it have their answers
+    finish();
+    throw;
+  } catch (const FileError&) {  // those that were read get theirs
+    answer();
+    finish();
     throw;
   }
-  output.flush();
-  complaints.finish(reader.name());
+  finish();
   return complaints.had_bad_input() ? kBadInput : kDone;
 }
 

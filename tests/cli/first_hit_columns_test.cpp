@@ -1,4 +1,6 @@
 // lorentz first-hit --format csv|npy: the answers are those of the stream in JSON, to the bit.
+#include <pty.h>
+#include <unistd.h>
 #include <catch2/catch.hpp>
 #include <charconv>
 #include <cmath>
@@ -286,6 +288,15 @@ TEST_CASE("Columns: a file that ends too early has the answers to its rows, and 
   CHECK(longer.status == 0);
   CHECK(contains(longer.err, "l.npy: there is more behind the last row"));
   CHECK(npy_data(longer.out).size() == 3 * 35);
+  // A terminal whose other end is gone gives what it has, and then an error.
+  int ours = 0, other = 0;
+  REQUIRE(openpty(&ours, &other, nullptr, nullptr, nullptr) == 0);
+  REQUIRE(write(other, "x1,x2,v1,v2\n0.5,0,1,0\n", 23) == 23);
+  close(other);
+  const Run broken =
+      folder.lorentz("first-hit --scene square --radius 0.25 --format csv <&" + std::to_string(ours));
+  close(ours);
+  CHECK((broken.status == 3 && contains(broken.out, "\nhit,0,0,1,0,0.25\n")));
 }
 
 TEST_CASE("Columns: cells beyond 64 bits stand in CSV, and are errors in arrays", "[cli][columns]") {
@@ -321,6 +332,7 @@ TEST_CASE("Columns: what the options ask for, and invalid files", "[cli][columns
        "--format: \"cvs\" is not one of ndjson, csv, npy (did you mean csv?)");
   says("--format csv " + csv, 2, "--format csv: needs --scene");
   says("--format csv --scene square --digits 20 " + csv, 2, "--digits: only streams in JSON");
+  says("--format csv --scene square --v 0,1 " + csv, 2, "--x and --v: ask one query, without columns");
   says("--format npy --scene square --detail " + npy, 2, "--detail: only streams in JSON");
   says("--format npy --scene square -e cmd:true " + npy, 2, "not with cmd: engines and libraries");
   says("--format npy --scene square -e nobody " + npy, 2, "no engine is called");
