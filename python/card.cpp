@@ -1,4 +1,7 @@
 // First hits of arrays in a graphics card's memory, which stay there.
+#include <optional>
+#include <vector>
+
 #include <lorentz/certified_batch.hpp>
 #include "python/scene.hpp"
 #include "src/engines/gpu/driver.hpp"
@@ -55,6 +58,16 @@ class CardAnswers {
 // The address of an array (N, d), and the steps from one row and one component to the next, in numbers.
 using Place = std::tuple<std::uintptr_t, std::size_t, std::size_t>;
 
+// The lattices of the obstacles that were hit: no others are left.
+void put_lattices_hit(const CardAnswers& answers, gpu::Memory& there) {
+  std::vector<std::int32_t> outcome(answers.count()), lattice(answers.count());
+  card().get(outcome.data(), answers.outcome, 4 * answers.count());
+  card().get(lattice.data(), answers.lattice, 4 * answers.count());
+  for (std::size_t i = 0; i < lattice.size(); ++i)
+    if (outcome[i] != static_cast<std::int32_t>(Outcome::hit)) lattice[i] = -1;
+  there.put(lattice.data(), 4 * lattice.size());
+}
+
 std::shared_ptr<CardAnswers> first_hits(const oracle::CertifiedBatch& engine, int dimension,
                                         std::size_t count, const Place& x, const Place& v,
                                         std::optional<std::uintptr_t> max_time,
@@ -67,9 +80,11 @@ std::shared_ptr<CardAnswers> first_hits(const oracle::CertifiedBatch& engine, in
   };
   for (int k = 0; k < dimension; ++k) queries.x[k] = component(x, k), queries.v[k] = component(v, k);
   if (max_time) queries.max_time = {reinterpret_cast<const double*>(*max_time), count};
+  std::optional<gpu::Memory> lattices;
   if (from) {
     const FlightColumns left = from->columns();
-    queries.from_lattice = left.lattice, queries.from_atom = left.atom;
+    put_lattices_hit(*from, lattices.emplace(card(), 4 * std::max<std::size_t>(from->count(), 1)));
+    queries.from_lattice = {lattices->at<std::int32_t>(), from->count()}, queries.from_atom = left.atom;
     for (int k = 0; k < dimension; ++k) queries.from_cell[k] = left.cell[k];
   }
   const auto answers = std::make_shared<CardAnswers>(count, dimension);

@@ -126,12 +126,6 @@ lorentz::judge::JudgeReport report_of(const lorentz::judge::JudgeOrder& order, J
   return report;
 }
 
-void write_page(const std::string& path, const std::string& json) {
-  WholeFile file(path);
-  file.write(report::page(json));
-  file.commit();
-}
-
 py::tuple judge_function(const py::object& function, const std::string& engine, const std::string& command,
                          bool quick, std::optional<double> time, std::optional<std::size_t> questions,
                          std::uint64_t seed, unsigned jobs, double ulps, bool times,
@@ -155,7 +149,7 @@ py::tuple judge_function(const py::object& function, const std::string& engine, 
     });
   }
   const lorentz::judge::JudgeReport report = report_of(order, run);
-  if (html) write_page(*html, report.json());
+  if (html) write_whole(*html, report::page(report.json()));
   return py::make_tuple(report.json(), report.text(true));
 }
 
