@@ -43,6 +43,8 @@ std::uint64_t whole_number(const std::string& text, const char* option, std::uin
       real = parse_number(text);
     } catch (const InputError&) {
     }
+    if (real > 0x1p53)
+      throw InputError(fmt::format("{}: {} is above 2^53; write all its digits", option, json_quoted(text)));
     good = real >= 0 && real <= 0x1p53 && real == std::floor(real);
     if (good) value = static_cast<std::uint64_t>(real);
   }
