@@ -15,7 +15,7 @@ namespace lorentz::cli {
 namespace {
 
 // The record in question, with what its set says of it.
-struct Found {
+struct ExplainedRecord {
   std::string path, scene_line;
   golden::Header header;
   Scene scene;
@@ -37,7 +37,7 @@ std::string passed_table(const std::vector<oracle::PassedObstacle>& passed, cons
   return table.text();
 }
 
-void explain(const Found& found) {
+void explain(const ExplainedRecord& found) {
   constexpr std::size_t kMostPassed = 12;
   const golden::ReadRecord& read = found.read;
   const golden::Record& record = read.record;
@@ -77,7 +77,7 @@ void explain(const Found& found) {
 }
 
 // The tags say what the record is designed to break. They name the case, and their notes explain it.
-CaseReport case_report(const Found& found, const ExplainOptions& options) {
+CaseReport case_report(const ExplainedRecord& found, const ExplainOptions& options) {
   const golden::Record& record = found.read.record;
   CaseReport report;
   report.title = fmt::format("golden record {} of {}", record.id, found.header.name);
@@ -106,7 +106,7 @@ CaseReport case_report(const Found& found, const ExplainOptions& options) {
 
 int run_golden_explain(const ExplainOptions& options) {
   std::set<std::string> ids;
-  std::optional<Found> found;  // the first
+  std::optional<ExplainedRecord> found;  // the first
   for (const std::string& path : golden::find_sets(options.sets)) {
     golden::Reader reader(path);
     for (golden::ReadRecord read; reader.next(read);) {

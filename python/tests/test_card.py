@@ -39,6 +39,7 @@ def same(there, here):
 for name, radius in (("square", 1e-5), ("fcc", 0.1), ("perovskite", 0.02)):
     scene = lorentz.Scene(name, radius)
     x, v, _ = lorentz.draw_starts(scene, 20000, seed=3)
+    x[:3] = 0  # inside of an obstacle
     v[:2000] = np.round(8 * v[:2000]) / 8 + (np.abs(v[:2000]) < 0.06)  # hard
     engine = lorentz.Engine(scene, "gpu")
     here = lorentz.first_hit(scene, x, v)
