@@ -44,28 +44,21 @@ std::string microseconds(double ns) {
 }
 
 // Each answer is in one of the columns from "right" to "undecided".
-report::Table table_with(std::vector<std::string> columns, const std::vector<std::string>& times) {
-  for (const char* column :
-       {"engine", "right", "wrong time", "ill-posed", "wrong obstacle", "undecided", "mean error, ulps"})
-    columns.push_back(column);
-  columns.insert(columns.end(), times.begin(), times.end());
-  return report::Table(std::move(columns));
-}
-
-std::vector<std::string> row(std::vector<std::string> cells, const Tally& t,
-                             const std::vector<std::string>& times) {
+std::vector<std::string> row(const std::string& engine, const Tally& t, const std::string& plane,
+                             const std::string& space) {
+  std::vector<std::string> cells{engine};
   for (const std::size_t number : {t[Count::agree] - t[Count::wrong_time], t[Count::wrong_time],
                                    t[Count::ill_posed], t[Count::wrong], t[Count::undecided]})
     cells.push_back(std::to_string(number));
   cells.push_back(t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-");
-  cells.insert(cells.end(), times.begin(), times.end());
+  cells.insert(cells.end(), {plane, space});
   return cells;
 }
 
 constexpr const char* kWords = R"(
 right: obstacle and time. wrong time: of the right obstacle, off by more than 4 times what an ulp in each input
 makes of it. ill-posed: another obstacle, but errors of 4 ulps in the inputs would explain it. Why the published
-algorithm is wrong: docs/published.md. `lorentz demo --all` has a row for each kind of flights. To go on:
+algorithm is wrong: docs/published.md. To go on:
   lorentz judge --engine published         judges an engine, in two minutes; yours: docs/judging_yours.md
   lorentz first-hit --scene square --radius 0.1 --x 0,0.445 --v 1,0.0175                one exact answer
   lorentz trajectory --scene square --radius 1/5 --x 1/2,1/3 --v 1,golden --collisions 15 -e reduction --svg path.svg
@@ -83,29 +76,24 @@ class DemoReport {
     lineup_.ask(part);
     lineup_.race(part.questions);
     for (const LineupEntry& one : lineup_.all()) {
-      const Tally& t = one.row->tally;
-      const std::string& engine = one.examination.name();
-      const bool is_first = &one == &lineup_.all().front();
-      flights_.add(row({is_first ? what : "", is_first ? std::to_string(t.queries) : "", engine}, t,
-                       {microseconds(one.speed.ns_per_query)}));
-      for (const int of : {dimension, 0})
-        ns_[engine][of] += one.speed.ns_per_query * static_cast<double>(t.queries);
+      const double ns = one.speed.ns_per_query * static_cast<double>(one.row->tally.queries);
+      for (const int of : {dimension, 0}) ns_[one.examination.name()][of] += ns;
     }
     for (const int of : {dimension, 0}) queries_[of] += static_cast<double>(part.questions.size());
   }
 
-  void show(bool all) {
+  void show() {
     lineup_.finish();
     print(fmt::format(
         "The published algorithm gets {} of {} first hits wrong ({} us each), the exact oracle {} ({} us), "
         "certified-batch {} ({} us).\n\n",
         wrong_of("published"), queries_[0], mean("published"), wrong_of("oracle"), mean("oracle"),
         wrong_of("certified-batch"), mean("certified-batch")));
-    if (all) print(flights_.text() + '\n');
-    report::Table engines = table_with({}, {"2D, us each", "3D, us each"});
+    report::Table engines({"engine", "right", "wrong time", "ill-posed", "wrong obstacle", "undecided",
+                           "mean error, ulps", "2D, us each", "3D, us each"});
     for (const LineupEntry& one : lineup_.all()) {
       const std::string& engine = one.examination.name();
-      engines.add(row({engine}, one.total(), {mean(engine, 2), mean(engine, 3)}));
+      engines.add(row(engine, one.total(), mean(engine, 2), mean(engine, 3)));
     }
     print(engines.text() + kWords);
   }
@@ -124,12 +112,11 @@ class DemoReport {
 
   const ExaminationOptions options_;
   Lineup lineup_;
-  report::Table flights_ = table_with({"flights", "number"}, {"us each"});
   std::map<std::string, std::map<int, double>> ns_;  // by engine and dimension; of both: 0
   std::map<int, double> queries_;
 };
 
-int run_demo(bool all) {
+int run_demo() {
   DemoReport report;
   report.add("the paper's example, r = 0.1", 2, paper_example());
   using enum starts::Kind;
@@ -140,21 +127,19 @@ int run_demo(bool all) {
   for (const double r : {0.3, 0.1, 1e-2})
     report.add(fmt::format("3D, drawn, r = {}", r), 3, drawn(uniform, 3, r, 5000));
   report.add("3D, drawn, r = 0.001", 3, drawn(uniform, 3, 1e-3, 100));
-  report.show(all);
+  report.show();
   return kDone;
 }
 
 }  // namespace
 
 Command demo_command() {
-  auto options = std::make_shared<ExaminationOptions>();
   return {"demo",
           "The known algorithms against the oracle, on the paper's example and on drawn queries.",
-          {{"--all", &options->all, "", "a row for each kind of flights and each engine, too"}},
-
+          {},
           "Exits with 0 when all was done: the wrong answers of the known algorithms are what it shows.\n"
-          "Example:\n  lorentz demo --all",
-          [options] { return run_demo(options->all); }};
+          "Example:\n  lorentz demo",
+          run_demo};
 }
 
 }  // namespace lorentz::cli

@@ -58,7 +58,7 @@ EDGES = {
     "convergents": Edge("0.5"),
     "horizon": Edge("square", missing="/no/such/file"),
     "sample": Edge("--count 5", "--count 1e9", missing="--scene /no/such/file"),
-    "demo": Edge("", "--all", slow=True),
+    "demo": Edge("", slow=True),
     "doctor": Edge("", slow=True),
     "bench": Edge("--scene square --radius 0.3 -e reduction --count 100 --difficulty drawn", "--count 1e6 --csv OUT",
                   ["--csv", "--html"], "--scene /no/such/file"),
