@@ -1,6 +1,6 @@
 /* Judges answers with a golden set alone (docs/golden.md).
      runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; how many fail on stderr.
-     ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file cannot be read.
+     ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file is unfit.
      cc -std=c11 runner.c -lcjson -lm -o runner    (libcjson-dev) */
 #define _POSIX_C_SOURCE 200809L
 #include <cjson/cJSON.h>
@@ -92,6 +92,10 @@ static cJSON* next(FILE* file, const char* name, int* number) {
     fprintf(stderr, "%s:%d: not JSON\n", name, *number);
     exit(2);
   }
+  if (ferror(file)) {
+    perror(name);
+    exit(2);
+  }
   return NULL;
 }
 
@@ -102,18 +106,21 @@ int main(int count, char** arguments) {
   FILE *set = fopen(arguments[1], "r"), *answers = fopen(arguments[2], "r");
   if (!set || !answers) return fprintf(stderr, "cannot open %s\n", arguments[set ? 2 : 1]), 2;
   void* tree = NULL;
-  int number = 0;
-  for (cJSON* answer; (answer = next(answers, arguments[2], &number));) {
+  int line = 0;
+  for (cJSON* answer; (answer = next(answers, arguments[2], &line));) {
     struct known* entry = malloc(sizeof *entry);
     entry->answer = answer;
     entry->id = text(answer, "id");
-    tsearch(entry, &tree, by_id);
+    if (*entry->id && *(struct known**)tsearch(entry, &tree, by_id) != entry)
+      return fprintf(stderr, "%s: the id %s comes twice\n", arguments[2], entry->id), 2;
   }
-  int binary32 = 0, failed = 0, records = 0;
-  number = 0;
-  for (cJSON* record; (record = next(set, arguments[1], &number));) {
-    const cJSON* header = cJSON_GetObjectItemCaseSensitive(record, "golden");
-    if (header) binary32 = !strcmp(text(header, "precision"), "binary32");
+  int failed = 0, records = 0;
+  line = 0;
+  cJSON* record = next(set, arguments[1], &line);
+  const cJSON* header = cJSON_GetObjectItemCaseSensitive(record, "golden");
+  const int binary32 = !strcmp(text(header, "precision"), "binary32");
+  const double expected = number(header, "count", -1);
+  while ((record = next(set, arguments[1], &line))) {
     if (cJSON_HasObjectItem(record, "expect")) {
       const struct known key = {text(record, "id"), NULL};
       struct known** found = tfind(&key, &tree, by_id);
@@ -123,6 +130,8 @@ int main(int count, char** arguments) {
     }
     cJSON_Delete(record);
   }
+  if (records != expected)
+    return fprintf(stderr, "%s: needs a first line with `golden`, and as many records as its `count`\n", arguments[1]), 2;
   fprintf(stderr, "%d of %d are wrong, missing, or errors\n", failed, records);
   return failed > 0;
 }

@@ -1,6 +1,6 @@
 // Judges answers with a golden set alone (docs/golden.md).
 //   runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr.
-//   ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file cannot be read.
+//   ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file is unfit.
 //   c++ -std=c++17 runner.cpp -o runner    # nlohmann-json3-dev
 #include <algorithm>
 #include <cmath>
@@ -62,41 +62,52 @@ static const char* verdict(const Json& record, const Json& answer, double ulps, 
   return "wrong";
 }
 
+static void refuse(const std::string& why) {
+  std::cerr << why << '\n';
+  std::exit(2);
+}
+
 // All lines that are not blank.
-static void read(std::istream& file, const std::string& name, const std::function<void(const Json&)>& use) {
+static void read(const std::string& name, const std::function<void(const Json&)>& use) {
+  std::ifstream file(name);
   int number = 0;
   for (std::string line; ++number, std::getline(file, line);) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     try {
       use(Json::parse(line));
     } catch (const Json::exception& why) {
-      std::cerr << name << ':' << number << ": " << why.what() << '\n';
-      std::exit(2);
+      refuse(name + ':' + std::to_string(number) + ": " + why.what());
     }
   }
+  if (!file.is_open() || file.bad()) refuse(name + ": cannot be read");
 }
 
 int main(int count, char** arguments) {
   const double ulps = count > 3 ? std::strtod(arguments[3], nullptr) : 4;
   if (count < 3 || !(ulps > 0 && ulps <= 16))
-    return std::cerr << "usage: runner SET ANSWERS [ULPS]; ULPS is above 0 and at most 16\n", 2;
+    refuse("usage: runner SET ANSWERS [ULPS]; ULPS is above 0 and at most 16");
   std::map<std::string, Json> answers;
-  std::ifstream answer_file(arguments[2]), set_file(arguments[1]);
-  if (!set_file || !answer_file) return std::cerr << "cannot read " << arguments[set_file ? 2 : 1] << '\n', 2;
-  read(answer_file, arguments[2], [&](const Json& answer) {
-    if (answer.contains("id") && answer["id"].is_string()) answers[answer["id"].get<std::string>()] = answer;
+  read(arguments[2], [&](const Json& answer) {
+    if (!answer.contains("id") || !answer["id"].is_string()) return;
+    const std::string id = answer["id"];
+    if (!answers.emplace(id, answer).second) refuse(arguments[2] + (": the id " + id) + " comes twice");
   });
   std::map<std::string, int> counts;
-  bool binary32 = false;
-  read(set_file, arguments[1], [&](const Json& record) {
-    if (record.contains("golden")) binary32 = record["golden"].value("precision", "") == "binary32";
+  Json header;
+  int records = 0;
+  read(arguments[1], [&](const Json& record) {
+    if (header.is_null()) header = record.value("golden", Json::object());
     if (!record.contains("expect")) return;
     const std::string id = record["id"];
     const auto answer = answers.find(id);
+    const bool binary32 = header.value("precision", "") == "binary32";
     const char* found = verdict(record, answer == answers.end() ? Json() : answer->second, ulps, binary32);
-    ++counts[found];
+    ++counts[found], ++records;
     std::cout << id << ' ' << found << '\n';
   });
+  if (!header.is_object() || header.value("count", Json()) != records)
+    refuse(arguments[1] +
+           std::string(": needs a first line with `golden`, and as many records as its `count`"));
   for (const auto& [name, number] : counts) std::cerr << name << ' ' << number << '\n';
   return counts.count("wrong") || counts.count("missing") || counts.count("error") ? 1 : 0;
 }

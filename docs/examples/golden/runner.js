@@ -1,6 +1,6 @@
 // Judges answers with a golden set alone (docs/golden.md).
 //   node runner.js SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr.
-//   ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file cannot be read.
+//   ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file is unfit.
 "use strict";
 const fs = require("node:fs");
 
@@ -15,7 +15,7 @@ function refuse(why) {
 function lines(file) {
   let number = 0;
   try {
-    return fs.readFileSync(file, "utf8").split("\n").map((line) => (++number, line.trim() ? JSON.parse(line) : {}));
+    return fs.readFileSync(file, "utf8").split("\n").flatMap((line) => (++number, line.trim() ? [JSON.parse(line)] : []));
   } catch (why) {
     return refuse(`${file}:${number}: ${why.message}`);
   }
@@ -50,15 +50,21 @@ function verdict(record, answer, k, bits) {
   return record.tags.includes("needs-judge") ? "needs-judge" : "wrong";
 }
 
-const answers = new Map(lines(answerFile).map((answer) => [answer.id, answer]));
+const answers = new Map();
+for (const answer of lines(answerFile).filter((line) => line.id)) {
+  if (answers.has(answer.id)) refuse(`${answerFile}: the id ${answer.id} comes twice`);
+  answers.set(answer.id, answer);
+}
+const [first, ...others] = lines(setFile);
+const records = others.filter((line) => line.expect);
+if (first?.golden?.count !== records.length)
+  refuse(`${setFile}: needs a first line with \`golden\`, and as many records as its \`count\``);
+const bits = first.golden.precision === "binary32" ? 24 : 53;
 const counts = {};
-let bits = 53;
-for (const line of lines(setFile)) {
-  if (line.golden) bits = line.golden.precision === "binary32" ? 24 : 53;
-  if (!line.expect) continue;
-  const found = verdict(line, answers.get(line.id), Number(ulps), bits);
+for (const record of records) {
+  const found = verdict(record, answers.get(record.id), Number(ulps), bits);
   counts[found] = (counts[found] ?? 0) + 1;
-  console.log(line.id, found);
+  console.log(record.id, found);
 }
 console.error(counts);
 process.exitCode = counts.wrong || counts.missing || counts.error ? 1 : 0;

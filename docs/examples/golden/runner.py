@@ -2,7 +2,7 @@
 """Judges answers with a golden set alone (docs/golden.md).
 
 runner.py SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr.
-ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file cannot be read.
+ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file is unfit.
 """
 import collections
 import json
@@ -85,15 +85,18 @@ def tolerance(word):
 
 
 def main(set_file, answer_file, ulps):
-    answers = {answer["id"]: answer for answer in lines(answer_file) if "id" in answer}
-    counts, binary32 = collections.Counter(), False
-    for line in lines(set_file):
-        if "golden" in line:
-            binary32 = line["golden"].get("precision") == "binary32"
-        elif "expect" in line:
-            found = verdict(line, answers.get(line["id"]), ulps, binary32)
-            counts[found] += 1
-            print(line["id"], found)
+    answers, counts = {}, collections.Counter()
+    for answer in lines(answer_file):
+        if isinstance(answer.get("id"), str) and answers.setdefault(answer["id"], answer) is not answer:
+            refuse(f"{answer_file}: the id {answer['id']} comes twice")
+    first, *others = [*lines(set_file)] or [{}]
+    header, records = first.get("golden"), [line for line in others if "expect" in line]
+    if not isinstance(header, dict) or header.get("count") != len(records):
+        refuse(f"{set_file}: needs a first line with `golden`, and as many records as its `count`")
+    for record in records:
+        found = verdict(record, answers.get(record["id"]), ulps, header.get("precision") == "binary32")
+        counts[found] += 1
+        print(record["id"], found)
     print(dict(counts), file=sys.stderr)
     return 1 if counts["wrong"] or counts["missing"] or counts["error"] else 0
 

@@ -1,6 +1,6 @@
 // Judges answers with a golden set alone (docs/golden.md).
 //   runner SET ANSWERS [ULPS]: a line for each record, its id and a verdict; the counts on stderr.
-//   ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file cannot be read.
+//   ULPS is above 0 and at most 16. Status 1: an answer is wrong, missing, or an error; 2: a file is unfit.
 //   cargo init runner && cd runner && cargo add serde_json --features float_roundtrip && cp ../runner.rs src/main.rs && cargo build
 use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
@@ -75,18 +75,23 @@ fn main() {
     if arguments.len() < 3 || !(ulps > 0.0 && ulps <= 16.0) {
         refuse("usage: runner SET ANSWERS [ULPS]; ULPS is above 0 and at most 16".to_string());
     }
-    let answers: HashMap<String, Value> =
-        lines(&arguments[2]).into_iter().filter_map(|line| Some((line["id"].as_str()?.to_string(), line))).collect();
-    let (mut counts, mut binary32) = (BTreeMap::new(), false);
-    for record in lines(&arguments[1]) {
-        if record.get("golden").is_some() {
-            binary32 = record["golden"]["precision"] == "binary32";
+    let mut answers = HashMap::new();
+    for answer in lines(&arguments[2]) {
+        let Some(id) = answer["id"].as_str().map(str::to_string) else { continue };
+        if let Some(earlier) = answers.insert(id, answer) {
+            refuse(format!("{}: the id {} comes twice", arguments[2], earlier["id"]));
         }
-        if record.get("expect").is_none() {
-            continue;
-        }
+    }
+    let set = lines(&arguments[1]);
+    let header = set.first().map_or(&Value::Null, |line| &line["golden"]);
+    let records: Vec<&Value> = set.iter().filter(|line| line.get("expect").is_some()).collect();
+    if header["count"] != records.len() {
+        refuse(format!("{}: needs a first line with `golden`, and as many records as its `count`", arguments[1]));
+    }
+    let mut counts = BTreeMap::new();
+    for record in records {
         let id = record["id"].as_str().expect("an id");
-        let found = verdict(&record, answers.get(id), ulps, binary32);
+        let found = verdict(record, answers.get(id), ulps, header["precision"] == "binary32");
         *counts.entry(found).or_insert(0) += 1;
         println!("{id} {found}");
     }
