@@ -38,6 +38,7 @@ run(${COMPILER} -x c -std=c99 -Wall -Wextra -Wpedantic -Werror -O1 -shared -fPIC
   ${SOURCE}/docs/examples/library_engine.c -o ${SCRATCH}/mine.so -lm)
 run(${prefix}/bin/lorentz compare --scene cubic --count 20 --engine lib:${SCRATCH}/mine.so)
 prints("no wrong answer in 19")
+run(${CMAKE_COMMAND} -E chdir ${prefix}/share/lorentz/golden sha256sum --quiet -c SHA256SUMS)
 foreach(page man/man1/lorentz.1 man/man1/lorentz-scene-draw.1)
   if(NOT EXISTS ${prefix}/share/${page})
     message(FATAL_ERROR "share/${page} was not installed")
