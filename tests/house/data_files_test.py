@@ -41,6 +41,9 @@ class Files(unittest.TestCase):
     def test_the_directions(self):
         self.same(made("examples/paper-89-directions.py"), "examples/paper-89-directions.queries.ndjson")
 
+    def test_a_slip_makes_nothing(self):
+        self.assertIn("--chek", made("golden/itineraries/make", LORENTZ, "--chek", status=2))
+
     def test_logs(self):
         """Starts of 2D and of 3D, one of them twice, and what four programs said of them."""
         logs = {"tests-misc": """
