@@ -1,17 +1,12 @@
 #!/usr/bin/env python3
-"""The experiments of Kraemer, Kryukov and Sanders (2016) again: the files of this folder, and the tables of docs/paper.md.
-
-    make.py BUILD            makes everything (a quarter of an hour; BUILD is the folder of the program)
-    make.py BUILD --long     flies the many flights of docs/free_paths.md (an hour and a half)
-    make.py BUILD --check    makes what is the same on every machine once more (a minute), and says what differs: counts,
-                             shares, exponents, p-values, pictures, tables. Status 1 if something does. Times are not
-                             measured again.
-"""
+"""The experiments of Kraemer, Kryukov and Sanders (2016) again: the files of this folder, and the tables of docs/paper.md."""
+import argparse
 import csv
 import io
 import itertools
 import json
 import math
+import os
 import statistics
 import subprocess
 import sys
@@ -22,7 +17,13 @@ from pictures import pictures
 from reading import ENGINES, HERE, LATTICES, SCENES, SEEDS
 from tables import PAGE, PATHS, PATHS_TABLES, page
 
-BUILD = Path(sys.argv[1])
+PARSER = argparse.ArgumentParser(description=f"{__doc__} Without an option all is made, in a quarter of an hour.")
+PARSER.add_argument("build", type=Path, help="the folder of the program")
+PARSER.add_argument("--long", action="store_true", help="fly the many flights of docs/free_paths.md (an hour and a half)")
+PARSER.add_argument("--check", action="store_true", help="make what is the same on every machine once more (a minute), and say what "
+                    "differs: counts, shares, exponents, p-values, pictures, tables. Status 1 if something does. Times are not measured again")
+ASKED = PARSER.parse_args()
+BUILD = ASKED.build
 
 
 def printed(*words, given=None):
@@ -139,10 +140,12 @@ def check():
 
 
 def main():
-    if sys.argv[2:] == ["--check"]:
+    if "LORENTZ_OPTIONS_ONLY" in os.environ:
+        return 0
+    if ASKED.check:
         return check()
     makers = (flights, false_collisions, first_discs, sections, times)
-    for make in (*((many_flights,) if sys.argv[2:] == ["--long"] else makers), pictures):
+    for make in (*((many_flights,) if ASKED.long else makers), pictures):
         for name, there in make():
             (HERE / name).write_text(there)
             print(f"data/paper/{name}", flush=True)

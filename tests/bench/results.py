@@ -1,10 +1,6 @@
 #!/usr/bin/env python3
-"""Makes docs/results.md, the results of this release, from the files that runs have left (./run results).
-
-    results.py                  writes the page
-    results.py --golden LORENTZ asks all engines the golden sets again first, some minutes (docs/results/golden.tsv)
-    results.py --print          prints the page, and writes nothing
-"""
+"""Makes docs/results.md, the results of this release, from the files that runs have left (./run results)."""
+import argparse
 import csv
 import datetime
 import json
@@ -144,9 +140,13 @@ def page():
 
 
 def main():
-    if sys.argv[1:2] == ["--golden"]:
-        ask_golden(sys.argv[2])
-    if sys.argv[1:] == ["--print"]:
+    parser = argparse.ArgumentParser(prog="./run results", description=__doc__.partition("\n")[0])
+    parser.add_argument("--golden", metavar="LORENTZ", help="ask all engines the golden sets again first, some minutes (docs/results/golden.tsv)")
+    parser.add_argument("--print", action="store_true", help="print the page, and write nothing")
+    asked = parser.parse_args()
+    if asked.golden:
+        ask_golden(asked.golden)
+    if asked.print:
         sys.stdout.write(page())
     else:
         PAGE.write_text(page(), encoding="utf-8")

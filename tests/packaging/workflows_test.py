@@ -88,6 +88,29 @@ class Workflows(unittest.TestCase):
         self.assertEqual(sorted(step["if"].split("'")[1] for step in jobs["try"]["steps"] if "if" in step), sorted(parts))
 
 
+class Run(unittest.TestCase):
+    def test_nothing_is_built_for_help_or_a_slip(self):
+        """What builds or installs is a stand-in that leaves a file."""
+        with tempfile.TemporaryDirectory() as folder:
+            called = Path(folder) / "called"
+            for name in ("cmake", "dpkg-query", "apt-get", "sudo", "npm"):
+                (Path(folder) / name).write_text(f"#!/bin/sh\ntouch {called}\nexit 1\n")
+                (Path(folder) / name).chmod(0o755)
+
+            def status(*words):
+                environment = {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"}
+                return subprocess.run(["./run", *words], cwd=SOURCE, env=environment, stdin=subprocess.DEVNULL,
+                                      capture_output=True).returncode
+
+            for name in re.findall("(?m)^  ([a-z][a-z0-9-]*) ", said("./run", "--help")):
+                self.assertEqual((status(name, "--help"), status(name, "--chek"), called.exists()), (0, 2, False), name)
+            for words in (["install"], ["install", "nosuch.txt"], ["determinism", "--two", "x"], ["billion", "--rounds", "200"]):
+                self.assertEqual((status(*words), called.exists()), (2, False), words)
+            for words in (["paper", "--check"], ["paper", "--long"], ["billion"], ["determinism", "9"], ["league"], ["mutants"]):
+                called.unlink(missing_ok=True)
+                self.assertEqual((status(*words), called.exists()), (1, True), words)
+
+
 class Action(unittest.TestCase):
     def test_inputs_go_to_the_script_and_options_exist(self):
         action, script = yaml.safe_load((ACTION / "action.yml").read_text()), (ACTION / "judge").read_text()
