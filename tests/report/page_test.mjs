@@ -71,8 +71,8 @@ const verdictSigns = { wrong: "✗", right: "✓" };
 // How many marks each chart has: of the first choice of its lists.
 const cellsOf = (report) => report.cells.filter((c) => !c.skipped);
 const faults = (report) =>
-  report.difficulties.flatMap((d) => [d.wrong, d.ill_posed, d.wrong_time, d.undecided]).filter((n) => n > 0)
-    .length;
+  report.difficulties.flatMap((d) => [d.wrong, d.ill_posed, d.wrong_time, d.undecided, d.error, d.missing])
+    .filter((n) => n > 0).length;
 const group = (report, radius) =>
   cellsOf(report).filter(
     (c) => c.scene === "square" && c.difficulty === "drawn" && (radius === undefined || c.radius === radius),
@@ -89,7 +89,7 @@ const EXPECTED = {
   judge: (r) => ({ closeness: { dot: r.findings.length }, difficulties: { dot: faults(r) } }),
   timed: () => ({
     calls: { rect: 14 }, // 12 bars, two of them in two colours
-    difficulties: { dot: 1 },
+    difficulties: { dot: 2 },
     "free-paths": { dot: 9, line: 1 },
   }),
   hostile: (r) => ({
@@ -311,7 +311,8 @@ test("Rows that were not asked do not count, free paths are compared, and come b
     const order = await page.locator("main > section").evaluateAll((all) => all.map((s) => s.id));
     assert.deepEqual(order, ["findings", "flights", "difficulties", "cases", "failures", "manifest"]);
     const summary = (chart) => page.locator(`[data-chart=${chart}] .summary`).innerText();
-    assert.match(await summary("difficulties"), /^Answered without a fault: 1 of 2 kinds of query that it was asked\./);
+    assert.match(await summary("difficulties"), /^Answered without a fault: 1 of 3 kinds of query that it was asked\./);
+    assert.match(await page.locator(".tiles").innerText(), /error\s+30/);
     assert.match(await summary("calls"), /^3\u202f140 answers; wrong ones only .* less than 10⁻⁹ radii/);
     const calls = page.locator("[data-chart=calls]");
     await calls.getByLabel("By", { exact: true }).selectOption("radii from the start to the obstacle in question");
@@ -377,6 +378,8 @@ test("Hover shows the numbers of the mark", async () => {
 
 test("The fitted exponents are those of the data", async () => {
   await open("bench", {}, async (page) => {
+    const line = await page.locator(".verdict-line").innerText();
+    assert.match(line, /^Nothing wrong was seen of reduction, binary128\. Wrong answers: published /);
     const rows = await page.locator("table.fits tbody tr").allInnerTexts();
     for (const [engine, truth] of [
       ["reduction", -0.02],
@@ -445,7 +448,7 @@ test("Every chart can be downloaded as SVG and CSV", async () => {
     calls: 1,
     "free-paths": 48,
     closeness: 12,
-    difficulties: 8,
+    difficulties: 9,
   };
   for (const [name, scheme] of [
     ["bench", "dark"],

@@ -415,7 +415,8 @@ function timed() {
     ill_posed: 0,
     undecided: 0,
     wrong_time: 70,
-    difficulties: [plain, late, beyond],
+    error: 30,
+    difficulties: [plain, late, beyond, { ...plain, name: "failing", agree: plain.agree - 30, error: 30 }],
     findings: [report.findings[9], { ...report.findings[9], where: "campaign" }],
     calls: Array.from({ length: 12 }, (_, i) => ({
       decade: i - 11,

@@ -59,32 +59,18 @@ function threeLines({ summary, findings }) {
   );
 }
 
-// "5 engines in 40 cells. Nothing wrong was seen of a, b; the fastest of these is a (812 ns a query)."
+// "Nothing wrong was seen of a, b. Wrong answers: c (3)."
 function benchLine(report) {
   const cells = (report.cells ?? []).filter((c) => !c.skipped);
   if (!cells.length) return "";
   const engines = [...Map.groupBy(cells, (c) => c.engine)].map(([name, its]) => ({
     name,
     wrong: its.reduce((sum, c) => sum + (c.wrong?.count ?? 0), 0),
-    ns: geometricMean(its.map((c) => c.ns?.median)),
   }));
-  const good = engines.filter((e) => e.wrong === 0).sort((a, b) => a.ns - b.ns);
+  const good = engines.filter((e) => e.wrong === 0).map((e) => e.name);
   const bad = engines.filter((e) => e.wrong > 0).map((e) => `${e.name} (${count(e.wrong)})`);
-  return [
-    good.length
-      ? `Nothing wrong was seen of ${good.map((e) => e.name).join(", ")}`
-      : "Every engine was wrong somewhere",
-    good.length > 1 && isNumber(good[0].ns)
-      ? `; the fastest of these is ${good[0].name}, ${duration(good[0].ns)} a query`
-      : "",
-    bad.length && good.length ? `. Wrong answers: ${bad.join(", ")}` : "",
-    ".",
-  ].join("");
-}
-
-function geometricMean(values) {
-  const logs = values.filter((v) => v > 0).map(Math.log);
-  return logs.length ? Math.exp(logs.reduce((a, b) => a + b, 0) / logs.length) : NaN;
+  if (!good.length) return "Every engine was wrong somewhere.";
+  return `Nothing wrong was seen of ${good.join(", ")}.${bad.length ? ` Wrong answers: ${bad.join(", ")}.` : ""}`;
 }
 
 function figures(report) {
@@ -110,9 +96,8 @@ function figures(report) {
         ),
       );
     }
-  for (const key of ["missing", "nonsense"])
-    if (report[key] > 0)
-      tiles.push(tile(count(report[key]), verdictOf(key).word, MEANINGS[key], verdictOf(key).colour));
+  if (report.nonsense > 0)
+    tiles.push(tile(count(report.nonsense), "nonsense", MEANINGS.nonsense, verdictOf("nonsense").colour));
   if (isNumber(report.ns_per_query)) tiles.push(tile(duration(report.ns_per_query), "time a query"));
   if (isNumber(report.processor_ns_per_query))
     tiles.push(

@@ -8,6 +8,7 @@ export const VERDICTS = {
   "ill-posed": { word: "ill-posed", sign: "≈", colour: "var(--ill-posed)", symbol: "diamond" },
   "wrong-time": { word: "wrong time", sign: "◷", colour: "var(--wrong-time)", symbol: "triangle" },
   undecided: { word: "undecided", sign: "?", colour: "var(--undecided)", symbol: "square" },
+  error: { word: "error", sign: "!", colour: "var(--wrong)", symbol: "wye" },
   missing: { word: "missing", sign: "–", colour: "var(--undecided)", symbol: "cross" },
   nonsense: { word: "nonsense", sign: "–", colour: "var(--undecided)", symbol: "cross" },
 };
@@ -17,6 +18,7 @@ export const MEANINGS = {
   "ill-posed": "another answer than the exact one, but a change of the input by its last bits gives it",
   "wrong-time": "the right obstacle, at a time that is off by more than the input's condition explains",
   undecided: "the engine says that it cannot know",
+  error: "a valid question was answered with error, and not because the engine does not support it",
   missing: "asked, and no answer came: the program died, fell silent, or wrote something that is not an answer",
   nonsense: "an invalid question was answered, where error is right; counted apart from the queries",
 };
@@ -30,4 +32,6 @@ export const FAULTS = [
   ["ill_posed", "ill-posed"],
   ["wrong_time", "wrong-time"],
   ["undecided", "undecided"],
+  ["error", "error"],
+  ["missing", "missing"],
 ];
