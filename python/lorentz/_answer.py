@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from dataclasses import dataclass
 from decimal import ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
@@ -11,7 +12,7 @@ from functools import total_ordering
 from typing import Any, Callable, TypeVar
 
 from ._lorentz import Error
-from ._numbers import Obstacle, integer, items, whole
+from ._numbers import _HEXADECIMAL, Obstacle, integer, items, rational, whole
 
 Rounded = TypeVar("Rounded")
 
@@ -155,20 +156,21 @@ class Answer:
         """Reads a line of that format. Raises Error if the line is invalid."""
         try:
             return Answer._from_fields(json.loads(line, object_pairs_hook=_each_once))
-        except (AttributeError, KeyError, TypeError, ValueError) as error:
+        except (AttributeError, KeyError, OverflowError, TypeError, ValueError) as error:
             raise Error(f"answer: {line!r:.80} has not the form of docs/formats.md: {error!r}") from None
 
     @staticmethod
     def _from_fields(fields: dict[str, Any]) -> Answer:
-        time, exit_time = fields.get("time"), fields.get("exit_time")
+        outcome = fields["outcome"]
+        if outcome not in ("hit", "never", "inside", "later", "undecided", "error"):
+            raise ValueError(f"the outcome {outcome!r}")
+        obstacle = _read_obstacle(fields) if outcome in ("hit", "inside") else (None, None, None)
+        time, exit_time = (_time(fields[key]) if key in fields else None for key in ("time", "exit_time"))
         return Answer(
-            outcome=fields["outcome"], lattice=fields.get("lattice"), atom=fields.get("atom"),
-            cell=tuple(int(n) for n in fields["cell"]) if "cell" in fields else None,
-            time=None if time is None else float(time), time_decimal=fields.get("time_decimal"),
+            outcome, *obstacle, time, time_decimal=fields.get("time_decimal"),
             point=_tuple(fields.get("point")), normal=_tuple(fields.get("normal")),
             impact_parameter=fields.get("impact_parameter"),
-            exit_time=None if exit_time is None else float(exit_time), exit_point=_tuple(fields.get("exit_point")),
-            exit_normal=_tuple(fields.get("exit_normal")), message=fields.get("message"),
+            exit_time=exit_time, exit_point=_tuple(fields.get("exit_point")), exit_normal=_tuple(fields.get("exit_normal")), message=fields.get("message"),
             unsupported=fields.get("reason") == "unsupported")
 
 
@@ -205,6 +207,19 @@ def unsupported(message: str) -> Answer:
 
 def _obstacle(lattice: Any, atom: Any, cell: Any) -> tuple[int, int, tuple[int, ...]]:
     return integer(lattice, "lattice"), integer(atom, "atom"), tuple(integer(n, "cell") for n in items(cell, "cell"))
+
+
+def _read_obstacle(fields: dict[str, Any]) -> tuple[int, int, tuple[int, ...]]:
+    cell = items(fields["cell"], "cell")
+    lattice, atom, *numbers = (int(n) if isinstance(n, str) and re.fullmatch("-?[0-9]+", n) else integer(rational(n), "number")
+                               for n in (fields["lattice"], fields["atom"], *cell))
+    return lattice, atom, tuple(numbers)
+
+
+def _time(value: Any) -> float:
+    if isinstance(value, str) and _HEXADECIMAL.fullmatch(value):
+        return float.fromhex(value)
+    return math.inf if value == "inf" else float(rational(value, "time"))
 
 
 def _tuple(numbers: list[Any] | None) -> tuple[float, ...] | None:

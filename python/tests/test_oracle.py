@@ -67,6 +67,12 @@ def test_detail():
         oracle.first_hit(lorentz.unit_scene(2, "1/3"), [0.5, 0.5], [1, 0], detail=True)
 
 
+def test_lines_are_read_as_the_formats_say():
+    assert lorentz.Answer.from_line(
+        '{"outcome":"hit","lattice":0,"atom":0,"cell":["27",1.0],"time":"0x1p3","exit_time":"inf"}'
+    ) == replace(lorentz.hit(8, (27, 1)), exit_time=math.inf)
+
+
 def test_where_nothing_is():
     scene = lorentz.unit_scene(2, 0.25)
     assert oracle.is_free(scene, [0.5, 0.5]) and not oracle.is_free(scene, [1, 1.1])

@@ -15,7 +15,7 @@ from lorentz import oracle
 
 SQUARE = lorentz.unit_scene(2, 0.1)
 X, V = [0.5, 0.5], [1, 0.3]
-
+HIT = '{"outcome":"hit","lattice":0,"atom":0,"cell":[%s,1],"time":%s}'
 
 
 def square_with_vector(length: str) -> lorentz.Scene:
@@ -33,6 +33,7 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("digits", lambda: oracle.first_hit(SQUARE, X, V, digits=-5)),
     ("max_time", lambda: lorentz.itinerary(SQUARE, X, V, max_time=-7)),
     ("max_time", lambda: lorentz.itinerary(SQUARE, X, V, max_time=0)),
+    ("max_time: inf", lambda: lorentz.itinerary(SQUARE, X, V, max_time=math.inf)),
     ("max_time", lambda: lorentz.itinerary(SQUARE, X, V, max_time=math.nan)),
     ("collisions", lambda: lorentz.itinerary(SQUARE, X, V, collisions=-1)),
     ("most_bits", lambda: lorentz.itinerary(SQUARE, X, V, collisions=1, most_bits=-1)),
@@ -108,6 +109,11 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("answer: None", lambda: oracle.judge_answer(SQUARE, X, V, None)),  # type: ignore[arg-type]
     ("answer: .*KeyError", lambda: lorentz.Answer.from_line("{}")),
     ("answer: ", lambda: lorentz.Answer.from_line("x")),
+    ("answer: .*the outcome 'banana'", lambda: lorentz.Answer.from_line('{"outcome":"banana"}')),
+    ("answer: .*not an integer", lambda: lorentz.Answer.from_line(HIT % ("27.5", "1"))),
+    ("answer: .*not a number", lambda: lorentz.Answer.from_line(HIT % ("27", '"1"'))),
+    ("answer: .*not a finite number", lambda: lorentz.Answer.from_line(HIT % ("27", "NaN"))),
+    ("answer: .*KeyError", lambda: lorentz.Answer.from_line('{"outcome":"hit"}')),
     ("root: -1", lambda: lorentz.oracle.ExactTime(Fraction(1), Fraction(-1))),
     ("digits: 0 ", lambda: lorentz.oracle.ExactTime(Fraction(1), Fraction(1)).decimal(0)),
     ("engine: None", lambda: lorentz.Engine(SQUARE, None)),  # type: ignore[arg-type]
