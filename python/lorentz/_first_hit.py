@@ -31,7 +31,7 @@ class Engine:
             NVIDIA card, and takes arrays in its memory (docs/gpu.md).
         jobs: the threads of ``batch``, ``certified-batch`` and ``gpu``. The answers are the same, to the bit.
 
-    Any number of threads may use an engine; their calls wait for each other.
+    Any number of threads may use an engine.
 
     Raises:
         Error: the engine is unknown, or not all numbers of the scene are floats.
@@ -206,7 +206,7 @@ def _columns(start_from: StartFrom, count: int, scene: Any) -> _Left | None:
     if isinstance(start_from, Answers):
         return _columns_of_answers(start_from)
     if isinstance(start_from, Answer):
-        start_from = [start_from.obstacle] * count
+        start_from = [start_from] * count
     if isinstance(start_from, list):
         start_from = [_left(row) if isinstance(row, Answer) else row for row in start_from]
     try:

@@ -181,6 +181,14 @@ def test_an_obstacle_beyond_64_bits_can_be_left(engine):
     assert one.large_cells == {0: then.large_cells[7], 1: then.large_cells[7]}
 
 
+def test_an_answer_that_is_no_hit_is_not_left():
+    x, v = [[0, 0]] * 2, [[1, 0.3]] * 2
+    within = lorentz.first_hit("square", x, v, 0.1)
+    for engine in ("certified-batch", "oracle"):
+        for left in (within, [*within], within[0]):
+            assert lorentz.first_hit("square", x, v, 0.1, engine=engine, start_from=left).outcome.tolist() == [Outcome.INSIDE] * 2
+
+
 def test_the_first_row_at_fault_is_named():
     x, v = [[1e300, 0.5], [0.5, 0.5]], [[1, 0.25], [0, 0]]
     marked = lorentz.first_hit("square", x, v, engine="classical", on_error="mark")
