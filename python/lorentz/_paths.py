@@ -267,7 +267,8 @@ def itinerary(scene: SceneLike, x: Vector, v: Vector, *, radius: Number | None =
     digits, most_bits = whole(digits, "digits", 1, 100_000), whole(most_bits, "most_bits", 0, 2**40)
     if collisions is not None:
         collisions = whole(collisions, "collisions", 1, 2**31 - 1)
-    time_limit(max_time, "max_time")
+    if time_limit(max_time, "max_time") == math.inf and collisions is not None:
+        max_time = None
     place = Scene(scene, radius)
     start = {"x": x, "v": v} | ({} if start_from is None else {"from": obstacle_dict(start_from, native(place))})
     until = plain(max_time, "max_time")

@@ -161,8 +161,10 @@ def test_starts_beyond_the_range_of_floats():
     assert path.start == (math.inf, 0.445) and path.collisions[0].cell[0] > 10**399
 
 
-def test_limits_of_trajectories_are_floats():
+def test_limits_of_trajectories_are_floats_and_infinity_is_none():
     assert lorentz.trajectories("square", [0.5, 0.45], [1, 0.3], 3, max_time="1/4").count[0] == 0
+    one, other = (lorentz.itinerary("square", [0.5, 0.45], [1, 0.3], collisions=2, max_time=limit) for limit in (None, math.inf))
+    assert one == other and len(one.collisions) == 2
     for limit in ("1/3", 10**400):
         with pytest.raises(lorentz.Error, match="max_time: .* is not a number that a float can be"):
             lorentz.trajectories("square", [0.5, 0.45], [1, 0.3], 3, max_time=limit)
