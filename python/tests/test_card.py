@@ -101,10 +101,13 @@ def test_arrays_in_a_cards_memory(driver):
 
 
 def test_without_a_card_a_sentence_says_so():
-    try:
+    if [*Path("/dev").glob("nvidia[0-9]*")]:
+        pytest.skip("there is a card")
+    with pytest.raises(lorentz.Error, match="certified-batch|clang"):
         lorentz.Engine("square", "gpu")
-    except lorentz.Error as error:
-        assert "certified-batch" in str(error) or "clang" in str(error)
+
+
+def test_other_engines_take_no_arrays_in_a_cards_memory():
     with pytest.raises(lorentz.Error, match="which the engine gpu takes"):
         class There:
             __cuda_array_interface__ = {"shape": (1, 2), "typestr": "<f8", "data": (0, True), "version": 3}
