@@ -104,9 +104,10 @@ class Margin:
     """How hard a question is (docs/verdicts.md).
 
     ``margin``: the least number of ulps that each input must move, to first order, to change the answer; at
-    most 2**20, and None for "never". ``condition``: the ulps of the time that one ulp in each input causes;
-    None without a hit. The hardest decision: its kind ``decision`` is "containing", "meeting" or "order",
-    ``decided`` is its result, and ``obstacle`` is its obstacle.
+    most 2**20. It is None for "never" if a lattice has as many vectors as the scene has dimensions.
+    ``condition``: the ulps of the time that one ulp in each input causes; None without a hit. The hardest
+    decision: its kind ``decision`` is "containing", "meeting" or "order", ``decided`` is its result, and
+    ``obstacle`` is its obstacle.
     """
 
     margin: float | None
