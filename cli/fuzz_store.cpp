@@ -20,7 +20,7 @@ using fuzz::Stored;
 struct ShowOptions {
   std::string store;
   std::optional<std::string> id;
-  bool json = false, all = false;
+  bool json = false;
   CaseFiles files;
 };
 
@@ -31,16 +31,6 @@ std::string campaign_table(const Store& store) {
     const fuzz::CampaignManifest& m = campaign.manifest;
     table.add({std::to_string(campaign.id), m.engine, std::to_string(m.seed), m.version, m.options});
   }
-  return table.text();
-}
-
-std::string finding_table(const std::vector<Stored>& findings) {
-  report::Table table({"finding", "bits", "margin", "cause"});
-  table.with_prose();
-  for (const Stored& one : findings)
-    table.add({one.label(), std::to_string(one.finding.bits),
-               one.finding.text.margin ? fmt::format("{:.2g}", *one.finding.text.margin) : "-",
-               one.finding.cause});
   return table.text();
 }
 
@@ -71,7 +61,7 @@ int list(const Store& store, const ShowOptions& options) {
   if (findings.empty())
     print("no findings\n");
   else
-    print(options.all ? finding_table(findings) : table_of(causes_of(findings)));
+    print(table_of(causes_of(findings)));
   return kDone;
 }
 
@@ -137,7 +127,7 @@ int show(const Store& store, const ShowOptions& options) {
                        : text_of(*options.id, one.finding, manifest_of(store, one).claim));
     return kDone;
   }
-  throw InputError(fmt::format("{}: no finding is called {}; `lorentz fuzz show --all` has the names",
+  throw InputError(fmt::format("{}: no finding is called {}; `lorentz fuzz show --json` has the names",
                                options.store, json_quoted(*options.id)));
 }
 
@@ -156,7 +146,6 @@ Command fuzz_show_command() {
           "finding, shrunk and as it was found.",
           joined({{"--store", &options->store, "FILE", "the store", kRequired},
                   {"ID", &options->id, "TEXT", "one finding: CAMPAIGN/TARGET/INDEX"},
-                  {"--all", &options->all, "", "list every finding"},
                   {"--json", &options->json, "", "one JSON object"}},
                  options->files.rows()),
           "Example:\n  lorentz fuzz show --store published.campaign\n"

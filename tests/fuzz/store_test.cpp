@@ -318,7 +318,7 @@ TEST_CASE("What the answers of a finding say may be wrong in any way", "[fuzz][s
       store.commit();
     }
     INFO(lattice << ' ' << time);
-    CHECK(folder.lorentz("fuzz show --all --store '" + path + "'").status == 0);
+    CHECK(folder.lorentz("fuzz show --store '" + path + "'").status == 0);
     CHECK(folder.lorentz("fuzz show 1/leaving/5.7 --svg " + folder.file("svg") + " --store '" + path + "'")
               .status == 0);
   }
