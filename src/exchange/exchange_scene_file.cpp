@@ -1,6 +1,8 @@
 // Scene files: TOML, or JSON with the same keys.
 #include <toml++/toml.h>
 
+#include <algorithm>
+
 #include <lorentz/exchange.hpp>
 #include "src/exchange/exchange_json.hpp"
 
@@ -24,13 +26,30 @@ SceneNode node_from(const toml::node& node) {
   return {};
 }
 
-// The parser and its tables are recursive, so a key of 100 000 dotted parts would overflow the stack.
-void check_dotted_keys(const std::string& text) {
+// The length, with its quotes, of the string that a text of TOML begins with.
+std::size_t string_length(std::string_view text) {
+  const char quote = text[0];
+  const std::string_view end = text.substr(0, text.starts_with(std::string(3, quote)) ? 3 : 1);
+  std::size_t i = end.size();
+  while (i < text.size() && !text.substr(i).starts_with(end)) i += quote == '"' && text[i] == '\\' ? 2 : 1;
+  i += end.size();
+  while (end.size() == 3 && i < text.size() && text[i] == quote) ++i;  // its last characters may be quotes
+  return i;
+}
+
+// The parser and its tables are recursive, so a key of 100 000 dotted parts would overflow the stack. Dots in
+// strings and comments are none of a key.
+void check_dotted_keys(std::string_view text) {
   int dots = 0;
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
     if (c == '.')
       check_depth(++dots);
-    else if (c == ',' || c == '=' || c == '\n' || c == '[' || c == '{' || c == '#')
+    else if (c == '"' || c == '\'')
+      i += string_length(text.substr(i)) - 1;
+    else if (c == '#')
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    else if (c == ',' || c == '=' || c == '\n' || c == '[' || c == '{')
       dots = 0;
   }
 }

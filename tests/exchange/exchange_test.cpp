@@ -233,14 +233,27 @@ TEST_CASE("Nesting is bounded, in lines and in scene files", "[exchange]") {
   const std::string square =
       R"({"dimension":2,"lattices":[{"vectors":[],"atoms":[{"position":[0,0],"radius":1}]}],"a":)";
   CHECK(read_scene_text(square + objects + "}").dimension == 2);
-  std::string dotted = "a";
-  for (int i = 0; i < 100'000; ++i) dotted += ".a";
-  const std::string path = test::temporary_file();
-  for (const std::string& text : {deep, "{\"a\":" + deep + "}", dotted + " = 1\n"}) {
-    std::ofstream(path) << text;
-    CHECK_THROWS_AS(read_scene_file(path), InputError);
+  CHECK_THROWS_AS(read_scene_text(deep), InputError);
+  CHECK_THROWS_AS(read_scene_text("{\"a\":" + deep + "}"), InputError);
+}
+
+TEST_CASE("Dots nest in keys, but not in strings and comments", "[exchange]") {
+  const std::string scene =
+      "dimension = 2\nlattices = [{vectors = [], atoms = [{position = [0, 0], radius = 1}]}]\n";
+  const std::string dots(100, '.');
+  for (const std::string part : {"a", R"("=")", "'#'", R"("\"[")", R"("")", "' '"}) {
+    std::string key = part;
+    for (int i = 1; i < 60; ++i) key += "." + part;
+    CHECK(read_scene_text(scene + key + " = 1\n").dimension == 2);
+    while (key.size() < 1'000'000) key += "." + key;
+    for (const std::string& text :
+         {key + " = 1", "[" + key + "]", "a = {" + key + " = 1}", R"(a = [""".""""", {)" + key + " = 1}]"})
+      CHECK_THROWS_WITH(read_scene_text(text), Catch::Contains("nested deeper"));
   }
-  std::remove(path.c_str());
+  for (const std::string& odd :
+       {"# " + dots, "a = '" + dots + "'", "a = \"" + dots + "\"", "'" + dots + "' = 1",
+        "a = \"\"\"" + dots + "\n\"" + dots + "\"\"\"", "a = '''" + dots + "'''#" + dots})
+    CHECK(read_scene_text(odd + "\n" + scene).dimension == 2);
 }
 
 TEST_CASE("A key that comes twice makes its line bad, wherever it is", "[exchange]") {
