@@ -41,6 +41,18 @@ namespace lorentz {
   return std::sqrt(dot(a, a));
 }
 
+/// The length of a vector of any size. (std::hypot of other libraries differs in the last bit.)
+[[gnu::always_inline]] inline double length_of_any(const Vec& a) {
+  const double largest = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+  if (!(largest > 0 && std::isfinite(largest))) return largest;
+  return largest * length({a[0] / largest, a[1] / largest, a[2] / largest});
+}
+
+/// a times 2^exponent
+[[gnu::always_inline]] inline Vec times_power_of_two(const Vec& a, int exponent) {
+  return {std::scalbn(a[0], exponent), std::scalbn(a[1], exponent), std::scalbn(a[2], exponent)};
+}
+
 /// The time at which the line x + t v enters the ball of radius r around the origin, from the textbook
 /// quadratic t = -B - sqrt(B^2 - C) with B = x.v / v^2 and C = (x^2 - r^2) / v^2. It may be negative. Nothing
 /// if B^2 < C.
@@ -62,8 +74,7 @@ namespace lorentz {
   for (std::size_t i = 0; i < d; ++i)
     for (const double component : vectors[i]) largest = std::max(largest, std::fabs(component));
   const int exponent = largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
-  for (std::size_t i = 0; i < d; ++i)
-    for (double& component : vectors[i]) component = std::scalbn(component, -exponent);
+  for (std::size_t i = 0; i < d; ++i) vectors[i] = times_power_of_two(vectors[i], -exponent);
   for (std::size_t i = d; i < 3; ++i) vectors[i] = Vec{0, 0, 1};
   std::array<Vec, 3> dual;
   for (std::size_t i = 0; i < 3; ++i) dual[i] = cross(vectors[(i + 1) % 3], vectors[(i + 2) % 3]);

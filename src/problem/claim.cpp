@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <lorentz/geometry.hpp>
+
 namespace lorentz {
 namespace {
 
@@ -13,14 +15,6 @@ constexpr std::array<std::string_view, 5> kRules{"inside", "miss", "zero", "exit
 
 double largest(const Vec& a) {
   return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
-}
-
-// The length, which neither overflows nor underflows.
-double size(const Vec& a) {
-  const double scale = largest(a);
-  if (scale == 0 || !std::isfinite(scale)) return scale;
-  const double x = a[0] / scale, y = a[1] / scale, z = a[2] / scale;
-  return scale * std::sqrt(x * x + y * y + z * z);
 }
 
 void round_each(Vec& vector, NumberFormat precision) {
@@ -35,34 +29,31 @@ bool Domain::has(const Scene& scene) const {
   for_each_atom(scene, [&](const Atom& atom) {
     all &= coordinates.contains(largest(atom.position)) && (atom.is_ball() ? balls : ellipsoids);
     if (atom.is_ball()) all &= radius.contains(atom.radius);
-    for (const Vec& axis : atom.semiaxes) all &= radius.contains(size(axis));
+    for (const Vec& axis : atom.semiaxes) all &= radius.contains(length_of_any(axis));
   });
   return all;
 }
 
 bool Domain::has(const Query& query) const {
-  return speed.contains(size(query.v)) && coordinates.contains(largest(query.x));
+  return speed.contains(length_of_any(query.v)) && coordinates.contains(largest(query.x));
 }
 
 bool Domain::has(const Query& query, const Answer& exact) const {
-  return exact.outcome != Outcome::hit || !exact.time || flight.contains(size(query.v) * *exact.time);
+  return exact.outcome != Outcome::hit || !exact.time ||
+         flight.contains(length_of_any(query.v) * *exact.time);
 }
 
 std::optional<Query> Domain::bring_inside(const Query& query) const {
   if (has(query)) return query;
-  const double length = size(query.v);
+  const double length = length_of_any(query.v);
   if (!coordinates.contains(largest(query.x)) || !(length > 0) || !std::isfinite(length)) return std::nullopt;
   // To the end of the interval on the other side of which it is.
   const double end = length < speed.low ? speed.low : speed.high;
   for (int exponent = std::ilogb(end) - std::ilogb(length) - 1, last = exponent + 2; exponent <= last;
        ++exponent) {
-    Query scaled = query;
-    bool is_exact = true;
-    for (std::size_t i = 0; i < scaled.v.size(); ++i) {
-      scaled.v[i] = std::ldexp(query.v[i], exponent);
-      is_exact &= std::ldexp(scaled.v[i], -exponent) == query.v[i];
-    }
-    if (is_exact && speed.contains(size(scaled.v))) return scaled;
+    const Query scaled{query.x, times_power_of_two(query.v, exponent), query.from};
+    const bool is_exact = times_power_of_two(scaled.v, -exponent) == query.v;
+    if (is_exact && speed.contains(length_of_any(scaled.v))) return scaled;
   }
   return std::nullopt;
 }

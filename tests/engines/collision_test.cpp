@@ -8,6 +8,7 @@
 #include <lorentz/engine.hpp>
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
+#include "src/problem/scene_geometry.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -182,5 +183,34 @@ TEST_CASE("An ellipsoid's normal is the gradient of its quadratic form, by finit
     const double along = dot(arm, query.v) / length(query.v);
     CHECK(detail.impact_parameter ==
           Approx(std::sqrt(std::max(0.0, dot(arm, arm) - along * along))).margin(1e-7));
+  }
+}
+
+TEST_CASE("Collision detail has the same bits at any size and speed", "[engines][collision]") {
+  Draw draw(1305);
+  INFO("seed 1305");
+  for (int i = 0; i < 400; ++i) {
+    const int dimension = draw.one_in(2) ? 2 : 3;
+    std::vector<Vec> axes;
+    for (int k = 0; k < dimension; ++k) axes.push_back(draw.vec(dimension, -1, 1));
+    Scene scene = draw.one_in(2) ? one_ellipsoid(dimension, axes) : unit_scene(dimension, 2);
+    const Vec centre = scene.lattices[0].atoms[0].position = draw.vec(dimension, -1, 1);
+    const Query query{moved(centre, sum(axes[0], axes[1]), 0.4), draw.vec(dimension, -1, 1), {}};
+    const Answer answer = draw.one_in(2) ? Answer::hit({}, 1) : Answer::inside({});
+    const Detail detail = collision_detail(scene, query, answer);
+    for (const auto& [size, speed] : {std::pair(0, 600), {0, -600}, {600, 0}, {-600, 0}, {-600, -700}}) {
+      const Scene other = scaled(scene, size);
+      const Query scaled{times_power_of_two(query.x, size), times_power_of_two(query.v, speed), {}};
+      Answer its = answer;
+      if (its.time) its.time = std::scalbn(*its.time, size - speed);
+      const Detail found = collision_detail(other, scaled, its);
+      INFO(stream(other, scaled));
+      CHECK(found.point == times_power_of_two(detail.point, size));
+      CHECK(found.normal == detail.normal);
+      CHECK(found.exit_point == times_power_of_two(detail.exit_point, size));
+      CHECK(found.exit_normal == detail.exit_normal);
+      CHECK(found.impact_parameter == std::scalbn(detail.impact_parameter, size));
+      CHECK(exit_time(other, scaled, its) == std::scalbn(exit_time(scene, query, answer), size - speed));
+    }
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include <lorentz/engine_base.hpp>
 #include <lorentz/errors.hpp>
 #include <lorentz/geometry.hpp>
 
@@ -26,65 +27,68 @@ Vec divided(const Vec& a, double by) {
   return {a[0] / by, a[1] / by, a[2] / by};
 }
 
-// The gradient of |A^-1 a|^2 / 2 at a, which is A^-T A^-1 a; for a ball, a itself.
-Vec gradient(const Atom& atom, int dimension, const Vec& a) {
-  if (atom.is_ball()) return a;
-  const std::array<Vec, 3> dual = dual_of(semiaxes_of(atom, dimension), dimension);
-  Vec sum{};
-  for (int i = 0; i < dimension; ++i) sum = plus(sum, dot(dual[i], a), dual[i]);
-  return sum;
-}
-
-// The length of a vector of any size. The hypot of standard libraries differs in the last bit; this one is
-// GCC's.
-double length_of_any(const Vec& a) {
-  const double largest = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
-  return largest > 0 ? largest * length(divided(a, largest)) : largest;
-}
-
-// The line of flight and the obstacle that an answer names. `arm`: from its centre to the point of the line where the
-// answer's time is, or to x.
+// The line of flight and the obstacle that an answer names, scaled by powers of two: the obstacle's size and the
+// velocity are near 1, so their squares neither overflow nor underflow. `arm`: from its centre to the point of the line
+// where the answer's time is, or to x.
 class Chord {
  public:
   Chord(const Scene& scene, const Query& query, const Answer& answer)
-      : dimension_(scene.dimension), v_(query.v), start_(answer.outcome == Outcome::hit ? answer.time : 0) {
-    if (!start_ || (answer.outcome != Outcome::hit && answer.outcome != Outcome::inside))
+      : is_at_entry_(answer.outcome == Outcome::hit),
+        start_(is_at_entry_ ? answer.time : 0),
+        velocity_(checked(query, checked(scene)).v) {
+    if (!start_ || (!is_at_entry_ && answer.outcome != Outcome::inside))
       throw InputError("answer: needs a hit with a time, or inside");
-    checked(answer.obstacle, checked(scene));
-    atom_ = &scene.lattices[answer.obstacle.lattice].atoms[answer.obstacle.atom];
-    arm_ = plus(plus(query.x, *start_, v_), -1, centre_of(scene, answer.obstacle));
-    is_at_entry_ = answer.outcome == Outcome::hit;
+    checked(answer.obstacle, scene);
+    const Atom& atom = scene.lattices[answer.obstacle.lattice].atoms[answer.obstacle.atom];
+    std::array<Vec, 3> axes = semiaxes_of(atom, scene.dimension);
+    double size = 0;
+    for (const Vec& axis : axes) size = std::max(size, length_of_any(axis));
+    unit_ = std::ilogb(size);
+    for (Vec& axis : axes) axis = times_power_of_two(axis, -unit_);
+    if (!atom.is_ball()) to_ball_ = dual_of(axes, scene.dimension);
+    size_ = atom.is_ball() ? axes[0][0] * axes[0][0] : 1;
+    const Vec arm = plus(plus(query.x, *start_, query.v), -1, centre_of(scene, answer.obstacle));
+    arm_ = times_power_of_two(arm, -unit_);
   }
 
   // The chord's ends are the roots of q(t) = |A^-1 (arm + t v)|^2 - 1. At an entry one root is 0, and the other follows
   // from their sum; from inside it is found in the form in which nothing cancels.
   double exit_time() const {
-    const Vec slope = gradient(*atom_, dimension_, v_);
-    const double a = dot(v_, slope), b = dot(arm_, slope);
-    if (is_at_entry_) return *start_ - 2 * b / a;
-    const double size = atom_->is_ball() ? atom_->radius * atom_->radius : 1;
-    const double c = dot(arm_, gradient(*atom_, dimension_, arm_)) - size;
+    const Vec slope = gradient(velocity_.scaled);
+    const double a = dot(velocity_.scaled, slope), b = dot(arm_, slope);
+    if (is_at_entry_) return *start_ + std::scalbn(-2 * b / a, unit_ - velocity_.exponent);
+    const double c = dot(arm_, gradient(arm_)) - size_;
     const double root = std::sqrt(b * b - a * c);
-    return b > 0 ? -c / (b + root) : (root - b) / a;
+    return std::scalbn(b > 0 ? -c / (b + root) : (root - b) / a, unit_ - velocity_.exponent);
   }
 
   Vec normal_at(double time) const {
-    const Vec outward = gradient(*atom_, dimension_, plus(arm_, time - *start_, v_));
+    const double after = std::scalbn(time - *start_, velocity_.exponent - unit_);
+    const Vec outward = gradient(plus(arm_, after, velocity_.scaled));
     return divided(outward, length_of_any(outward));
   }
 
   double impact_parameter() const {
-    const Vec direction = divided(v_, length_of_any(v_));
-    return length_of_any(plus(arm_, -dot(arm_, direction), direction));
+    const Vec direction = divided(velocity_.scaled, length_of_any(velocity_.scaled));
+    return std::scalbn(length_of_any(plus(arm_, -dot(arm_, direction), direction)), unit_);
   }
 
  private:
-  const int dimension_;
-  const Vec v_;
+  // That of |A^-1 a|^2 / 2 at a, which is A^-T A^-1 a; for a ball, a itself.
+  Vec gradient(const Vec& a) const {
+    if (!to_ball_) return a;
+    Vec sum{};
+    for (const Vec& row : *to_ball_) sum = plus(sum, dot(row, a), row);
+    return sum;
+  }
+
+  const bool is_at_entry_;
   const std::optional<double> start_;
-  const Atom* atom_ = nullptr;
+  const ScaledVelocity velocity_;
+  int unit_ = 0;  // the exponent of the lengths
+  std::optional<std::array<Vec, 3>> to_ball_;
+  double size_ = 1;
   Vec arm_{};
-  bool is_at_entry_ = false;
 };
 
 }  // namespace
