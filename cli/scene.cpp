@@ -137,8 +137,10 @@ std::string lattice_in_words(const Scene& scene, std::size_t l) {
   std::string out = fmt::format("lattice {}\n", l);
   for (int i = 0; i < lattice.rank_in(d); ++i)
     out += line(fmt::format("  u{}", i + 1), coordinates(lattice.vectors[i], d));
+  const double volume = cell_volume(lattice, d);
   if (lattice.rank >= d)
-    out += line(d == 2 ? "  cell area" : "  cell volume", fmt::format("{:.6g}", cell_volume(lattice, d)));
+    out += line(d == 2 ? "  cell area" : "  cell volume",
+                std::isnormal(volume) ? fmt::format("{:.6g}", volume) : "beyond the range of binary64");
   else
     out += line("  repeats", fmt::format("in {} of {} directions", lattice.rank_in(d), d));
   for (std::size_t a = 0; a < lattice.atoms.size() && a < kAtomsShown; ++a)
@@ -208,9 +210,10 @@ void add_contact(json::Members& object, const oracle::Contact& contact, const Co
 void show_json(const std::string& name, const std::string& file, const Scene& scene,
                const SceneFacts& findings) {
   std::vector<std::optional<double>> volumes;
-  for (const Lattice& lattice : scene.lattices)
-    volumes.push_back(lattice.rank >= scene.dimension ? std::optional(cell_volume(lattice, scene.dimension))
-                                                      : std::nullopt);
+  for (const Lattice& lattice : scene.lattices) {
+    const double volume = cell_volume(lattice, scene.dimension);
+    volumes.push_back(std::isnormal(volume) ? std::optional(volume) : std::nullopt);
+  }
   const std::vector<oracle::Contact>& contacts = findings.contacts.found;
   const std::span first(contacts.data(), std::min(contacts.size(), kContactsShown));
   const auto contact = [&](json::Members& one, const oracle::Contact& c) { add_contact(one, c, scene); };

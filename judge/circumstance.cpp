@@ -87,9 +87,7 @@ void measure_velocity(const Query& query, int dimension, Features& its) {
 
 double largest_coordinate(const Scene& scene, const Query& query) {
   double largest = 0;
-  const auto see = [&](const Vec& a) {
-    for (const double component : a) largest = std::max(largest, std::fabs(component));
-  };
+  const auto see = [&](const Vec& a) { largest = std::max(largest, largest_component(a)); };
   see(query.x);
   for_each_atom(scene, [&](const Atom& atom) { see(atom.position); });
   return largest;
@@ -115,7 +113,7 @@ Features features_of(const Question& question, const std::optional<ObstacleId>& 
   its.other_cell = !is_unit_scene(scene);
   its.outcome = question.exact.outcome;
   its.radius = smallest_radius(scene) / unit;
-  its.start = length(query.x) / unit;
+  its.start = length_of_any(query.x) / unit;
   its.cell = largest_number(question);
   if (in_question || is_one_obstacle(scene)) measure_from(question, in_question.value_or(ObstacleId{}), its);
   if (question.exact.outcome != Outcome::hit) return its;

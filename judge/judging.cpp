@@ -56,7 +56,7 @@ double length_of_flight(const Question& question) {
       scene.lattices, [&](const Lattice& lattice) { return lattice.rank_in(scene.dimension) > 0; });
   if (question.exact.outcome == Outcome::inside || !repeats) return 0;
   if (question.exact.outcome != Outcome::hit) return std::numeric_limits<double>::infinity();
-  return *question.exact.time * length(question.query.v) / shortest_vector(scene);
+  return *question.exact.time * length_of_any(question.query.v) / shortest_vector(scene);
 }
 
 // Asks one question of each row, the one with the shortest flight first: an engine that is slow has then

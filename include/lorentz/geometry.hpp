@@ -41,9 +41,13 @@ namespace lorentz {
   return std::sqrt(dot(a, a));
 }
 
+[[gnu::always_inline]] inline double largest_component(const Vec& a) {
+  return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+}
+
 /// The length of a vector of any size. (std::hypot of other libraries differs in the last bit.)
 [[gnu::always_inline]] inline double length_of_any(const Vec& a) {
-  const double largest = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+  const double largest = largest_component(a);
   if (!(largest > 0 && std::isfinite(largest))) return largest;
   return largest * length({a[0] / largest, a[1] / largest, a[2] / largest});
 }
@@ -71,8 +75,7 @@ namespace lorentz {
 [[gnu::always_inline]] inline std::array<Vec, 3> dual_of(std::array<Vec, 3> vectors, int dimension) {
   const auto d = static_cast<std::size_t>(dimension);
   double largest = 0;
-  for (std::size_t i = 0; i < d; ++i)
-    for (const double component : vectors[i]) largest = std::max(largest, std::fabs(component));
+  for (std::size_t i = 0; i < d; ++i) largest = std::max(largest, largest_component(vectors[i]));
   const int exponent = largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
   for (std::size_t i = 0; i < d; ++i) vectors[i] = times_power_of_two(vectors[i], -exponent);
   for (std::size_t i = d; i < 3; ++i) vectors[i] = Vec{0, 0, 1};

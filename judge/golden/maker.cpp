@@ -248,8 +248,7 @@ std::vector<std::string> tags_seen(const Scene& scene, const Query& query, const
   const auto is = [&](oracle::DecisionKind kind) { return is_hard(decision) && decision->kind == kind; };
   const double unit = shortest_vector(scene);
   const int exponent = exponent_of(query.v);
-  Vec direction = query.v;  // scaled by a power of two: its largest component is from 1 to 2
-  for (double& component : direction) component = std::scalbn(component, -exponent);
+  const Vec direction = times_power_of_two(query.v, -exponent);  // its largest component is from 1 to 2
   const bool has_zero = std::any_of(query.v.begin(), query.v.begin() + scene.dimension,
                                     [](double component) { return component == 0; });
   const std::pair<const char*, bool> all[] = {

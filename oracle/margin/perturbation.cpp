@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <lorentz/errors.hpp>
+#include <lorentz/geometry.hpp>
 #include <lorentz/margin.hpp>
 
 namespace lorentz::oracle {
@@ -12,9 +13,7 @@ InputUlps<D>::InputUlps(const Scene& scene, const Query& query, const ExactQuery
                         NumberFormat of_numbers)
     : precision(of_numbers) {
   double size = 0;
-  const auto see = [&](const Vec& a) {
-    for (const double component : a) size = std::max(size, std::fabs(component));
-  };
+  const auto see = [&](const Vec& a) { size = std::max(size, largest_component(a)); };
   for (const Lattice& lattice : scene.lattices) {
     for (const Vec& u : lattice.vectors) see(u);
     if (lattice.rank >= static_cast<int>(D)) continue;

@@ -20,10 +20,9 @@ bool in_range(const Scene& scene, const cases::Box& box) {
     for (const double component : box.vectors[i]) size += box.cells[i] * std::fabs(component);
   for (const double component : box.corner) size += std::fabs(component);
   for_each_atom(scene, [&](const Atom& atom) {
-    for (const double component : atom.position) largest = std::max(largest, std::fabs(component));
-    largest = std::max(largest, atom.radius);
-    for (const Vec& axis : atom.semiaxes)
-      for (const double component : axis) largest = std::max(largest, std::fabs(component));
+    largest = std::max(largest, largest_component(atom.position));
+    for (const Vec& axis : semiaxes_of(atom, scene.dimension))
+      largest = std::max(largest, largest_component(axis));
   });
   return size + largest < 0x1p1000;
 }

@@ -97,7 +97,9 @@ void thin_out(std::vector<Placed>& obstacles, const Vec& centre, std::vector<std
 
 double cell_size(const Scene& scene) {
   const Scene whole = with_cells(scene);
-  return std::pow(cell_volume(whole.lattices[0], whole.dimension), 1.0 / whole.dimension);
+  const double volume = cell_volume(whole.lattices[0], whole.dimension);
+  if (!std::isnormal(volume)) throw InputError("this is too large, or too fine, to be drawn");
+  return std::pow(volume, 1.0 / whole.dimension);
 }
 
 Vec cell_at(const Scene& scene, const std::array<Vec, 3>& u, const Vec& point, double cells) {

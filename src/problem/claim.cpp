@@ -13,10 +13,6 @@ namespace {
 // In the order of StartInside.
 constexpr std::array<std::string_view, 5> kRules{"inside", "miss", "zero", "exit", "unsupported"};
 
-double largest(const Vec& a) {
-  return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
-}
-
 void round_each(Vec& vector, NumberFormat precision) {
   for (double& component : vector) component = rounded(component, precision);
 }
@@ -27,7 +23,7 @@ bool Domain::has(const Scene& scene) const {
   if (!(scene.dimension == 2 ? dimension_2 : dimension_3)) return false;
   bool all = true;
   for_each_atom(scene, [&](const Atom& atom) {
-    all &= coordinates.contains(largest(atom.position)) && (atom.is_ball() ? balls : ellipsoids);
+    all &= coordinates.contains(largest_component(atom.position)) && (atom.is_ball() ? balls : ellipsoids);
     if (atom.is_ball()) all &= radius.contains(atom.radius);
     for (const Vec& axis : atom.semiaxes) all &= radius.contains(length_of_any(axis));
   });
@@ -35,7 +31,7 @@ bool Domain::has(const Scene& scene) const {
 }
 
 bool Domain::has(const Query& query) const {
-  return speed.contains(length_of_any(query.v)) && coordinates.contains(largest(query.x));
+  return speed.contains(length_of_any(query.v)) && coordinates.contains(largest_component(query.x));
 }
 
 bool Domain::has(const Query& query, const Answer& exact) const {
@@ -46,7 +42,8 @@ bool Domain::has(const Query& query, const Answer& exact) const {
 std::optional<Query> Domain::bring_inside(const Query& query) const {
   if (has(query)) return query;
   const double length = length_of_any(query.v);
-  if (!coordinates.contains(largest(query.x)) || !(length > 0) || !std::isfinite(length)) return std::nullopt;
+  if (!coordinates.contains(largest_component(query.x)) || !(length > 0) || !std::isfinite(length))
+    return std::nullopt;
   // To the end of the interval on the other side of which it is.
   const double end = length < speed.low ? speed.low : speed.high;
   for (int exponent = std::ilogb(end) - std::ilogb(length) - 1, last = exponent + 2; exponent <= last;

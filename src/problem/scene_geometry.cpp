@@ -16,6 +16,11 @@ using std::numbers::pi;
 // then the singular values.
 std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension) {
   std::array<Vec, 3> a = semiaxes_of(atom, dimension);
+  double size = 0;
+  for (const Vec& column : a) size = std::max(size, largest_component(column));
+  int exponent = 0;
+  std::frexp(size, &exponent);
+  for (Vec& column : a) column = times_power_of_two(column, -exponent);
   constexpr int kSweeps = 60;
   bool turned = true;
   for (int sweep = 0; sweep < kSweeps && turned; ++sweep) {
@@ -36,7 +41,8 @@ std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension) {
       }
   }
   std::array<double, 3> lengths{};
-  for (int i = 0; i < dimension; ++i) lengths[i] = std::hypot(a[i][0], a[i][1], a[i][2]);
+  for (int i = 0; i < dimension; ++i)
+    lengths[i] = std::scalbn(std::hypot(a[i][0], a[i][1], a[i][2]), exponent);
   std::sort(lengths.rbegin(), lengths.rend());
   return lengths;
 }
@@ -45,7 +51,7 @@ double shortest_vector(const Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const Lattice& lattice : scene.lattices)
     for (int i = 0; i < lattice.rank_in(scene.dimension); ++i)
-      shortest = std::min(shortest, length(lattice.vectors[i]));
+      shortest = std::min(shortest, length_of_any(lattice.vectors[i]));
   return shortest;
 }
 
@@ -132,20 +138,14 @@ namespace {
 // cell's volume may be outside the range of binary64.
 int size_exponent(const Lattice& lattice, int dimension) {
   int sum = 0;
-  for (int i = 0; i < dimension; ++i) {
-    double largest = 0;
-    for (const double component : lattice.vectors[i]) largest = std::max(largest, std::fabs(component));
-    sum += std::ilogb(largest);
-  }
+  for (int i = 0; i < dimension; ++i) sum += std::ilogb(largest_component(lattice.vectors[i]));
   return sum / dimension;
 }
 
 }  // namespace
 
 Scene scaled(Scene scene, int exponent) {
-  const auto scale = [exponent](Vec& a) {
-    for (double& component : a) component = std::scalbn(component, exponent);
-  };
+  const auto scale = [exponent](Vec& a) { a = times_power_of_two(a, exponent); };
   for (Lattice& lattice : scene.lattices)
     for (Vec& u : lattice.vectors) scale(u);
   for_each_atom(scene, [&](Atom& atom) {

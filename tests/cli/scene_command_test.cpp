@@ -290,6 +290,16 @@ TEST_CASE("horizon and scene show: a search that is too long is refused before i
   CHECK(contains(left_out.out, " directions to look along would take long; see `lorentz horizon"));
 }
 
+TEST_CASE("scene: cells beyond binary64 are told, and not drawn", "[cli][scene_command]") {
+  const Folder folder;
+  const auto tiny = folder.write("tiny.toml",
+                                 "dimension = 2\nlattices = [{vectors = [[1e-180, 0], [0, 1e-180]], atoms = "
+                                 "[{position = [0, 0], radius = 3e-181}]}]\n");
+  CHECK(contains(folder.lorentz("scene show " + tiny).out, "cell area    beyond the range of binary64"));
+  CHECK(contains(folder.lorentz("scene show --json " + tiny).out, "\"cell_volumes\":[null]"));
+  CHECK(folder.lorentz("scene draw " + tiny).status == 2);
+}
+
 TEST_CASE("horizon: a search of seconds is seen on a terminal, and nowhere else", "[cli][scene_command]") {
   const Folder folder;
   const std::string search = "horizon square --radius 0.02";

@@ -115,14 +115,20 @@ TEST_CASE("Filling and mean free path: the square and the cubic gas, motifs, sup
 TEST_CASE("Filling does not depend on the unit of length, up to the ends of binary64",
           "[problem][scene_geometry]") {
   for (const int exponent : {-1000, -530, 530, 1000}) {
-    Scene scene = unit_scene(2, 0.125);
-    for (Vec& u : scene.lattices[0].vectors)
-      for (double& component : u) component = std::scalbn(component, exponent);
-    scene.lattices[0].atoms[0].radius = std::scalbn(0.125, exponent);
-    const auto filling = filling_of(scene);
+    const auto filling = filling_of(scaled(unit_scene(2, 0.125), exponent));
     REQUIRE(filling.has_value());
     CHECK(filling->fraction == filling_of(unit_scene(2, 0.125))->fraction);
     CHECK(filling->mean_free_path == std::scalbn(filling_of(unit_scene(2, 0.125))->mean_free_path, exponent));
+  }
+  Scene oblique = unit_scene(3, 1);
+  oblique.lattices[0].vectors[0] = {0.3, 0.1, 0.2};
+  oblique.lattices[0].atoms[0] = with_axes({{0.3, 0, 0}, {0.3, 0.003, 0}, {0.1, 0.2, 0.1}});
+  for (const int exponent : {-1000, -600, 600, 1000}) {
+    const Scene other = scaled(oblique, exponent);
+    const auto axes = principal_semiaxes(oblique.lattices[0].atoms[0], 3);
+    for (int i = 0; i < 3; ++i)
+      CHECK(principal_semiaxes(other.lattices[0].atoms[0], 3)[i] == std::scalbn(axes[i], exponent));
+    CHECK(shortest_vector(other) == std::scalbn(shortest_vector(oblique), exponent));
   }
   Scene needle = unit_scene(3, 1);
   needle.lattices[0].atoms[0] = {{}, 0, {Vec{0.1, 0, 0}, Vec{0, 1e-170, 0}, Vec{0, 0, 1e-170}}};
