@@ -66,6 +66,14 @@ Outcome read_outcome(std::string_view name) {
                    " is not one of hit, never, inside, later, undecided, error");
 }
 
+// A text; an empty one for null.
+std::string_view read_text(json::Value value, std::string_view key) {
+  if (value.type() == json::Type::string) return value.text();
+  if (value.type() != json::Type::null) throw InputError(std::string(key) + ": needs a text");
+  skip(value);
+  return {};
+}
+
 struct AnswerFields {
   bool outcome = false, golden = false;
   ObstacleRead obstacle;
@@ -82,16 +90,16 @@ void read_answer_field(std::string_view key, json::Value value, Id& id, Answer& 
   if (key == "id") {
     id = read_id(value);
   } else if (key == "outcome") {
-    answer.outcome = read_outcome(value.text());
+    answer.outcome = read_outcome(read_text(value, key));
     has.outcome = true;
   } else if (key == "time") {
     answer.time = read_number_or_infinity(value, "time");
   } else if (key == "exit_time") {
     answer.exit_time = read_number_or_infinity(value, "exit_time");
   } else if (key == "message") {
-    answer.message = value.text();
+    answer.message = read_text(value, key);
   } else if (key == "reason") {
-    answer.unsupported = value.text() == "unsupported";
+    answer.unsupported = read_text(value, key) == "unsupported";
   } else if (!has.obstacle.read(key, value)) {
     has.golden |= key == "golden";
     skip(value);

@@ -374,6 +374,13 @@ TEST_CASE("A bad answer line is refused, not guessed at", "[exchange]") {
     INFO(text);
     CHECK_THROWS_AS(reader.read_answer_line(Padded(text).line(), id, answer, components), InputError);
   }
+  for (const char* text :
+       {R"({"outcome":5})", R"({"outcome":"never","message":[]})", R"({"outcome":"error","reason":1})"})
+    CHECK_THROWS_WITH(reader.read_answer_line(Padded(text).line(), id, answer, components),
+                      Catch::Contains(": needs a text"));
+  const Padded nulls(R"({"outcome":"error","message":null,"reason":null})");
+  CHECK(reader.read_answer_line(nulls.line(), id, answer, components));
+  CHECK((answer.message.empty() && !answer.unsupported));
   CHECK_FALSE(reader.read_answer_line(Padded("{\"golden\":{}}").line(), id, answer, components));
 }
 
