@@ -1,8 +1,10 @@
 #include <lorentz/rational.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <string>
@@ -38,42 +40,53 @@ std::optional<Rational> quotient(std::string_view text, bool negative) {
   return fraction_of(std::string(numerator), std::string(denominator), negative);
 }
 
+// Takes the exponent from the end: 0 if there is none, nothing if it is no integer, or beyond 10^4.
+std::optional<int> take_exponent(std::string_view& text, const char* marks) {
+  constexpr int kMostExponent = 10'000;
+  const auto mark = text.find_first_of(marks);
+  if (mark == std::string_view::npos) return 0;
+  std::string_view power = text.substr(mark + 1);
+  const bool below = take_sign(power);
+  if (!all_digits(power)) return std::nullopt;
+  int exponent = 0;
+  const auto status = std::from_chars(power.data(), power.data() + power.size(), exponent).ec;
+  if (status != std::errc{} || exponent > kMostExponent) return std::nullopt;
+  text = text.substr(0, mark);
+  return below ? -exponent : exponent;
+}
+
+// Takes the first point out; returns how many digits follow it.
+int take_point(std::string& digits) {
+  const auto point = digits.find('.');
+  if (point == std::string::npos) return 0;
+  digits.erase(point, 1);
+  return static_cast<int>(digits.size() - point);
+}
+
 // Digits, at most one point among them, and perhaps an exponent.
 std::optional<Rational> decimal(std::string_view text, bool negative) {
-  constexpr int kMostExponent = 10'000;
-  int exponent = 0;
-  if (const auto mark = text.find_first_of("eE"); mark != std::string_view::npos) {
-    std::string_view power = text.substr(mark + 1);
-    const bool below = take_sign(power);
-    if (!all_digits(power)) return std::nullopt;
-    const auto end = power.data() + power.size();
-    if (std::from_chars(power.data(), end, exponent).ec != std::errc{} || exponent > kMostExponent)
-      return std::nullopt;
-    if (below) exponent = -exponent;
-    text = text.substr(0, mark);
-  }
-  std::string digits(text);
-  if (const auto point = digits.find('.'); point != std::string::npos) {
-    exponent -= static_cast<int>(digits.size() - point - 1);
-    digits.erase(point, 1);
-  }
-  if (!all_digits(digits)) return std::nullopt;
-  std::string denominator = "1";
+  const auto power = take_exponent(text, "eE");
+  std::string digits(text), denominator = "1";
+  const int after = take_point(digits);
+  if (!power || !all_digits(digits)) return std::nullopt;
+  const int exponent = *power - after;
   (exponent < 0 ? denominator : digits).append(static_cast<std::size_t>(std::abs(exponent)), '0');
   return fraction_of(std::move(digits), std::move(denominator), negative);
 }
 
-// Rejects numbers with so many digits that a binary64 might have to round them.
+// Rejects what is no binary64, exactly.
 std::optional<Rational> hexadecimal(std::string_view text, bool negative) {
-  const auto digits = static_cast<std::size_t>(std::count_if(
-      text.begin(), std::find_if(text.begin(), text.end(), [](char c) { return c == 'p' || c == 'P'; }),
-      [](char c) { return c != '.'; }));
-  double value = 0;
-  const auto end = text.data() + text.size();
-  const auto [after, status] = std::from_chars(text.data(), end, value, std::chars_format::hex);
-  constexpr std::size_t kExactDigits = 13;  // 52 bits
-  if (status != std::errc{} || after != end || !std::isfinite(value) || digits > kExactDigits + 1)
-    return std::nullopt;
+  const auto power = take_exponent(text, "pP");
+  std::string digits(text);
+  const int after = take_point(digits);
+  std::uint64_t whole = 0;
+  const auto end = digits.data() + digits.size();
+  const auto [read, status] = std::from_chars(digits.data(), end, whole, 16);
+  const bool is_long = std::countl_zero(whole) + std::countr_zero(whole) < 64 - 53;
+  if (!power || status != std::errc{} || read != end || is_long) return std::nullopt;
+  const int exponent = *power - 4 * after;
+  const double scaled = static_cast<double>(whole), value = std::scalbn(scaled, exponent);
+  if (!std::isfinite(value) || std::scalbn(value, -exponent) != scaled) return std::nullopt;
   return negative ? -value : value;
 }
 

@@ -2,6 +2,7 @@
 #include <lorentz/rational.hpp>
 
 #include <catch2/catch.hpp>
+#include <limits>
 #include <string>
 
 using namespace lorentz;
@@ -33,15 +34,18 @@ TEST_CASE("Rational numbers from texts") {
   CHECK(told("123456789012345678901234567890/3") == "123456789012345678901234567890/3");
   CHECK(told("0x1.8p-1") == "double 0.750000");
   CHECK(told("-0x1p+3") == "double -8.000000");
-  for (const char* mark : {"p", "P"}) {  // what follows it is not a digit of the fraction
-    CHECK(told(std::string("0x1.8000000000000") + mark + "-1") == "double 0.750000");
-    CHECK(told(std::string("0x1.80000000000000") + mark + "-1") == "none");
-  }
+  for (const char* mark : {"p", "P"})  // what follows it is not a digit of the fraction
+    CHECK(told(std::string("0x1.80000000000000") + mark + "-1") == "double 0.750000");
+  CHECK(std::get<double>(*rational_from("0xF.FFFFFFFFFFFF8p1020")) == std::numeric_limits<double>::max());
+  CHECK(std::get<double>(*rational_from("0x.4p-1072")) == 0x1p-1074);
   for (const char* text :
        {"",   "-",     "1/0",  "1/", "/3",     "1/-3", "1//3", "1/3/5",   "a",   "1e",
         "e5", "1.2.3", "1 /3", "0x", "0x1.8p", "inf",  "nan",  "1e99999", "--1", "0x1.00000000000001p0",
         "."})
     CHECK(told(text) == "none");
+  for (const std::string text :
+       {".", "g", "1.8.0", "-1p-2", "1p1024", "3p-1075", "3fffffffffffffp-55", "1.0000000000001p-1060"})
+    CHECK((told("0x" + text) == "none" && told("-0x" + text) == "none"));
 }
 
 TEST_CASE("Numbers with a square root from texts") {
