@@ -28,8 +28,6 @@ struct LineFields {
 
   /// Reads the value of a key that the line may have, or passes over it.
   void read(std::string_view key, json::Value value, Id& id, const OnUnknownKey& on_unknown_key);
-  /// Tells of what a scene's line holds besides, and is passed over.
-  void report_beside_scene(const OnUnknownKey&) const {}
 };
 
 /// Why a line is not JSON, with what its writer may have meant.
@@ -94,13 +92,15 @@ struct ExchangeReader::Impl {
   void read_fields(const LineReader::Line& line, const AScene* scene, Item& item) {
     Fields fields;
     std::string flaw;  // the first; reading goes on, because the id may follow
+    bool has_query = false;
     read_members(line, item.id, flaw, [&](std::string_view key, json::Value value) {
       item.bad_scene |= key == "scene";
+      has_query |= key == "x" || key == "v" || key == "from" || key == "max_time" || key == "direction";
       fields.read(key, value, item.id, on_unknown_key);
     });
     if (!flaw.empty()) throw InputError(flaw);
     if (fields.scene) {
-      if (on_unknown_key) fields.report_beside_scene(on_unknown_key);
+      if (on_unknown_key && has_query) on_unknown_key("a query in the line of a scene");
       item.scene = scene_from<AScene>(*fields.scene, on_unknown_key);
       item.bad_scene = false;
       item.kind = StreamItem::Kind::scene;

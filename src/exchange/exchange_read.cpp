@@ -24,10 +24,6 @@ struct QueryFields : LineFields {
       LineFields::read(key, value, id, on_unknown_key);
   }
 
-  void report_beside_scene(const OnUnknownKey& on_unknown_key) const {
-    if (x || v || from) on_unknown_key("a query in the line of a scene");
-  }
-
   void set(StreamItem& item, const Scene& scene) {
     if (!x) throw InputError("x is missing");
     if (!v) throw InputError("v is missing");

@@ -120,7 +120,8 @@ AnAtom atom_from(const SceneNode& node, int dimension, const std::string& place)
   return atom;
 }
 
-// Reports the members of an object, or of each object of an array, that are not known.
+}  // namespace
+
 void check_keys(const SceneNode& node, const std::string& place,
                 std::initializer_list<std::string_view> known, const OnUnknownKey& on_unknown_key) {
   if (const auto* array = std::get_if<SceneNode::Array>(&node.value))
@@ -129,6 +130,8 @@ void check_keys(const SceneNode& node, const std::string& place,
     for (const auto& [key, value] : *object)
       if (std::find(known.begin(), known.end(), key) == known.end()) on_unknown_key(place + key);
 }
+
+namespace {
 
 void check_scene_keys(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
   check_keys(node, "", {"dimension", "lattices"}, on_unknown_key);

@@ -33,6 +33,10 @@ struct SceneNode::Member {
 template <class AScene>
 AScene scene_from(const SceneNode& node, const OnUnknownKey& on_unknown_key);
 
+/// Reports the members of an object, or of each object of an array, that are not known.
+void check_keys(const SceneNode& node, const std::string& place,
+                std::initializer_list<std::string_view> known, const OnUnknownKey& on_unknown_key);
+
 /// A number, exactly: a binary64, or a text that rational_from accepts. Throws InputError, naming `place`.
 Rational rational_at(const SceneNode& node, const std::string& place);
 

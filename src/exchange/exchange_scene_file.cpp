@@ -64,7 +64,7 @@ SceneNode parse_toml(const std::string& text) {
   }
 }
 
-SceneNode parse_json(const std::string& text) {
+SceneNode parse_json(const std::string& text, const OnUnknownKey& on_unknown_key) {
   json::Document document;
   try {
     document.open(text);
@@ -75,6 +75,7 @@ SceneNode parse_json(const std::string& text) {
     SceneNode node = read_node(document.value(), "scene", 0);
     if (!document.ended()) throw NotJson("more than one value");
     const SceneNode* inner = node.member("scene");
+    if (inner && on_unknown_key) check_keys(node, "", {"scene", "id"}, on_unknown_key);
     return inner ? SceneNode(*inner) : node;
   } catch (const NotJson& error) {
     const auto line = document.line();
@@ -98,7 +99,8 @@ template <class AScene>
 AScene read_text(const std::string& text, const OnUnknownKey& on_unknown_key) {
   const auto first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos) throw InputError("is empty: a scene needs dimension and lattices");
-  return scene_from<AScene>(text[first] == '{' ? parse_json(text) : parse_toml(text), on_unknown_key);
+  return scene_from<AScene>(text[first] == '{' ? parse_json(text, on_unknown_key) : parse_toml(text),
+                            on_unknown_key);
 }
 
 template <class AScene>

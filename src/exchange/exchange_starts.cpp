@@ -51,6 +51,8 @@ struct StartFields : LineFields {
       direction = read_node(value, "direction");
     else
       LineFields::read(key, value, id, on_unknown_key);
+    if (on_unknown_key && key == "direction")
+      check_keys(*direction, "direction.", {"degrees", "slope"}, on_unknown_key);
   }
 
   void set(StartItem& item, const RationalScene& scene) const {

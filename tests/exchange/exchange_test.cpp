@@ -419,6 +419,17 @@ TEST_CASE("Unknown keys: their place is told, and an objection makes the line ba
              R"("atoms":[{"position":[0,0],"radius":0.25,"colour":"red"}]}]}})") ==
         Keys{"name", "lattices.basis", "lattices.atoms.colour"});
   CHECK(item.kind == StreamItem::Kind::scene);
+  const std::string scene =
+      R"("scene":{"dimension":2,"lattices":[{"vectors":[],"atoms":[{"position":[0,0],"radius":1}]}]})";
+  CHECK(read("{" + scene + R"(,"max_time":1})") == Keys{"a query in the line of a scene"});
+  read_scene_text("{" + scene + R"(,"id":1,"radius":0.4})",
+                  [&](const std::string& key) { told.push_back(key); });
+  StartItem start;
+  reader.read_start_line(Padded("{" + scene + R"(,"x":[0,3],"v":[1,0]})").line(), nullptr, start);
+  reader.read_start_line(Padded(R"({"x":[0,3],"direction":{"degrees":36,"foo":1}})").line(), &start.scene,
+                         start);
+  CHECK(told ==
+        Keys{"a query in the line of a scene", "radius", "a query in the line of a scene", "direction.foo"});
   // What golden records, golden itineraries and files of disagreements have besides is known.
   CHECK(
       read(R"({"id":1,"tags":[],"x":[0.5,0],"v":[1,0],"expect":{"outcome":"never"},"margin":1,"condition":2,)"
