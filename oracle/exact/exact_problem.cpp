@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <lorentz/geometry.hpp>
 #include "oracle/exact/short_basis.hpp"
 
 namespace lorentz::oracle {
@@ -110,8 +111,7 @@ CommonExponent common_exponent(const Scene& scene, double other) {
     for (const Vec& u : lattice.vectors) see(u);
     for (const Atom& atom : lattice.atoms) {
       see(atom.position);
-      common.see(atom.radius);
-      for (const Vec& axis : atom.semiaxes) see(axis);
+      for (const Vec& axis : semiaxes_of(atom, scene.dimension)) see(axis);
     }
   }
   return common;

@@ -18,8 +18,8 @@ InputUlps<D>::InputUlps(const Scene& scene, const Query& query, const ExactQuery
     for (const Vec& u : lattice.vectors) see(u);
     if (lattice.rank >= static_cast<int>(D)) continue;
     for (const Atom& atom : lattice.atoms) {
-      see(atom.position), size = std::max(size, atom.radius);
-      for (const Vec& axis : atom.semiaxes) see(axis);
+      see(atom.position);
+      for (const Vec& axis : semiaxes_of(atom, scene.dimension)) see(axis);
     }
   }
   for (std::size_t i = 0; i < D; ++i) {

@@ -49,7 +49,7 @@ std::optional<std::string> flaw_of(const Scene& scene) {
     const std::string where = "lattice " + std::to_string(l);
     if (lattice.rank < 0 || lattice.rank > 3)
       return where + ": needs from 0 to " + std::to_string(scene.dimension) + " primitive vectors";
-    for (int i = 0; i < scene.dimension; ++i) {
+    for (int i = 0; i < 3; ++i) {
       if (!all_finite(lattice.vectors[i])) return where + ": a primitive vector is not finite";
       if (i >= lattice.rank_in(scene.dimension) && lattice.vectors[i] != Vec{})
         return where + ": has more primitive vectors than it says";

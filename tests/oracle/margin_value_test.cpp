@@ -106,6 +106,11 @@ TEST_CASE("Margins: an ellipse counts in its own coordinates, its size by a fact
   scene.lattices[0].atoms[0] = {{0, 0, 0}, 0, {Vec{0.5, 0, 0}, Vec{0, 0.125, 0}}};
   CHECK(hardest(scene, {{-0.5, 0.125 - 0x1p-45}, {1, 0}, {ObstacleId{0, 0, {-1, 0, 0}}}}).margin ==
         about(0x1p-42 / (0x1p-49 + 0x1p-52)));
+  scene.lattices[0].rank = 0, scene.lattices[0].vectors = {};
+  const Query query{{-1, 0.125 - 0x1p-45}, {1, 0}, {}};
+  const double margin = hardest(scene, query).margin;
+  scene.lattices[0].atoms[0].radius = 1e6;  // an ellipse has none
+  CHECK(hardest(scene, query).margin == margin);
 }
 
 TEST_CASE(

@@ -60,6 +60,7 @@ std::vector<BadScene> flawed() {
       with("primitive vectors", [](Scene& s) { s.lattices[0].rank = -1; }),
       with("primitive vectors", [](Scene& s) { s.lattices[0].rank = 4; }),
       with("more primitive vectors than it says", [](Scene& s) { s.lattices[0].rank = 1; }),
+      with("more primitive vectors than it says", [](Scene& s) { s.lattices[0].vectors[2][0] = 1e6; }),
       with("position is not finite", [](Scene& s) { s.lattices[0].atoms[0].position[0] = kNaN; }),
       with("as many semiaxes",
            [](Scene& s) {
