@@ -1,6 +1,7 @@
 // A libcuda.so.1 without a card: the functions of the driver's interface that the program calls, and the
 // kernels compiled for the processor. What comes before and after a kernel is tested with it, and the
-// kernels' sources are. FAKE_CARD: "none" has no card; "wrong" one whose results have a bit that is another.
+// kernels' sources are. FAKE_CARD: "none" has no card; "wrong" one whose results have a bit that is another; "broken"
+// one that fails from the first kernel on.
 // It is as late as a card may be: a kernel runs when it is waited for, or when memory is copied. New memory is
 // dirty.
 #include <cstdint>
@@ -69,6 +70,7 @@ struct Launch {
 
 std::mutex mutex;
 std::vector<Launch> waiting;
+bool is_broken = false;
 
 int finish() {
   const std::lock_guard lock(mutex);
@@ -104,7 +106,7 @@ int cuDevicePrimaryCtxRetain(void** context, int) {
   return *context = nullptr, kGood;
 }
 int cuCtxSetCurrent(void*) {
-  return kGood;
+  return is_broken ? kBad : kGood;
 }
 int cuCtxSynchronize() {
   return finish();
@@ -146,6 +148,7 @@ int cuLaunchKernel(void* function, unsigned blocks, unsigned, unsigned, unsigned
                    unsigned, void*, void** arguments, void**) {
   const auto argument = [&](int i) { return *static_cast<std::uint64_t*>(arguments[i]); };
   const auto* const kernel = static_cast<Kernel*>(function);
+  if (is("broken")) return is_broken = true, kBad;
   const std::lock_guard lock(mutex);
   waiting.push_back(
       {kernel, std::uint64_t{blocks} * threads, {argument(0), kernel->drawn ? argument(1) : 0}});

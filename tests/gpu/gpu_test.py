@@ -62,6 +62,11 @@ class Refusals(unittest.TestCase):
         for words in (FLIGHTS, FIRST_HIT):
             self.refused(run(words, card="none"), "finds no graphics card.*certified-batch")
 
+    @unittest.skipUnless(TEXTS, "this build has no kernels")
+    def test_with_a_card_that_fails(self):
+        for words in (FLIGHTS, FIRST_HIT):
+            self.refused(run(words, card="broken"), "driver: cuLaunchKernel: FAKE_ERROR", status=3)
+
     @unittest.skipIf(TEXTS, "this build has kernels")
     def test_without_kernels(self):
         for words in (FLIGHTS, FIRST_HIT):

@@ -122,8 +122,7 @@ Memory::Memory(const Card& card, std::size_t size) : card_(card) {
 }
 
 Memory::~Memory() {
-  card_.enter();
-  card_.driver_->cuMemFree_v2(address_);
+  if (card_.driver_->cuCtxSetCurrent(card_.context_) == 0) card_.driver_->cuMemFree_v2(address_);
 }
 
 void Memory::clear(std::size_t size) {
