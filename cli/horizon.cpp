@@ -20,8 +20,7 @@ int run_horizon(const HorizonOptions& options) {
   try {
     const oracle::Horizon horizon =
         oracle::horizon_of(scene, options.min_width.value_or(0), true, search_progress());
-    print(options.json ? report::json_of(horizon, options.scene, options.min_width.has_value())
-                       : report::text_of(horizon, options.min_width.has_value()));
+    print(options.json ? report::json_of(horizon, options.scene) : report::text_of(horizon));
   } catch (const oracle::TooManyChannels& error) {
     throw InputError(fmt::format("{}: {}; --min-width W restricts the search to channels {}", options.scene,
                                  error.what(), options.min_width ? "wider than that" : "at least W wide"));

@@ -76,7 +76,7 @@ std::string horizon_verdict(const Scene& scene) {
     const oracle::Horizon horizon = oracle::horizon_of(scene, 0, false, short_search());
     const bool all = scene.dimension == 2 || horizon.is_infinite();  // otherwise cylinders matter
     std::string verdict =
-        report::verdict_of(all ? horizon : oracle::horizon_of(scene, 0, true, short_search()), false);
+        report::verdict_of(all ? horizon : oracle::horizon_of(scene, 0, true, short_search()));
     const std::string word = " horizon";  // the row's name already has it
     if (const auto at = verdict.find(word); at != std::string::npos) verdict.erase(at, word.size());
     return verdict;

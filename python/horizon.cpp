@@ -12,7 +12,7 @@ std::pair<std::string, std::string> horizon(const PyScene& scene, double min_wid
   const py::gil_scoped_release release;
   try {
     const oracle::Horizon found = oracle::horizon_of(scene.scene(), min_width, cylinders);
-    return {report::json_of(found, "", min_width > 0), report::verdict_of(found, min_width > 0)};
+    return {report::json_of(found, ""), report::verdict_of(found)};
   } catch (const oracle::TooManyChannels& error) {
     throw InputError(std::string(error.what()) + "; min_width restricts the search to wide channels");
   }

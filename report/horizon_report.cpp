@@ -19,10 +19,10 @@ std::string counted(std::size_t count, const char* what) {
 
 }  // namespace
 
-std::string verdict_of(const oracle::Horizon& h, bool limited) {
-  if (h.is_finite() && !limited) return "finite horizon: every path ends";
+std::string verdict_of(const oracle::Horizon& h) {
+  if (h.is_finite()) return "finite horizon: every path ends";
   if (!h.is_infinite())
-    return limited && h.is_finite() ? "no channel is so wide" : "no open channel found, but not all is known";
+    return h.is_decided() ? "no channel is so wide" : "no open channel found, but not all is known";
   std::vector<std::string> parts;
   if (!h.channels.empty())
     parts.push_back(h.dimension == 2 ? counted(h.normals, "corridor direction")
@@ -107,8 +107,8 @@ std::string families_text(const oracle::Horizon& h) {
   return out + rest_of(h.families.size());
 }
 
-std::string tail_text(const oracle::Horizon& h, bool limited) {
-  if (h.is_finite() && !limited) return "tail: none, the free path is bounded\n";
+std::string tail_text(const oracle::Horizon& h) {
+  if (h.is_finite()) return "tail: none, the free path is bounded\n";
   if (!h.tail_constant) return fmt::format("tail constant: not given ({})\n", h.no_tail_constant);
   if (h.channels.empty())
     return "tail: P(free path > t) falls faster than 1/t, for no planar channel is open\n";
@@ -117,8 +117,8 @@ std::string tail_text(const oracle::Horizon& h, bool limited) {
 
 }  // namespace
 
-std::string text_of(const oracle::Horizon& h, bool limited) {
-  std::string out = verdict_of(h, limited) + "\n";
+std::string text_of(const oracle::Horizon& h) {
+  std::string out = verdict_of(h) + "\n";
   bool outside = false;
   for (const oracle::Channel& c : first_of(h.channels)) outside |= !c.inside;
   for (const oracle::Cylinder& c : first_of(h.cylinders)) outside |= !c.inside;
@@ -129,7 +129,7 @@ std::string text_of(const oracle::Horizon& h, bool limited) {
   if (!h.undecided.empty())
     out += fmt::format("\nundecided: {}, three lattices or more with long common periods\n",
                        counted(h.undecided.size(), h.dimension == 2 ? "direction" : "normal"));
-  out += "\n" + tail_text(h, limited);
+  out += "\n" + tail_text(h);
   if (!h.no_cylinders.empty()) out += "cylinders: undecided (" + h.no_cylinders + ")\n";
   return out;
 }
@@ -166,14 +166,14 @@ void add_cylinders(json::Members& object, const oracle::Horizon& h) {
 
 }  // namespace
 
-std::string json_of(const oracle::Horizon& h, const std::string& scene, bool limited) {
+std::string json_of(const oracle::Horizon& h, const std::string& scene) {
   const int d = h.dimension;
-  const bool is_finite = h.is_finite() && !limited;
   const auto channel = [d](json::Members& one, const oracle::Channel& c) { add_channel(one, c, d); };
   const auto undecided = [d](std::string& out, const auto& i) { json::append(out, components(i, d)); };
   return json::line_of([&](json::Members& object) {
     object.add("scene", scene, "dimension", d, "horizon",
-               h.is_infinite() ? "infinite" : (is_finite ? "finite" : "undecided"), "directions", h.normals);
+               h.is_infinite() ? "infinite" : (h.is_finite() ? "finite" : "undecided"), "directions",
+               h.normals);
     object.add("channels", json::objects(h.channels, channel, kOwnLine), "undecided",
                json::array(h.undecided, undecided, kOwnLine));
     if (d == 3) object.add("cylinders", [&](json::Members& cylinders) { add_cylinders(cylinders, h); });

@@ -8,13 +8,13 @@
 
 namespace lorentz::report {
 
-/// Finite, infinite with the number of directions, or not known. `limited`: narrow channels were left out.
-std::string verdict_of(const oracle::Horizon& horizon, bool limited);
+/// Finite, infinite with the number of directions, or not known.
+std::string verdict_of(const oracle::Horizon& horizon);
 
 /// The whole report for people, with at most 20 rows in a table.
-std::string text_of(const oracle::Horizon& horizon, bool limited);
+std::string text_of(const oracle::Horizon& horizon);
 
 /// The whole report as one JSON object, for a scene of this name.
-std::string json_of(const oracle::Horizon& horizon, const std::string& scene, bool limited);
+std::string json_of(const oracle::Horizon& horizon, const std::string& scene);
 
 }  // namespace lorentz::report

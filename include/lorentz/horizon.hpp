@@ -53,6 +53,7 @@ struct CylinderFamily {
 /// All ways through a scene that are free for ever.
 struct Horizon {
   int dimension = 0;
+  double min_width = 0;  ///< narrower corridors and planar channels were left out
 
   std::vector<Channel> channels;  ///< the widest first
   std::size_t normals = 0;        ///< number of different directions (3D: normals) among the channels
@@ -72,6 +73,8 @@ struct Horizon {
 
   /// True if some path is known to be infinite, whatever is undecided.
   bool is_infinite() const;
+  /// True if nothing is left undecided of channels at least `min_width` wide.
+  bool is_decided() const;
   /// True if it is known that no path is infinite.
   bool is_finite() const;
 };

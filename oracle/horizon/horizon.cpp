@@ -151,6 +151,7 @@ Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders,
   if (!slabs.refusal.empty()) throw TooManyChannels(slabs.refusal);
   Horizon horizon;
   horizon.dimension = scene.dimension;
+  horizon.min_width = min_width;
   std::set<ZVec<D>> normals;
   for (const Slab<D>& slab : slabs.open) {
     normals.insert(slab.normal);
@@ -188,8 +189,12 @@ bool Horizon::is_infinite() const {
   return !channels.empty() || !cylinders.empty() || std::any_of(families.begin(), families.end(), infinite);
 }
 
+bool Horizon::is_decided() const {
+  return undecided.empty() && families.empty() && no_cylinders.empty();
+}
+
 bool Horizon::is_finite() const {
-  return !is_infinite() && undecided.empty() && families.empty() && no_cylinders.empty();
+  return min_width == 0 && !is_infinite() && is_decided();
 }
 
 Horizon horizon_of(const Scene& scene, double min_width, bool with_cylinders,

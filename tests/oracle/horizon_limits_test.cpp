@@ -29,6 +29,7 @@ TEST_CASE("Horizon: what it leaves out is said, and nothing hangs", "[oracle][ho
   for (const auto& channel : wide.channels) CHECK(channel.width >= 0.25);
   CHECK_FALSE(wide.no_cylinders.empty());
   for (const int d : {2, 3}) CHECK(horizon_of(unit_scene(d, 1e6)).is_finite());
+  CHECK_FALSE(horizon_of(unit_scene(2, 0.1), 5).is_finite());  // of narrow channels nothing is said
 
   // A least width equal to a channel's keeps it.
   CHECK(horizon_of(unit_scene(2, 0.25), 0.5).channels.size() == 2);
