@@ -35,17 +35,18 @@ bool Domain::has(const Query& query) const {
 }
 
 bool Domain::has(const Query& query, const Answer& exact) const {
-  return exact.outcome != Outcome::hit || !exact.time ||
-         flight.contains(length_of_any(query.v) * *exact.time);
+  if (exact.outcome != Outcome::hit || !exact.time) return true;
+  return flight.contains(*exact.time == 0 ? 0 : length_of_any(query.v) * *exact.time);  // |v| may be infinite
 }
 
 std::optional<Query> Domain::bring_inside(const Query& query) const {
   if (has(query)) return query;
   const double length = length_of_any(query.v);
-  if (!coordinates.contains(largest_component(query.x)) || !(length > 0) || !std::isfinite(length))
-    return std::nullopt;
-  // To the end of the interval on the other side of which it is.
+  // The end of the interval on the other side of which it is.
   const double end = length < speed.low ? speed.low : speed.high;
+  const auto is_size = [](double number) { return number > 0 && std::isfinite(number); };
+  if (!coordinates.contains(largest_component(query.x)) || !is_size(length) || !is_size(end))
+    return std::nullopt;
   for (int exponent = std::ilogb(end) - std::ilogb(length) - 1, last = exponent + 2; exponent <= last;
        ++exponent) {
     const Query scaled{query.x, times_power_of_two(query.v, exponent), query.from};

@@ -96,8 +96,16 @@ TEST_CASE("A flight at another speed is brought into the domain, exactly or not 
   CHECK(speed({0x1p1000, 0x1p-1000, 0}) == Vec{});  // the small one would vanish
   domain.speed = {1, 1.5};
   CHECK(speed({7, 0, 0}) == Vec{});  // no power of two helps
+  domain.speed = {0, 0};
+  CHECK(speed({7, 0, 0}) == Vec{});
   domain.coordinates = {0, 1};
   CHECK_FALSE(domain.bring_inside({{2, 0, 0}, {1, 0, 0}, {}}));
+}
+
+TEST_CASE("A hit at once is a flight of 0, at any speed", "[compare][introduction]") {
+  const Query query{{-0.25, 0, 0}, {1.5e308, 1.5e308, 0}, {}};
+  CHECK(Domain{}.has(query, Answer::hit({}, 0)));
+  CHECK_FALSE(Domain{.flight = {1, 2}}.has(query, Answer::hit({}, 0)));
 }
 
 TEST_CASE("The time of an engine's own calls is read", "[compare][introduction]") {
