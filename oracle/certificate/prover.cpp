@@ -172,14 +172,11 @@ class Writer {
 
 struct Prover::Impl {
   Scene given;
-  std::variant<ExactScene<2>, ExactScene<3>> scene;
+  AnyExactScene scene;
 };
 
-Prover::Prover(const Scene& scene) {
-  using Exact = std::variant<ExactScene<2>, ExactScene<3>>;
-  impl_ = std::make_unique<const Impl>(
-      Impl{scene, scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))});
-}
+Prover::Prover(const Scene& scene)
+    : impl_(std::make_unique<const Impl>(Impl{scene, any_exact_scene(scene)})) {}
 
 Prover::Prover(Prover&&) noexcept = default;
 Prover& Prover::operator=(Prover&&) noexcept = default;

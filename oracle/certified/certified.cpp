@@ -32,11 +32,10 @@ bool Certified::answer_fast(const Query& query, const Request& request, Answer& 
     return true;
   }
   std::array<WideInteger, 3> cell{};
-  Flight flight = fast_->fly(query, max_time, Reduction::Time::rounded, &cell);
+  const Flight flight = fast_->fly(query, max_time, Reduction::Time::rounded, &cell);
   if (flight.outcome == Outcome::undecided) return false;
   if (flight.outcome == Outcome::inside && request.start != StartInside::inside) return false;
   if (flight.outcome == Outcome::hit && !flight.time_is_rounded) return false;
-  if (max_time < HUGE_VAL && flight.outcome == Outcome::never) flight.outcome = Outcome::later;
   set_answer(flight, cell, answer);
   if (tally) tally->count(flight.stage);
   return true;

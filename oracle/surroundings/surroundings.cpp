@@ -111,7 +111,7 @@ class SightLine {
 
 struct Surroundings::Impl {
   Scene given;
-  std::variant<ExactScene<2>, ExactScene<3>> scene;
+  AnyExactScene scene;
 
   template <class Work>
   auto with(const Query& query, const std::initializer_list<PlaceOnLine>& places, const Work& work) const {
@@ -126,11 +126,8 @@ struct Surroundings::Impl {
   }
 };
 
-Surroundings::Surroundings(const Scene& scene) {
-  using Exact = std::variant<ExactScene<2>, ExactScene<3>>;
-  impl_ = std::make_unique<const Impl>(
-      Impl{scene, scene.dimension == 2 ? Exact(ExactScene<2>(scene)) : Exact(ExactScene<3>(scene))});
-}
+Surroundings::Surroundings(const Scene& scene)
+    : impl_(std::make_unique<const Impl>(Impl{scene, any_exact_scene(scene)})) {}
 Surroundings::Surroundings(Surroundings&&) noexcept = default;
 Surroundings& Surroundings::operator=(Surroundings&&) noexcept = default;
 Surroundings::~Surroundings() = default;

@@ -31,7 +31,7 @@ void append_obstacle_cells(std::string& out, const AnswerRows& answers, std::siz
 void append_time(std::string& out, double time) {
   if (std::isnan(time)) return;
   if (std::isinf(time))
-    out += "inf";
+    out += time > 0 ? "inf" : "-inf";
   else
     append_number(out, time);
 }

@@ -9,16 +9,6 @@
 #include "src/problem/safe_text.hpp"
 
 namespace lorentz {
-namespace {
-
-void append_escape(std::string& out, char32_t code) {
-  constexpr char kHex[] = "0123456789abcdef";
-  out += "\\u";
-  for (int shift = 12; shift >= 0; shift -= 4) out += kHex[code >> shift & 15];
-}
-
-}  // namespace
-
 std::string json_quoted(std::string_view text) {
   const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; };
   const auto plain = std::find_if_not(text.begin(), text.end(), is_plain) - text.begin();  // usually all
@@ -29,7 +19,7 @@ std::string json_quoted(std::string_view text) {
     const Character c = first_character(text);
     if (c.code == '"' || c.code == '\\') out += '\\';
     if (c.acts)
-      append_escape(out, c.code);
+      append_escape(out, c.code, 4);
     else if (c.is_text)
       out += text.substr(0, c.bytes);
     else

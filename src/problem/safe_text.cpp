@@ -5,7 +5,6 @@
 namespace lorentz {
 namespace {
 
-constexpr char kHex[] = "0123456789abcdef";
 constexpr char32_t kNoText = 0xfffd;
 
 unsigned byte(std::string_view text, std::size_t i) {
@@ -38,6 +37,11 @@ Character first_character(std::string_view text) {
   return {code, bytes, acts(code)};
 }
 
+void append_escape(std::string& out, char32_t code, int digits) {
+  out += digits == 2 ? "\\x" : "\\u";
+  for (int shift = 4 * digits; (shift -= 4) >= 0;) out += "0123456789abcdef"[code >> shift & 15];
+}
+
 std::string printable(std::string_view text, Lines lines) {
   std::string out;
   while (!text.empty()) {
@@ -48,8 +52,7 @@ std::string printable(std::string_view text, Lines lines) {
     } else if (!c.acts || is_kept) {
       out += text.substr(0, c.bytes);
     } else {
-      out += c.code < 0x100 ? "\\x" : "\\u";
-      for (int shift = c.code < 0x100 ? 4 : 12; shift >= 0; shift -= 4) out += kHex[c.code >> shift & 15];
+      append_escape(out, c.code, c.code < 0x100 ? 2 : 4);
     }
     text.remove_prefix(c.bytes);
   }

@@ -11,6 +11,9 @@ namespace lorentz {
 /// direction, the byte order mark, and the two code points that XML excludes.
 bool acts(char32_t code);
 
+/// Appends \\x, or \\u, and two or four hexadecimal digits.
+void append_escape(std::string& out, char32_t code, int digits);
+
 /// The first character of a text.
 struct Character {
   char32_t code = 0;      ///< U+FFFD if the bytes are not UTF-8

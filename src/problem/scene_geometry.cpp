@@ -84,7 +84,9 @@ double volume_of(const Atom& atom, int dimension) {
   return dimension == 2 ? pi * a * b : 4 * pi / 3 * a * b * c;
 }
 
-// Carlson's duplication (1995): each step brings the three arguments closer to each other by a factor of 4,
+namespace {
+
+// Carlson's symmetric elliptic integrals, for x, y >= 0 (at most one of them zero), z > 0. His duplication (1995): each step brings the three arguments closer to each other by a factor of 4,
 // until a few terms of a series give the rest to 1e-16.
 double carlson_rf(double x, double y, double z) {
   for (;;) {
@@ -118,6 +120,8 @@ double carlson_rd(double x, double y, double z) {
     x = (x + shift) / 4, y = (y + shift) / 4, z = (z + shift) / 4;
   }
 }
+
+}  // namespace
 
 // An ellipse has the perimeter 4 a E(e). An ellipsoid has the surface 4 pi RG(a^2 b^2, a^2 c^2, b^2 c^2)
 // (DLMF 19.33.1). In 2 RG = z RF - (x - z)(y - z) RD / 3 + sqrt(x y / z) (19.21.10) every term is positive if

@@ -39,10 +39,6 @@ double cell_volume(const Lattice& lattice, int dimension);
 double volume_of(const Atom& atom, int dimension);
 double surface_of(const Atom& atom, int dimension);
 
-/// Carlson's symmetric elliptic integrals, for x, y >= 0 (at most one of them zero), z > 0.
-double carlson_rf(double x, double y, double z);
-double carlson_rd(double x, double y, double z);
-
 /// For each atom, lattice by lattice: the fraction of space that its obstacles fill, if there are no
 /// overlaps, and their surface per volume, times `unit`. `unit` is a power of two of about the size of the
 /// first lattice's cell.

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <system_error>
-#include <thread>
 
 #include <lorentz/errors.hpp>
 
 #include "src/engines/batch/stretch.hpp"
+#include "src/problem/threads.hpp"
 
 namespace lorentz {
 namespace {
@@ -171,12 +170,8 @@ std::size_t Batch::fly(const QueryColumns& queries, const FlightColumns& flights
     }
   };
   {
-    std::vector<std::jthread> others;
-    try {
-      for (std::size_t job = 1; job < std::min<std::size_t>(std::max(jobs, 1), pieces); ++job)
-        others.emplace_back(work);
-    } catch (const std::system_error&) {  // those that could be started do it all
-    }
+    const auto others =
+        threads_of(std::min<std::size_t>(std::max(jobs, 1), std::max<std::size_t>(pieces, 1)) - 1, work);
     work();
   }
   return left;
