@@ -12,6 +12,7 @@
 #include <lorentz/certified_batch.hpp>
 #include <lorentz/collision.hpp>
 #include <lorentz/errors.hpp>
+#include <lorentz/geometry.hpp>
 #include "fuzz/families/family.hpp"
 #include "question/cases/random.hpp"
 #include "tests/engines/reduction_support.hpp"
@@ -302,10 +303,6 @@ TEST_CASE("Far out among ellipses a batch times hits as one flight does", "[engi
 
 TEST_CASE("What a batch cannot name or time is left to single flights: far cells, ends of the range",
           "[engines][batch]") {
-  const auto scaled = [](Vec a, int exponent) {
-    for (double& component : a) component = std::ldexp(component, exponent);
-    return a;
-  };
   for (const std::string& instructions : Batch::instruction_sets()) {
     Compared compared;
     const auto fly = [&](const Scene& scene, const QueryTable& table) {
@@ -350,12 +347,13 @@ TEST_CASE("What a batch cannot name or time is left to single flights: far cells
         Scene scene = unit_scene(dimension, std::ldexp(0.25, length));
         scene.lattices[0].atoms[0].position[0] = scene.lattices[0].atoms[0].radius;  // 0 is on its surface
         for (int k = 0; k < dimension; ++k)
-          scene.lattices[0].vectors[k] = scaled(scene.lattices[0].vectors[k], length);
+          scene.lattices[0].vectors[k] = times_power_of_two(scene.lattices[0].vectors[k], length);
         QueryTable table;
         for (int speed = -480; speed <= 480; speed += 40)
           for (int k = 1; k <= 200; ++k)
-            table.push_back(
-                {scaled({-1.1 * std::ldexp(1, -k), 0, 0}, length), scaled({1.3, 0, 0}, speed), {}});
+            table.push_back({times_power_of_two({-1.1 * std::ldexp(1, -k), 0, 0}, length),
+                             times_power_of_two({1.3, 0, 0}, speed),
+                             {}});
         fly(scene, table);
       }
     INFO(instructions << ": " << compared.first);

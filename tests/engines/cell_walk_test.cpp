@@ -6,6 +6,7 @@
 #include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
 #include "src/engines/classical/classical.hpp"
+#include "src/problem/scene_geometry.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -228,18 +229,10 @@ TEST_CASE("Classical far from the origin, in other units, with other speeds", "[
     // The start's digits within the cell are all kept.
     if (given.time) CHECK(*given.time == Approx(*exact.time).epsilon(0).margin(1e-11 * (1 + *exact.time)));
     const int length = 200 - static_cast<int>(draw.below(400));
-    for (Lattice& lattice : scene.lattices) {
-      for (Vec& vector : lattice.vectors)
-        for (double& component : vector) component = std::ldexp(component, length);
-      for (Atom& atom : lattice.atoms) {
-        atom.radius = std::ldexp(atom.radius, length);
-        for (double& component : atom.position) component = std::ldexp(component, length);
-      }
-    }
-    for (double& component : query.x) component = std::ldexp(component, length);
-    Answer scaled = CellWalk(scene).first_hit(query);
-    if (scaled.time) scaled.time = std::ldexp(*scaled.time, -length);
-    CHECK(same(scaled, given));
+    query.x = times_power_of_two(query.x, length);
+    Answer other = CellWalk(scaled(scene, length)).first_hit(query);
+    if (other.time) other.time = std::ldexp(*other.time, -length);
+    CHECK(same(other, given));
   }
 }
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 
+#include <lorentz/geometry.hpp>
 #include <lorentz/oracle.hpp>
+#include "src/problem/scene_geometry.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -114,25 +116,13 @@ TEST_CASE("Scaling lengths and velocities by powers of two scales the time, exac
     const int length = static_cast<int>(draw.below(1800)) - 900,
               speed = static_cast<int>(draw.below(1800)) - 900;
     if (std::abs(length - speed) > 900) continue;
-    const auto scale = [](Vec a, int e) {
-      for (double& component : a) component = std::ldexp(component, e);
-      return a;
-    };
-    Scene large = scene;
-    for (Lattice& lattice : large.lattices) {
-      for (Vec& u : lattice.vectors) u = scale(u, length);
-      for (Atom& atom : lattice.atoms) {
-        atom.position = scale(atom.position, length);
-        atom.radius = std::ldexp(atom.radius, length);
-      }
-    }
-    const Answer scaled =
-        oracle::Oracle(large).first_hit({scale(query.x, length), scale(query.v, speed), query.from});
+    const Query large{times_power_of_two(query.x, length), times_power_of_two(query.v, speed), query.from};
+    const Answer other = oracle::Oracle(scaled(scene, length)).first_hit(large);
     INFO(stream(scene, query) << "lengths 2^" << length << ", velocities 2^" << speed);
-    REQUIRE(scaled.outcome == answer.outcome);
-    if (answer.outcome == Outcome::hit) REQUIRE(scaled.time == std::ldexp(*answer.time, length - speed));
+    REQUIRE(other.outcome == answer.outcome);
+    if (answer.outcome == Outcome::hit) REQUIRE(other.time == std::ldexp(*answer.time, length - speed));
     if (answer.outcome == Outcome::hit || answer.outcome == Outcome::inside)
-      REQUIRE(scaled.obstacle == answer.obstacle);
+      REQUIRE(other.obstacle == answer.obstacle);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include <lorentz/oracle.hpp>
 #include "oracle/exact/root_sums.hpp"
+#include "src/problem/scene_geometry.hpp"
 #include "tests/oracle/horizon_support.hpp"
 #include "tests/support/support.hpp"
 
@@ -41,14 +42,9 @@ Outcome outcome_along(const oracle::Oracle& oracle, const Vec& x, const Vec& v) 
 
 TEST_CASE("Horizon: the tail constant is a length, up to the ends of binary64", "[oracle][horizon]") {
   for (const int dimension : {2, 3})
-    for (const int exponent : {-500, 500}) {
-      Scene scene = unit_scene(dimension, 0.3);
-      for (Vec& u : scene.lattices[0].vectors)
-        for (double& component : u) component = std::scalbn(component, exponent);
-      scene.lattices[0].atoms[0].radius = std::scalbn(0.3, exponent);
-      CHECK(horizon_of(scene, 0, false).tail_constant ==
+    for (const int exponent : {-500, 500})
+      CHECK(horizon_of(scaled(unit_scene(dimension, 0.3), exponent), 0, false).tail_constant ==
             std::scalbn(*horizon_of(unit_scene(dimension, 0.3), 0, false).tail_constant, exponent));
-    }
 }
 
 TEST_CASE("Horizon: square and cubic lattices by their closed forms", "[oracle][horizon]") {
