@@ -25,7 +25,6 @@ namespace fs = std::filesystem;
 struct MakeOptions {
   std::optional<std::string> set, folder, precision, queries, scene;
   std::optional<double> radius;
-  std::vector<std::string> tags;
   std::optional<std::uint64_t> count;
   std::string output = "-";
   std::uint64_t seed = starts::kDefaultSeed, jobs = 1;
@@ -47,31 +46,6 @@ const golden::Set& set_of(const MakeOptions& options) {
     throw InputError(
         fmt::format("--precision: the set {} is of {} only", set->name, name_of(set->precision)));
   return *set;
-}
-
-// Parses "name" or "name=the sentence that explains it".
-std::pair<std::string, std::string> tag_in(const std::string& text) {
-  const std::size_t end = text.find('=');
-  const std::string name = text.substr(0, end);
-  if (!is_set_name(name))
-    throw InputError("--tag: " + json_quoted(name) +
-                     " is not a tag; expected small letters, digits and hyphens, and perhaps =SENTENCE");
-  if (end + 1 == text.size()) throw InputError("--tag: " + name + "= lacks its sentence");
-  return {name, end == text.npos ? "given by --tag" : text.substr(end + 1)};
-}
-
-// The tags, each once. The tags that the program gives itself are refused.
-std::vector<std::pair<std::string, std::string>> tags_in(const std::vector<std::string>& texts) {
-  std::vector<std::pair<std::string, std::string>> tags;
-  for (const std::string& text : texts) {
-    const auto tag = tag_in(text);
-    const bool is_there =
-        std::ranges::any_of(tags, [&](const auto& other) { return other.first == tag.first; });
-    if (is_there || is_given_by_program(tag.first))
-      throw InputError("--tag: " + tag.first + " is a tag already; name another");
-    tags.push_back(tag);
-  }
-  return tags;
 }
 
 // The name of a set of given queries: that of its file, if it can be one.
@@ -178,12 +152,10 @@ int make_one(golden::Order order, const MakeOptions& options) {
   return kDone;
 }
 
-// The questions with the tags of the options, which the header gets, too. `had_bad_input`: some were invalid, or
-// their numbers do not have the header's precision.
+// `had_bad_input`: some were invalid, or their numbers do not have the header's precision.
 golden::GivenQuestions given_questions(const MakeOptions& options, golden::Header header,
                                        bool& had_bad_input) {
   const NumberFormat precision = header.precision;
-  header.tags = tags_in(options.tags);
   std::optional<Scene> first;
   if (options.scene) first = load_scene(*options.scene, options.radius);
   if (options.radius && !options.scene)
@@ -205,7 +177,6 @@ std::string generator_of(const MakeOptions& options) {
   std::string text = "lorentz golden make --queries " + shell_quoted(*options.queries);
   if (options.scene) text += " --scene " + shell_quoted(*options.scene);
   if (options.radius) text += fmt::format(" --radius {}", *options.radius);
-  for (const std::string& tag : options.tags) text += " --tag " + shell_quoted(tag);
   if (options.precision) text += " --precision " + *options.precision;
   return text +
          (options.output == "-" ? "" : " -o " + shell_quoted(fs::path(options.output).filename().string()));
@@ -237,8 +208,8 @@ void check(const MakeOptions& options) {
   if (options.queries && options.count) throw InputError("--count: not with --queries, which are all taken");
   if (options.queries && options.seed != starts::kDefaultSeed)
     throw InputError("--seed: not with --queries, which are not drawn");
-  if (!options.queries && (options.scene || options.radius || !options.tags.empty()))
-    throw InputError("--scene, --radius and --tag: need --queries");
+  if (!options.queries && (options.scene || options.radius))
+    throw InputError("--scene and --radius: need --queries");
 }
 
 int run_golden_make(const MakeOptions& options) {
@@ -266,7 +237,6 @@ Command golden_make_command() {
           {"--scene", &options->scene, "SCENE",
            "scene before the first scene line, and of columns: a file, or a name of the catalogue"},
           {"--radius", Positive{&options->radius}, "R", "radius of every ball of --scene"},
-          {"--tag", &options->tags, "TAG[=SENTENCE]", "tag of each record of --queries", kOneAtATime},
           {"--precision", &options->precision, "binary64|binary32",
            "format of the numbers of scenes and queries: cases are hard in its ulps, which margins and "
            "conditions count (default: binary64)"},
@@ -284,8 +254,7 @@ Command golden_make_command() {
       "Every record was agreed by two oracles: walk, where it can go, and the checked certificate.\n"
       "Example:\n  lorentz golden make --set near-rational --count 1e3 --jobs 2 -o near-rational.ndjson\n"
       "  lorentz golden make --set grazing --precision binary32 -o grazing-binary32.ndjson\n"
-      "  lorentz sample --scene square --kind grazing --count 100 | lorentz golden make --queries - "
-      "--tag mine",
+      "  lorentz sample --scene square --kind grazing --count 100 | lorentz golden make --queries -",
       [options] { return run_golden_make(*options); }};
 }
 

@@ -16,12 +16,12 @@ bool is_set_name(const std::string& text) {
   return !text.empty() && std::ranges::all_of(text, is_allowed);
 }
 
+namespace {
+
 bool is_given_by_program(const std::string& tag) {
   return tag == golden::kNeedsJudge ||
          std::ranges::any_of(golden::seen_tags(), [&](const auto& seen) { return seen.first == tag; });
 }
-
-namespace {
 
 // The tags in the key `tags` of a query's line, except those that the program gives itself. Throws
 // InputError.

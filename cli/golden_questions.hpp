@@ -11,8 +11,6 @@ namespace lorentz::cli {
 
 /// Whether a name of a set or of a tag is valid: small letters, digits and hyphens.
 bool is_set_name(const std::string& text);
-/// Whether the program itself gives records this tag.
-bool is_given_by_program(const std::string& tag);
 
 /// All queries, each once, with the header's tags; also the invalid ones, if they are JSON. Queries with
 /// numbers that do not have the header's precision are reported and left out (`others` counts them).

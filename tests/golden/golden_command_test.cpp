@@ -67,8 +67,7 @@ TEST_CASE("golden make: to a file and to standard output, with one thread and se
   const std::string given = folder.write("given", R"({"id":1,"x":[0.5,0.5],"v":[1,0.25]})"
                                                   "\n");
   const std::string make = "cd " + folder.file("") + " && " LORENTZ_PROGRAM " ",
-                    line = "golden make --queries " + given +
-                           " --scene square --radius 0.3 --tag mine=mine -o mine.ndjson";
+                    line = "golden make --queries " + given + " --scene square --radius 0.3 -o mine.ndjson";
   CHECK(folder.run(make + line).status == 0);
   const std::string mine = folder.read("mine.ndjson"), its = between(mine, "\"generator\":\"lorentz ", "\"");
   CHECK(its == line);

@@ -38,7 +38,7 @@ TEST_CASE("golden make: tags of each query, but those that the program gives its
   const std::string scene = stream(unit_scene(2, 0.1), {{0.5, 0.3, 0}, {1, 0.3, 0}, {}});
   const std::string first = scene.substr(0, scene.find('\n') + 1);
   const auto made = [&](const std::string& lines) {
-    return folder.lorentz("golden make --tag mine --queries " + folder.write("queries", first + lines));
+    return folder.lorentz("golden make --queries " + folder.write("queries", first + lines));
   };
   const Run run = made(R"({"x":[0.5,0.3],"v":[1,0.3],"tags":["alpha","grazing","needs-judge","mine"]}
 {"tags":["beta","alpha"],"x":[0.5,0.4],"v":[1,0.3]}
@@ -49,9 +49,8 @@ TEST_CASE("golden make: tags of each query, but those that the program gives its
                        R"("],"v":[0,0],"tags":["gamma"]}
 )");
   CHECK(run.status == 2);  // an invalid query
-  for (const char* tags :
-       {R"("tags":["mine","alpha","late","plain"])", R"("tags":["mine","beta","alpha","plain"])",
-        R"("tags":["mine","plain"])", R"("tags":["mine","gamma","invalid"])"})
+  for (const char* tags : {R"("tags":["alpha","mine","late","plain"])", R"("tags":["beta","alpha","plain"])",
+                           R"("tags":["plain"])", R"("tags":["gamma","invalid"])"})
     CHECK_THAT(run.out, Catch::Contains(tags));
   CHECK_THAT(run.out, Catch::Contains(R"("beta":"given by the key tags of a query")"));
   CHECK_THAT(run.err, Catch::Contains("1 questions come more than once"));
