@@ -54,10 +54,12 @@ std::string set_name_for(const std::string& output) {
   return output != "-" && is_set_name(stem) ? stem : "queries";
 }
 
-// Says which set was made. `origin`: for example " (seed 5)".
-void report(const std::string& name, const golden::RecordCounts& counts, const std::string& origin = "") {
-  say("{}: {} records{}: {} hit, {} inside, {} never, {} error", name, counts.records, origin, counts.hits,
-      counts.insides, counts.nevers, counts.errors);
+// Says which set was made, and from which seed.
+void report(const std::string& name, const golden::RecordCounts& counts,
+            std::optional<std::uint64_t> seed = {}) {
+  say("{}: {} records{}: {} hit, {} inside, {} never, {} error", name, counts.records,
+      seed ? fmt::format(" (seed {})", *seed) : "", counts.hits, counts.insides, counts.nevers,
+      counts.errors);
   if (const std::uint64_t answered = counts.records - counts.errors; answered > 0)
     say("{}: all {} answers agreed by their checked certificates, {} of them by walk, too", name, answered,
         counts.walked);
@@ -67,25 +69,24 @@ void report(const std::string& name, const golden::RecordCounts& counts, const s
   say_unproved(counts);
 }
 
-std::string name_of(const golden::Order& order) {
-  return golden::header_of(order).name;
-}
-
-std::string seed_of(const golden::Order& order) {
-  return fmt::format(" (seed {})", order.seed);
-}
-
-golden::RecordCounts make_file(const golden::Order& order, const std::string& path) {
-  std::error_code error;
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
-    throw FileError(path + ": is not a regular file; name another, or use standard output");
-  refuse_other_kinds(path, OutputKind::golden_set);
-  WholeFile file(path);
-  Progress progress(name_of(order), order.count, 1);
-  const golden::RecordCounts counts = golden::produce(
-      order, [&](std::string_view text) { file.write(text); },
-      [&](std::uint64_t done) { progress.at(done); });
-  file.commit();
+golden::RecordCounts make(const golden::Order& order, const std::string& output) {
+  std::optional<WholeFile> file;
+  if (output != "-") {
+    std::error_code error;
+    if (fs::exists(output, error) && !fs::is_regular_file(output, error))
+      throw FileError(output + ": is not a regular file; name another, or use standard output");
+    refuse_other_kinds(output, OutputKind::golden_set);
+    file.emplace(output);
+  }
+  const auto write = [&](std::string_view text) {
+    if (file) return file->write(text);
+    print_data(text);
+    if (std::ferror(stdout)) finish_output();
+  };
+  Progress progress(golden::header_of(order).name, order.count, 1);
+  const golden::RecordCounts counts =
+      golden::produce(order, write, [&](std::uint64_t done) { progress.at(done); });
+  if (file) file->commit();
   return counts;
 }
 
@@ -120,7 +121,7 @@ int make_all(golden::Order order, const std::string& folder) {
     order.set = &set;
     order.count = set.count;
     names.push_back(set.name + ".ndjson");
-    report(set.name, make_file(order, in_folder(names.back())), seed_of(order));
+    report(set.name, make(order, in_folder(names.back())), order.seed);
     const bool is_geometry = set.name != "bad-queries";
     if (is_geometry && set.precision == NumberFormat::binary64) wide.push_back(in_folder(names.back()));
   }
@@ -131,16 +132,6 @@ int make_all(golden::Order order, const std::string& folder) {
   return kDone;
 }
 
-golden::RecordCounts make(const golden::Order& order, const std::string& output) {
-  if (output != "-") return make_file(order, output);
-  Progress progress(name_of(order), order.count, 1);
-  const auto write = [](std::string_view text) {
-    print_data(text);
-    if (std::ferror(stdout)) finish_output();
-  };
-  return golden::produce(order, write, [&](std::uint64_t done) { progress.at(done); });
-}
-
 int make_one(golden::Order order, const MakeOptions& options) {
   order.set = &set_of(options);
   order.count = options.count.value_or(order.set->count);
@@ -148,7 +139,7 @@ int make_one(golden::Order order, const MakeOptions& options) {
     say("{}: there are {} records, not {}", order.set->name, order.set->most, order.count);
     order.count = order.set->most;
   }
-  report(order.set->name, make(order, options.output), seed_of(order));
+  report(order.set->name, make(order, options.output), order.seed);
   return kDone;
 }
 
