@@ -128,10 +128,7 @@ TEST_CASE("compare shows the requested number of wrong answers", "[cli][compare_
                             " --answers mine=" + folder.write("a", answers) + " --failures ";
   for (const int most : {0, 1, 3, 9}) {
     const std::string out = folder.lorentz(asked + std::to_string(most)).out;
-    int shown = 0;
-    for (auto at = out.find("(7, 7) by"); at != std::string::npos; at = out.find("(7, 7) by", at + 1))
-      ++shown;
-    CHECK(shown == std::min(most, 4));
+    CHECK(count_of(out, "(7, 7) by") == static_cast<std::size_t>(std::min(most, 4)));
   }
 }
 

@@ -12,12 +12,6 @@ using namespace lorentz::test;
 
 namespace {
 
-std::size_t count_of(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
-
 // The numbers behind each `key`.
 std::vector<double> times_behind(const std::string& key, const std::string& text) {
   std::vector<double> times;

@@ -33,12 +33,6 @@ bool is_well_formed(const std::string& xml) {
   return open.empty() && !contains(xml, "nan") && !contains(xml, "inf");
 }
 
-std::size_t times(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
-
 }  // namespace
 
 TEST_CASE("scene show without a scene: the catalogue", "[cli][scene_command]") {
@@ -163,15 +157,15 @@ TEST_CASE("scene draw: well-formed pictures of the whole catalogue", "[cli][scen
     CHECK(run.out.size() < 100'000);
   }
   // 4 x 4 cells around the first hold 4 x 4 discs; one more in the legend.
-  CHECK(times(folder.lorentz("scene draw square").out, "<circle") == 16 + 1);
+  CHECK(count_of(folder.lorentz("scene draw square").out, "<circle") == 16 + 1);
   // 2 x 2 x 2 cells have 27 corners.
-  CHECK(times(folder.lorentz("scene draw cubic").out, "<circle") == 27 + 1);
+  CHECK(count_of(folder.lorentz("scene draw cubic").out, "<circle") == 27 + 1);
   // Nothing is repeated where a lattice does not: one ball, three of a row, 3 x 3 of a layer; with the
   // legend.
   for (const auto& [name, count] : {std::pair("ball", 1), std::pair("row", 3), std::pair("layer", 9)}) {
     const std::string out = folder.lorentz(std::string("scene draw ") + name).out;
     INFO(name);
-    CHECK(times(out, "<circle") + times(out, "<ellipse") == static_cast<std::size_t>(count) + 1);
+    CHECK(count_of(out, "<circle") + count_of(out, "<ellipse") == static_cast<std::size_t>(count) + 1);
     CHECK_FALSE(contains(out, "cell"));
   }
   CHECK(folder.lorentz("scene draw square -o " + folder.file("p.svg")).out.empty());
@@ -199,7 +193,7 @@ TEST_CASE("scene draw: flights end at the exact first hit", "[cli][scene_command
   CHECK(hit.status == 0);
   CHECK(hit.err.empty());
   CHECK(is_well_formed(hit.out));
-  CHECK(times(hit.out, "stroke=\"#c0182b\" stroke-width=\"2\"") == 1);  // the obstacle that is hit
+  CHECK(count_of(hit.out, "stroke=\"#c0182b\" stroke-width=\"2\"") == 1);  // the obstacle that is hit
   double x1 = 0, y1 = 0, x2 = 0, y2 = 0, cell1 = 0, cell2 = 0;
   const auto flight = hit.out.find("stroke=\"#c0182b\" stroke-width=\"1.4\"/>");
   REQUIRE(flight != std::string::npos);
@@ -345,7 +339,7 @@ TEST_CASE("scene draw: window, size, title, legend, channels", "[cli][scene_comm
   CHECK(contains(run.out, "three &amp; three.toml"));
   CHECK(contains(run.out, "corridor [1 0]: width 0.6"));
   CHECK_FALSE(contains(run.out, "corridor [0 1]"));
-  CHECK(times(run.out, "<circle") == 9 + 1);
+  CHECK(count_of(run.out, "<circle") == 9 + 1);
   const std::string tiny = folder.write(  // what is too narrow to be seen depends on the unit
       "tiny.json",
       R"({"dimension":2,"lattices":[{"vectors":[[1e-9,0],[0,1e-9]],"atoms":[{"position":[0,0],"radius":1e-10}]}]})");
@@ -372,7 +366,7 @@ TEST_CASE("scene draw: window, size, title, legend, channels", "[cli][scene_comm
   const Run paper = folder.lorentz("scene draw --queries " + std::string(LORENTZ_SOURCE_DIR) +
                                    "/data/examples/paper-89-directions.queries.ndjson");
   CHECK(contains(paper.err, "flights that go on beyond the picture: 6"));
-  CHECK(times(paper.out, "<circle") < 2 * 89 + 300);
+  CHECK(count_of(paper.out, "<circle") < 2 * 89 + 300);
 }
 
 TEST_CASE("scene draw -o: whole or not at all, and over nothing but a picture", "[cli][scene_command]") {

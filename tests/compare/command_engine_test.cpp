@@ -575,9 +575,7 @@ done
                                engine.substr(0, blank) + " " + folder.write("q", stream(kCount)));
     INFO(engine << "\n" << run.err.substr(0, 1000));
     CHECK(run.status == (answered == kCount ? 0 : 3));
-    std::size_t errors = 0;
-    for (auto at = run.out.find("\"error\""); at != std::string::npos; at = run.out.find("\"error\"", at + 1))
-      ++errors;
+    const std::size_t errors = count_of(run.out, "\"error\"");
     if (odd != "hangs-when-loaded") CHECK(lines(run.out) == kCount);
     CHECK(lines(run.out) - errors == answered);
     CHECK(seconds_since(start) < 30);

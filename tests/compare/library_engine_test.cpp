@@ -70,12 +70,6 @@ std::vector<Reply> replies_of(lorentz::question::Answerer& answerer, const std::
   return replies;
 }
 
-int times(const std::string& text, const std::string& what) {
-  int count = 0;
-  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
-  return count;
-}
-
 }  // namespace
 
 TEST_CASE("A library says what the same engine says as a program", "[compare][library_engine]") {
@@ -93,7 +87,7 @@ TEST_CASE("A library says what the same engine says as a program", "[compare][li
       INFO(scene << kind << library.err);
       CHECK(library.status == 0);
       CHECK(library.out == program.out);
-      hits += times(library.out, "\"hit\""), of_obstacles += times(starts, "\"from\"");
+      hits += count_of(library.out, "\"hit\""), of_obstacles += count_of(starts, "\"from\"");
     }
   CHECK(hits > 1900);
   CHECK(of_obstacles == 1000);
@@ -200,7 +194,7 @@ TEST_CASE("A scene that a library does not support", "[compare][library_engine]"
   const Folder folder;
   const Run run = ask(folder, "unsupported", 2);
   CHECK(run.status == 0);
-  CHECK(times(run.out, "lib does not support this scene\"") == 2);
+  CHECK(count_of(run.out, "lib does not support this scene\"") == 2);
   const Run ellipse =
       folder.lorentz("compare --json --scene ellipse --count 10 --engine lib:" LORENTZ_LIBRARY_ENGINE);
   CHECK(ellipse.status == 0);
@@ -296,7 +290,7 @@ TEST_CASE("A library that fails again and again is given up, until the next scen
     CHECK(lines(run.out) == 20);
     const std::string place = fault == "crashes-always" ? " on this query" : "";
     for (int k : {0, 4}) CHECK(contains(run.out, error(k, "lib " + message + place)));
-    CHECK(times(run.err, message) == 2);
+    CHECK(count_of(run.err, message) == 2);
     CHECK(contains(run.err, "4 more times: " + message));
     for (int k : {5, 19})
       CHECK(contains(run.out,
@@ -498,7 +492,7 @@ TEST_CASE("A library that hangs ends when it is enough", "[compare][library_engi
 TEST_CASE("Limits and details are added to a library's answers", "[compare][library_engine]") {
   const Folder folder;
   const Run limited = ask(folder, "fine", 20, "--max-time 9.5");
-  CHECK(times(limited.out, "\"later\"") == 10);
+  CHECK(count_of(limited.out, "\"later\"") == 10);
   const std::string query = R"({"id":1,"x":[0.25,0],"v":[1,0]})"
                             "\n";
   const Run detail = folder.lorentz(

@@ -16,12 +16,8 @@ using namespace lorentz::test;
 
 namespace {
 
-Vec moved(const Vec& x, const Vec& v, double t) {
-  return {x[0] + t * v[0], x[1] + t * v[1], x[2] + t * v[2]};
-}
-
 Vec minus(const Vec& a, const Vec& b) {
-  return moved(a, b, -1);
+  return plus(a, -1, b);
 }
 
 double distance(const Vec& a, const Vec& b) {
@@ -134,7 +130,7 @@ TEST_CASE("What is aimed at one focus of an ellipse goes on as if it came from t
     const Vec focus = place(c, 0), other = place(-c, 0), point = place(a * std::cos(at), b * std::sin(at));
     Query query;
     query.v = minus(focus, point);  // the line of flight meets the ellipse at `point`
-    query.x = moved(point, query.v, -draw.between(1, 3));
+    query.x = plus(point, -draw.between(1, 3), query.v);
     Answer answer = Answer::hit({}, 0);
     answer.time = distance(point, query.x) / length(query.v);
     const Detail detail = collision_detail(scene, query, answer);
@@ -167,7 +163,7 @@ TEST_CASE("An ellipsoid's normal is the gradient of its quadratic form, by finit
     for (double& component : arm) component *= stretch;
     Query query;
     query.v = draw.vec(dimension, -1, 1);
-    query.x = moved(moved(atom.position, arm, 1), query.v, -1);
+    query.x = minus(sum(atom.position, arm), query.v);
     const Detail detail = collision_detail(scene, query, Answer::hit({}, 1));
     Vec differences{};
     constexpr double kStep = 1e-5;
@@ -195,7 +191,7 @@ TEST_CASE("Collision detail has the same bits at any size and speed", "[engines]
     for (int k = 0; k < dimension; ++k) axes.push_back(draw.vec(dimension, -1, 1));
     Scene scene = draw.one_in(2) ? one_ellipsoid(dimension, axes) : unit_scene(dimension, 2);
     const Vec centre = scene.lattices[0].atoms[0].position = draw.vec(dimension, -1, 1);
-    const Query query{moved(centre, sum(axes[0], axes[1]), 0.4), draw.vec(dimension, -1, 1), {}};
+    const Query query{plus(centre, 0.4, sum(axes[0], axes[1])), draw.vec(dimension, -1, 1), {}};
     const Answer answer = draw.one_in(2) ? Answer::hit({}, 1) : Answer::inside({});
     const Detail detail = collision_detail(scene, query, answer);
     for (const auto& [size, speed] : {std::pair(0, 600), {0, -600}, {600, 0}, {-600, 0}, {-600, -700}}) {

@@ -169,13 +169,6 @@ class Numbers {
   std::vector<double> values_;
 };
 
-double drawn_finite(Draw& draw) {
-  for (;;) {
-    const double value = std::bit_cast<double>((draw.below(1ull << 32) << 32) | draw.below(1ull << 32));
-    if (std::isfinite(value)) return value;
-  }
-}
-
 double drawn_double(Draw& draw) {
   switch (draw.below(4)) {
     case 0:
@@ -185,7 +178,7 @@ double drawn_double(Draw& draw) {
     case 2:
       return std::ldexp(static_cast<double>(draw.below(1ull << 53)), static_cast<int>(draw.below(120)) - 90);
     default:
-      return drawn_finite(draw);
+      return draw.finite();
   }
 }
 

@@ -61,13 +61,6 @@ bool is_running(int pid) {
   return !state.empty() && state != "Z";
 }
 
-// How often a text has a part.
-int number_of(const std::string& part, const std::string& text) {
-  int number = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++number;
-  return number;
-}
-
 }  // namespace
 
 // These few cases meet 45 of the mistakes that were planted to try campaigns (docs/planted_bugs.md); their
@@ -102,7 +95,7 @@ TEST_CASE("A campaign on the published algorithm finds its faults, keeps them, s
   const Run list_json = folder.lorentz("fuzz show --json" + store);
   CHECK(contains(list_json.out, "{\"campaigns\":[{\"campaign\":1,\"version\":\""));
   CHECK(contains(list_json.out, "{\"target\":\"published-faults\",\"next\":32,\"cases\":32,"));
-  CHECK(number_of("\"id\":\"1/", list_json.out) > 3);
+  CHECK(count_of(list_json.out, "\"id\":\"1/") > 3);
   CHECK(contains(list_json.out, "\"id\":\"1/published-faults/0\""));
   const std::string picture = folder.file("finding.svg");
   const Run show = folder.lorentz("fuzz show 1/published-faults/0 --svg " + picture + store);
@@ -357,10 +350,10 @@ TEST_CASE("Without a store the simplest of each cause is printed", "[fuzz][fuzz_
   const Run without = folder.lorentz(what);
   const Run with = folder.lorentz(what + " --store " + folder.file("store"));
   CHECK(without.out.find(with.out) == 0);
-  CHECK(number_of("\n1/", without.out) == 2 * number_of("\n1/", with.out));
-  CHECK(number_of("\n{\"scene\":", without.out) == number_of("\n1/", with.out));
-  CHECK(number_of("\nsays  {", without.out) == number_of("\n1/", with.out));
-  CHECK(number_of("\ntruth {", without.out) == number_of("\n1/", with.out));
+  CHECK(count_of(without.out, "\n1/") == 2 * count_of(with.out, "\n1/"));
+  CHECK(count_of(without.out, "\n{\"scene\":") == count_of(with.out, "\n1/"));
+  CHECK(count_of(without.out, "\nsays  {") == count_of(with.out, "\n1/"));
+  CHECK(count_of(without.out, "\ntruth {") == count_of(with.out, "\n1/"));
 }
 
 TEST_CASE("A campaign keeps to the scenes that it is for, and is another one for others",

@@ -28,12 +28,6 @@ Production produced(const Order& order) {
   return made;
 }
 
-std::size_t times_in(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
-
 }  // namespace
 
 TEST_CASE("Golden: a set is the same whatever the number of threads, and no id comes twice",
@@ -79,7 +73,7 @@ TEST_CASE("Golden: what was made is counted", "[golden][golden_production]") {
     const std::pair<const char*, std::uint64_t> outcomes[] = {
         {"hit", a.hits}, {"inside", a.insides}, {"never", a.nevers}, {"error", a.errors}};
     for (const auto& [outcome, counted] : outcomes)
-      CHECK(counted == times_in(made.text, std::string("\"expect\":{\"outcome\":\"") + outcome + '"'));
+      CHECK(counted == count_of(made.text, std::string("\"expect\":{\"outcome\":\"") + outcome + '"'));
     std::uint64_t walked = 0;
     for (std::uint64_t index = 0; index < 70; ++index) {
       const golden::SetQuestion question = order.set->question(kSeed, index);

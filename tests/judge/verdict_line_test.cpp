@@ -36,6 +36,12 @@ judge::Finding finding(const judge::Question& question, judge::Cause cause, judg
   return {{question, Answer::never(), {}, {cause, severity, 0.5}}, "here", 1, 0.5};
 }
 
+judge::Question one_question() {
+  const auto place = std::make_shared<question::Place>(unit_scene(2, 0.25));
+  const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
+  return {.place = place, .query = query, .exact = place->exact(query), .where = "here"};
+}
+
 }  // namespace
 
 TEST_CASE("The verdict line: two digits of shares and speed, all before the point of what is larger",
@@ -94,10 +100,7 @@ TEST_CASE("The verdict line names the first fault that condemns, and counts the 
           "[judge][verdict_line]") {
   JudgeReport report = report_of({row(false, 1000), row(true, 300)});
   turn(report.rows[0], Count::wrong, 5);
-  const auto place = std::make_shared<question::Place>(unit_scene(2, 0.25));
-  const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
-  const judge::Question question{
-      .place = place, .query = query, .exact = place->exact(query), .where = "here"};
+  const judge::Question question = one_question();
   const auto add = [&](judge::Cause cause, judge::Severity severity) {
     report.findings.push_back(finding(question, cause, severity));
   };
@@ -141,10 +144,7 @@ TEST_CASE("Three lines come first: what, how bad, and the worst of it", "[judge]
   turn(report.rows[1], Count::wrong, 151);
   turn(report.rows[1], Count::undecided, 492);
   turn(report.rows[0], Count::unsupported, 6000);
-  const auto place = std::make_shared<question::Place>(unit_scene(2, 0.25));
-  const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
-  const judge::Question question{
-      .place = place, .query = query, .exact = place->exact(query), .where = "here"};
+  const judge::Question question = one_question();
   report.findings.push_back(finding(question, judge::Cause::wrong_time, judge::Severity::wrong_time));
   report.findings.push_back(finding(question, judge::Cause::never_for_hit, judge::Severity::wrong));
   CHECK(begins("none wrong of 40 000 drawn; hard cases: 4.7 % wrong (of 3 210); 1.1 % of all undecided",
@@ -162,10 +162,7 @@ TEST_CASE("Three lines come first: what, how bad, and the worst of it", "[judge]
 
 TEST_CASE("Findings are told in groups, the engine's own faults first", "[judge][verdict_line]") {
   JudgeReport report = report_of({row(false, 1000)});
-  const auto place = std::make_shared<question::Place>(unit_scene(2, 0.25));
-  const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
-  const judge::Question question{
-      .place = place, .query = query, .exact = place->exact(query), .where = "here"};
+  const judge::Question question = one_question();
   const auto add = [&](judge::Cause cause, judge::Severity severity) {
     report.findings.push_back(finding(question, cause, severity));
   };
@@ -231,10 +228,7 @@ TEST_CASE("The first twenty lines have three findings with what to do, and the v
           "[judge][verdict_line]") {
   JudgeReport report = report_of({row(false, 1000)});
   turn(report.rows[0], Count::wrong, 5);
-  const auto place = std::make_shared<question::Place>(unit_scene(2, 0.25));
-  const Query query{{0.5, 0, 0}, {1, 0, 0}, {}};
-  const judge::Question question{
-      .place = place, .query = query, .exact = place->exact(query), .where = "here"};
+  const judge::Question question = one_question();
   for (const judge::Cause cause : {judge::Cause::never_for_hit, judge::Cause::behind, judge::Cause::tie,
                                    judge::Cause::false_hit, judge::Cause::inside_unseen})
     report.findings.push_back(finding(question, cause, judge::Severity::wrong));

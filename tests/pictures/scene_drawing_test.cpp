@@ -5,18 +5,14 @@
 
 #include <lorentz/geometry.hpp>
 #include "report/pictures/drawing_parts.hpp"
+#include "tests/support/command_line.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
 using namespace lorentz::pictures;
+using lorentz::test::count_of;
 
 namespace {
-
-std::size_t times(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
 
 const std::string kSeen = "stroke=\"#111111\" stroke-width=\"1.6\"/>", kHidden = "stroke-dasharray";
 
@@ -33,12 +29,12 @@ TEST_CASE("3D: the farthest obstacle first, the eye is in front of the cell, on 
 }
 
 TEST_CASE("3D: what is in or behind an obstacle is drawn faint", "[pictures][scene_drawing]") {
-  CHECK(times(draw_scene(unit_scene(3, 1e-4), {}, {}).svg, kHidden) == 0);
-  CHECK(times(draw_scene(unit_scene(3, 1e-4), {}, {}).svg, kSeen) == 12);
+  CHECK(count_of(draw_scene(unit_scene(3, 1e-4), {}, {}).svg, kHidden) == 0);
+  CHECK(count_of(draw_scene(unit_scene(3, 1e-4), {}, {}).svg, kSeen) == 12);
   const std::string half = draw_scene(unit_scene(3, 0.25), {}, {}).svg;
-  CHECK(times(half, kHidden) >= 24);  // 24 seen; both ends of each edge
-  CHECK(times(half, kSeen) >= 8);     // 12 seen
-  CHECK(times(draw_scene(unit_scene(3, 0.55), {}, {}).svg, kSeen) == 0);
+  CHECK(count_of(half, kHidden) >= 24);  // 24 seen; both ends of each edge
+  CHECK(count_of(half, kSeen) >= 8);     // 12 seen
+  CHECK(count_of(draw_scene(unit_scene(3, 0.55), {}, {}).svg, kSeen) == 0);
 }
 
 TEST_CASE("The outline of a projected ellipsoid", "[pictures][scene_drawing]") {
@@ -54,10 +50,10 @@ TEST_CASE("No picture holds more than a few thousand obstacles", "[pictures][sce
   scene.lattices[0].atoms.clear();
   for (int i = 0; i < 120 * 120; ++i)
     scene.lattices[0].atoms.push_back({{i % 120 / 120.0, i / 120 / 120.0}, 0.001, {}});
-  CHECK(times(draw_scene(scene, {}, {}).svg, "<circle") <= kMostDrawn + 20);
+  CHECK(count_of(draw_scene(scene, {}, {}).svg, "<circle") <= kMostDrawn + 20);
   pictures::DrawnFlight flight{{{0.5, 0.5}, {1, 1e-9}, {}}, Answer::hit({0, 0, {}}, 30)};
   const Drawing drawing = draw_scene(scene, {}, {flight});
-  CHECK(times(drawing.svg, "<circle") <= kMostDrawn + 20);
+  CHECK(count_of(drawing.svg, "<circle") <= kMostDrawn + 20);
   CHECK(drawing.remarks.size() == 1);
 }
 
@@ -89,7 +85,7 @@ TEST_CASE("2D: one long flight does not shrink the others", "[pictures][scene_dr
   lengths.push_back(35);
   const Drawing with = with_flights(lengths);
   CHECK(cells_high(with.svg) == Approx(without));
-  CHECK(times(with.svg, "stroke-width=\"1.4\"/>\n<polygon") == 1);  // an arrow, to the window's edge
+  CHECK(count_of(with.svg, "stroke-width=\"1.4\"/>\n<polygon") == 1);  // an arrow, to the window's edge
   REQUIRE(with.remarks.size() == 1);
   CHECK(with.remarks[0] == "flights that go on beyond the picture: 1, the longest for 35");
   // One alone is shown to its end, and so are two of very different length.
@@ -107,8 +103,8 @@ TEST_CASE("2D: the window that is asked for, the size, and what is in it", "[pic
   options.window = {{-0.25, -0.5, 2.75, 1}};
   const std::string svg = draw_scene(unit_scene(2, 0.2), options, {}).svg;
   CHECK(svg.find("viewBox=\"0 0 800 ") != std::string::npos);
-  CHECK(times(svg, "height=\"376.00\"") == 1);  // (800 - 2 * 24) / 2
-  CHECK(times(svg, "<circle") == 3 * 2 + 1);    // and one in the legend
+  CHECK(count_of(svg, "height=\"376.00\"") == 1);  // (800 - 2 * 24) / 2
+  CHECK(count_of(svg, "<circle") == 3 * 2 + 1);    // and one in the legend
   options.width = 500;
   options.height = 300;
   const std::string small = draw_scene(unit_scene(2, 0.2), options, {}).svg;
@@ -121,7 +117,7 @@ TEST_CASE("2D: the window that is asked for, the size, and what is in it", "[pic
   options.window = {{0.9, 0.2, 1.1, 0.4}};
   const pictures::DrawnFlight flight{{{0.3, 0.3}, {1, 0}, {}}, Answer::hit({0, 0, {}}, 30)};
   const std::string through = draw_scene(unit_scene(2, 0.05), options, {flight}).svg;
-  CHECK(times(through, "<circle") == 0);
+  CHECK(count_of(through, "<circle") == 0);
   CHECK(through.find("goes on") != std::string::npos);
   CHECK(through.find("first hit") == std::string::npos);
   CHECK(through.find("cell") == std::string::npos);
@@ -138,7 +134,7 @@ TEST_CASE("The legend explains what is there, and nothing else", "[pictures][sce
   CHECK(flies.find("first hit") == std::string::npos);
   DrawOptions options;
   options.title = "A title";
-  CHECK(times(draw_scene(unit_scene(3, 0.2), options, {}).svg, "A title") == 2);  // and the document's
+  CHECK(count_of(draw_scene(unit_scene(3, 0.2), options, {}).svg, "A title") == 2);  // and the document's
 }
 
 TEST_CASE("3D: the cube of fcc and bcc, turned ones too, and no cube of others",
@@ -172,10 +168,10 @@ TEST_CASE("3D: the cube of fcc and bcc, turned ones too, and no cube of others",
   // In the picture: the corners and the middles of the faces; of bcc, the middle.
   Scene scene = unit_scene(3, 0.1);
   scene.lattices[0].vectors = fcc;
-  CHECK(times(draw_scene(scene, {}, {}).svg, "url(#shade") == 14);
+  CHECK(count_of(draw_scene(scene, {}, {}).svg, "url(#shade") == 14);
   CHECK(draw_scene(scene, {}, {}).svg.find("the cube of 4 primitive cells") != std::string::npos);
   scene.lattices[0].vectors = bcc;
-  CHECK(times(draw_scene(scene, {}, {}).svg, "url(#shade") == 9);
+  CHECK(count_of(draw_scene(scene, {}, {}).svg, "url(#shade") == 9);
 }
 
 TEST_CASE("Corridors are where they are", "[pictures][scene_drawing]") {
@@ -183,8 +179,8 @@ TEST_CASE("Corridors are where they are", "[pictures][scene_drawing]") {
   options.window = {{0, 0, 3, 3}};
   options.ways = {{{0, 0.5}, {1, 0}, 0.6, "corridor [1 0]"}};
   const std::string flat = draw_scene(unit_scene(2, 0.2), options, {}).svg;
-  CHECK(times(flat, std::string("fill=\"") + way_colour(0) + "\" fill-opacity=\"0.2\"") == 3);
-  CHECK(times(flat, "corridor [1 0]") == 1);
+  CHECK(count_of(flat, std::string("fill=\"") + way_colour(0) + "\" fill-opacity=\"0.2\"") == 3);
+  CHECK(count_of(flat, "corridor [1 0]") == 1);
   // The rows between the discs, 752 pixels for 3 cells.
   double y1 = 0, y2 = 0;
   const auto strip = flat.rfind("<polygon points=", flat.find("fill-opacity=\"0.2\""));

@@ -16,6 +16,12 @@ inline Scene one_atom(int dimension, const std::array<Vec, 3>& vectors, double r
   return scene;
 }
 
+inline Scene two_lattices() {
+  Scene scene = unit_scene(2, 0.1);
+  scene.lattices.push_back({{Vec{0.8, 0.6, 0}, {-0.6, 0.8, 0}}, {{{0.1, 0.5, 0}, 0.05, {}}}});
+  return scene;
+}
+
 /// The scene with all its balls alike.
 inline Scene with_radius(Scene scene, double radius) {
   for_each_atom(scene, [&](Atom& atom) { atom.radius = radius; });

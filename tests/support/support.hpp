@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -39,6 +40,12 @@ class Draw {
   bool one_in(std::uint64_t n) { return below(n) == 0; }
   double uniform() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
   double between(double low, double high) { return low + (high - low) * uniform(); }
+  double finite() {  ///< any
+    for (;;)
+      if (const auto value = std::bit_cast<double>(below(1ull << 32) << 32 | below(1ull << 32));
+          std::isfinite(value))
+        return value;
+  }
   double sign() { return one_in(2) ? 1 : -1; }
   /// Log-uniform in size from 2^low to 2^high, either sign.
   double tiny(double low, double high) { return sign() * std::exp2(between(low, high)); }
@@ -63,6 +70,14 @@ inline double determinant(const Lattice& lattice, int dimension) {
   return u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1]) -
          u[0][1] * (u[1][0] * u[2][2] - u[1][2] * u[2][0]) +
          u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]);
+}
+
+/// In no obstacle of a scene with some at the corners of unit cells: in the middle.
+inline Query start_between(Draw& draw, int dimension) {
+  Query start;
+  for (int i = 0; i < dimension; ++i) start.x[i] = draw.between(0.42, 0.58);
+  start.v = draw.vec(dimension, -1, 1);
+  return start;
 }
 
 /// How the numbers of a drawn case look: generic, on a coarse grid (ties, tangents, rational slopes), or on

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <lorentz/trajectory_batch.hpp>
+#include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -19,23 +20,10 @@ bool same(const Particle& a, const Particle& b) {
          a.collisions == b.collisions;
 }
 
-Query start_between(Draw& draw, int dimension) {
-  Query start;
-  for (int i = 0; i < dimension; ++i) start.x[i] = draw.between(0.42, 0.58);
-  start.v = draw.vec(dimension, -1, 1);
-  return start;
-}
-
 Scene motif(int dimension) {
   Scene scene = unit_scene(dimension, 0.2);
   scene.lattices[0].atoms.push_back({{0.5, 0, 0}, 0, {{0.1, 0.02, 0}, {0, 0.08, 0}, {0.01, 0, 0.1}}});
   scene.lattices[0].atoms[1].semiaxes.resize(static_cast<std::size_t>(dimension));
-  return scene;
-}
-
-Scene two_lattices() {
-  Scene scene = unit_scene(2, 0.1);
-  scene.lattices.push_back({{Vec{0.8, 0.6, 0}, {-0.6, 0.8, 0}}, {{{0.1, 0.5, 0}, 0.05, {}}}});
   return scene;
 }
 

@@ -11,6 +11,7 @@
 #include <lorentz/trajectory_batch.hpp>
 #include "src/trajectory/meeting.hpp"
 #include "statistics/rival/rival.hpp"
+#include "tests/support/scenes.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -28,14 +29,6 @@ std::array<std::int64_t, 3> cell_of(const Trajectory& trajectory) {
   return trajectory.state().cell;
 }
 
-// In no obstacle, in the middle of the cell.
-Query start_between(Draw& draw, int dimension) {
-  Query start;
-  for (int i = 0; i < dimension; ++i) start.x[i] = draw.between(0.42, 0.58);
-  start.v = draw.vec(dimension, -1, 1);
-  return start;
-}
-
 Scene ellipses(double scale) {
   Scene scene = unit_scene(2, 1);
   scene.lattices[0].atoms = {
@@ -47,12 +40,6 @@ Scene ellipses(double scale) {
 Scene ellipsoids() {
   Scene scene = unit_scene(3, 1);
   scene.lattices[0].atoms = {{{}, 0, {{0.3, 0, 0.05}, {0.02, 0.2, 0}, {0, 0.04, 0.25}}}};
-  return scene;
-}
-
-Scene two_lattices() {
-  Scene scene = unit_scene(2, 0.1);
-  scene.lattices.push_back({{Vec{0.8, 0.6, 0}, {-0.6, 0.8, 0}}, {{{0.1, 0.5, 0}, 0.05, {}}}});
   return scene;
 }
 
