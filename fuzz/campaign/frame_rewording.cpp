@@ -4,6 +4,7 @@
 
 #include "fuzz/campaign/exact_sums.hpp"
 #include "fuzz/campaign/rewording_steps.hpp"
+#include "src/problem/scene_geometry.hpp"
 
 namespace lorentz::fuzz {
 
@@ -92,14 +93,6 @@ BitRange range_of(const Scene& scene) {
   for_each_vector(scene, see, see);
   for_each_atom(scene, [&](const Atom& atom) { range.see(atom.radius); });
   return range;
-}
-
-void scale_scene(Scene& scene, int exponent) {
-  const auto scale = [&](Vec& a) {
-    for (double& component : a) component = std::ldexp(component, exponent);
-  };
-  for_each_vector(scene, scale, scale);
-  for_each_atom(scene, [&](Atom& atom) { atom.radius = std::ldexp(atom.radius, exponent); });
 }
 
 // ---- other names
@@ -196,7 +189,7 @@ std::optional<RewordingStep> draw_scaled(Random& random, Scene& scene) {
                                  : static_cast<long>(anywhere);
   const auto exponent = static_cast<int>(std::clamp(drawn, least, most));
   if (exponent == 0) return std::nullopt;
-  scale_scene(scene, exponent);
+  scene = scaled(std::move(scene), exponent);
   return RewordingStep{.words = "lengths 2^" + std::to_string(exponent),
                        .reword = [=](Vec& x, Vec&) { return set_if(x, exact_scaled(x, exponent)); },
                        .time_exponent = exponent};

@@ -200,24 +200,15 @@ bool can_be_drawn(const Scene& scene, const Query& query, const Answer& exact) {
 // lengths stay in range.
 int length_exponent(const Scene& scene) {
   double largest = 0;
-  const auto see = [&](const Vec& vector) {
-    for (const double component : vector) largest = std::max(largest, std::fabs(component));
-  };
+  const auto see = [&](const Vec& vector) { largest = std::max(largest, largest_component(vector)); };
   const Lattice& lattice = scene.lattices[0];
   for (const Vec& u : lattice.vectors) see(u);
   if (largest == 0)  // a single obstacle is as large as its scene
-    for (const Atom& atom : lattice.atoms) {
-      see({atom.radius, 0, 0});
-      for (const Vec& axis : atom.semiaxes) see(axis);
-    }
+    for (const Atom& atom : lattice.atoms)
+      for (const Vec& axis : semiaxes_of(atom, scene.dimension)) see(axis);
   constexpr int kOrdinary = 100;
   const int exponent = largest > 0 ? std::ilogb(largest) : 0;
   return std::abs(exponent) <= kOrdinary ? 0 : exponent;
-}
-
-Query with_lengths_times(Query query, int exponent) {
-  for (double& component : query.x) component = std::ldexp(component, exponent);
-  return query;
 }
 
 // An answer in other units of length, with v as it is.
@@ -234,9 +225,9 @@ std::string finding_drawing(const Scene& scene, const Query& query, const std::o
   if (!can_be_drawn(scene, query, exact)) return "";
   int exponent = length_exponent(scene);
   Scene its_scene = scaled(scene, -exponent);
-  Query its_query = with_lengths_times(query, -exponent);
+  Query its_query{times_power_of_two(query.x, -exponent), query.v, query.from};
   if (scaled(its_scene, exponent) != scene ||
-      with_lengths_times(its_query, exponent).x != query.x)  // rounded
+      times_power_of_two(its_query.x, exponent) != query.x)  // rounded
     its_scene = scene, its_query = query, exponent = 0;
   const auto its_given = in_units(given, exponent), its_exact = in_units(exact, exponent);
   const FindingCase finding(its_scene, its_query, its_given ? &*its_given : nullptr, *its_exact, decisive,

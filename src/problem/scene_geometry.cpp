@@ -86,8 +86,9 @@ double volume_of(const Atom& atom, int dimension) {
 
 namespace {
 
-// Carlson's symmetric elliptic integrals, for x, y >= 0 (at most one of them zero), z > 0. His duplication (1995): each step brings the three arguments closer to each other by a factor of 4,
-// until a few terms of a series give the rest to 1e-16.
+// Carlson's symmetric elliptic integrals, for x, y >= 0 (at most one of them zero), z > 0. Each step of his
+// duplication (1995) brings the arguments closer to each other by a factor of 4, until a few terms of a series
+// give the rest to 1e-16.
 double carlson_rf(double x, double y, double z) {
   for (;;) {
     const double mean = (x + y + z) / 3;

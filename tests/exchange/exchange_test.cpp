@@ -476,24 +476,23 @@ TEST_CASE("Every sort of bad scene is told by its place", "[exchange]") {
   const auto with_atom = [](const std::string& atom) {
     return "{\"dimension\":2,\"lattices\":[{\"vectors\":[[1,0],[0,1]],\"atoms\":[" + atom + "]}]}";
   };
-  CHECK(message("5").find("needs an object") != std::string::npos);
-  CHECK(message("{\"dimension\":4,\"lattices\":[]}").find("must be 2 or 3") != std::string::npos);
-  CHECK(message("{\"dimension\":2,\"lattices\":[]}").find("at least one lattice") != std::string::npos);
-  CHECK(message("{\"dimension\":2,\"lattices\":[{\"vectors\":[[1,0],[0,1],[1,1]],\"atoms\":[]}]}")
-            .find("needs 2 vectors at most, has 3") != std::string::npos);
-  CHECK(message("{\"dimension\":2,\"lattices\":[{\"vectors\":[[1,0],[0,1]],\"atoms\":[]}]}")
-            .find("at least one atom") != std::string::npos);
-  CHECK(message(with_atom("{\"position\":[0,0]}")).find("lattices[0].atoms[0]: radius is missing") !=
-        std::string::npos);
-  CHECK(message(with_atom("{\"radius\":1}")).find("position is missing") != std::string::npos);
-  CHECK(message(with_atom("{\"position\":[0,0],\"radius\":0}")).find("above zero") != std::string::npos);
-  CHECK(message(with_atom("{\"position\":[0,0],\"radius\":-1}")).find("above zero") != std::string::npos);
-  CHECK(message(with_atom("{\"position\":[0,0,0],\"radius\":1}")).find("has 3 components") !=
-        std::string::npos);
-  CHECK(message(with_atom("{\"position\":[0,0],\"radius\":1,\"semiaxes\":[[1,0],[0,1]]}")).find("both") !=
-        std::string::npos);
-  CHECK(message(with_atom("{\"position\":[0,0],\"semiaxes\":[[1,0]]}")).find("needs 2 vectors") !=
-        std::string::npos);
+  const auto with_lattice = [](const std::string& vectors) {
+    return R"({"dimension":2,"lattices":[{"atoms":[],"vectors":)" + vectors + "}]}";
+  };
+  const std::pair<std::string, const char*> cases[] = {
+      {"5", "needs an object"},
+      {R"({"dimension":4,"lattices":[]})", "must be 2 or 3"},
+      {R"({"dimension":2,"lattices":[]})", "at least one lattice"},
+      {with_lattice("[[1,0],[0,1],[1,1]]"), "needs 2 vectors at most, has 3"},
+      {with_lattice("[[1,0],[0,1]]"), "at least one atom"},
+      {with_atom(R"({"position":[0,0]})"), "lattices[0].atoms[0]: radius is missing"},
+      {with_atom(R"({"radius":1})"), "position is missing"},
+      {with_atom(R"({"position":[0,0],"radius":0})"), "above zero"},
+      {with_atom(R"({"position":[0,0],"radius":-1})"), "above zero"},
+      {with_atom(R"({"position":[0,0,0],"radius":1})"), "has 3 components"},
+      {with_atom(R"({"position":[0,0],"radius":1,"semiaxes":[[1,0],[0,1]]})"), "both"},
+      {with_atom(R"({"position":[0,0],"semiaxes":[[1,0]]})"), "needs 2 vectors"}};
+  for (const auto& [scene, why] : cases) CHECK_THAT(message(scene), Catch::Contains(why));
 }
 
 TEST_CASE("Scene files: TOML and JSON, with the place of what is wrong", "[exchange]") {

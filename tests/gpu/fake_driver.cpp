@@ -1,8 +1,7 @@
 // A libcuda.so.1 without a card: the functions of the driver's interface that the program calls, and the
 // kernels compiled for the processor. What comes before and after a kernel is tested with it, and the
-// kernels' sources are. FAKE_CARD: "none" has no card; "wrong" one whose results have a bit that is another; "broken"
-// one that fails from the first kernel on.
-// It is as late as a card may be: a kernel runs when it is waited for, or when memory is copied. New memory is
+// kernels' sources are. FAKE_CARD: "none" has no card; "wrong" one whose results have a bit that is another;
+// "broken" one that fails from the first kernel on. It is as late as a card may be: a kernel runs when it is waited for, or when memory is copied. New memory is
 // dirty.
 #include <cstdint>
 #include <cstdlib>

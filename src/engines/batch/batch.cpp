@@ -72,7 +72,7 @@ void Batch::Inside::ask(const QueryColumns& queries, StretchBuffer& buffer, Stre
 
 // Takes the caller's columns if they exist and consist of whole vectors; otherwise those of the buffer, which
 // `tell` copies to the caller's.
-void set_told(const FlightColumns& flights, std::size_t n, StretchBuffer& buffer, Stretch& stretch) {
+static void set_told(const FlightColumns& flights, std::size_t n, StretchBuffer& buffer, Stretch& stretch) {
   const bool whole = n % kMaxLanes == 0;
   const auto column = [&](const auto& given, auto* own) {
     return given.empty() || !whole ? own : given.data();
