@@ -59,18 +59,6 @@ void each(std::uint64_t count, const Check& check) {
     }
 }
 
-// What a flight comes to up to a limit, if without one it comes to `free`: the same, or nothing before it.
-bool is_cut(const Flight& free, const Flight& limited, double limit) {
-  constexpr double kNearly = 1 - 1e-9;
-  if (limited.outcome == Outcome::undecided || free.outcome == Outcome::undecided) return true;
-  if (limited.outcome == Outcome::later)
-    return std::isfinite(limit) &&
-           (free.outcome == Outcome::never || (free.outcome == Outcome::hit && free.time >= limit * kNearly));
-  const bool in_time = limited.outcome != Outcome::hit || free.time * kNearly <= limit;
-  return in_time && limited.outcome == free.outcome && limited.lattice == free.lattice &&
-         limited.atom == free.atom && limited.cell == free.cell;
-}
-
 // The same flights in other units and from another side: lengths 2^a times as large, coordinates exchanged
 // and reflected.
 struct View {
