@@ -38,7 +38,7 @@ std::size_t string_length(std::string_view text) {
 }
 
 // The parser and its tables are recursive, so a key of 100 000 dotted parts would overflow the stack. Dots in
-// strings and comments are none of a key.
+// strings and comments belong to no key.
 void check_dotted_keys(std::string_view text) {
   int dots = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -40,7 +40,7 @@ std::optional<Rational> quotient(std::string_view text, bool negative) {
   return fraction_of(std::string(numerator), std::string(denominator), negative);
 }
 
-// Takes the exponent from the end: 0 if there is none, nothing if it is no integer, or beyond 10^4.
+// Takes the exponent from the end: 0 without one; nothing if it is not an integer, or beyond 10^4.
 std::optional<int> take_exponent(std::string_view& text, const char* marks) {
   constexpr int kMostExponent = 10'000;
   const auto mark = text.find_first_of(marks);
@@ -74,7 +74,7 @@ std::optional<Rational> decimal(std::string_view text, bool negative) {
   return fraction_of(std::move(digits), std::move(denominator), negative);
 }
 
-// Rejects what is no binary64, exactly.
+// Rejects all but the binary64 numbers.
 std::optional<Rational> hexadecimal(std::string_view text, bool negative) {
   const auto power = take_exponent(text, "pP");
   std::string digits(text);
