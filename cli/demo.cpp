@@ -33,12 +33,6 @@ std::vector<Question> drawn(starts::Kind kind, int dimension, double radius, std
                       starts::free_starts(scene, kind, starts::kDefaultSeed, count));
 }
 
-ExaminationOptions options_of_demo() {
-  ExaminationOptions options;
-  options.engines = {"classical", "published", "reduction", "certified", "certified-batch", "oracle"};
-  return options;
-}
-
 std::string microseconds(double ns) {
   return fmt::format("{:.{}f}", ns / 1000, ns < 1e5 ? 2 : 0);
 }
@@ -67,8 +61,6 @@ algorithm is wrong: docs/published.md. To go on:
 
 class DemoReport {
  public:
-  DemoReport() : options_(options_of_demo()), lineup_(options_, options_.named_engines()) {}
-
   void add(const std::string& what, int dimension, std::vector<Question> questions) {
     answer_exactly(questions, terminal());
     lineup_.begin(what);
@@ -110,8 +102,9 @@ class DemoReport {
     return microseconds(ns_[engine][dimension] / queries_[dimension]);
   }
 
-  const ExaminationOptions options_;
-  Lineup lineup_;
+  const ExaminationOptions options_{
+      .engines = {"classical", "published", "reduction", "certified", "certified-batch", "oracle"}};
+  Lineup lineup_{options_, options_.named_engines()};
   std::map<std::string, std::map<int, double>> ns_;  // by engine and dimension; of both: 0
   std::map<int, double> queries_;
 };
