@@ -39,6 +39,7 @@ Example simplest(const Finding& finding, TimedExamination& examination, double s
       [&](const Scene& scene) { return std::make_shared<Place>(scene, examination.order().claim); },
       [&](const std::shared_ptr<Place>& place, const Query& query) {
         const Answer exact = place->exact(query);
+        if (!place->takes(query, exact)) return false;
         last = example_of({.place = place,
                            .query = query,
                            .exact = exact,

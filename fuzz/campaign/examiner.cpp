@@ -61,6 +61,7 @@ std::optional<Answer> Examiner::settled(const Question& question) const {
 
 Examined Examiner::examine(const Query& query, LimitAt limit) {
   Question question{.place = place_, .query = query, .exact = place_->exact(query)};
+  if (!place_->takes(query, question.exact)) return {Kind::unsupported, {}, question.exact};
   question.max_time = limit_of(limit, question.exact);
   std::vector<Reply> replies = replies_to(question::all_of({&question, 1}), answerer_);
   return judge(question, replies.at(0));

@@ -61,7 +61,8 @@ class Examiner {
   /// comes from the question in other words; if the reply differs from it, the truth is computed anew.
   Examined judge(const Question& question, Reply& reply, bool is_carried = false);
 
-  /// Asks one query, which must have no flaw, while no replies are due.
+  /// Asks one query, which must have no flaw, while no replies are due. Does not ask if the exact answer is outside of the
+  /// claim (`unsupported`).
   Examined examine(const Query& query, LimitAt limit = LimitAt::none);
 
  private:

@@ -173,6 +173,7 @@ void StintRunner::pose_in_other_words(Random& random, Questions& questions, std:
     auto carried = rewording.carried(one.question.exact, *reworded);
     Question question{.place = context->place(), .query = std::move(reworded->query)};
     question.exact = carried ? std::move(*carried) : question.place->exact(question.query);
+    if (!question.place->takes(question.query, question.exact)) continue;
     std::string words = rewording.words(*reworded);
     if (random.one_in(kCasesPerLimit) && answerer_->takes_limits() && plan_.claim.domain.limits) {
       const LimitAt limit = drawn_limit(random, question.exact);

@@ -255,22 +255,25 @@ TEST_CASE("What the time cut short is shrunk to the end when there is time", "[f
   CHECK(text_of(store) == one_run(plan, 150, 1));
 }
 
-TEST_CASE("No engine is asked about scenes beyond the scope: cases, other words, shrinking",
+TEST_CASE("No engine is asked beyond the scope or its claim: cases, other words, shrinking",
           "[fuzz][campaign]") {
   INFO("seed " << kSeed);
   static fuzz::Scope scope;
   static std::atomic<int> asked, beyond;
   // Gives up, so that there is something to shrink.
-  const auto careful = told([](const question::Place& place, const Query&) {
+  static Claim claim;
+  claim.inside = StartInside::unsupported, claim.domain.flight = {0, 1000};
+  const auto careful = told([](const question::Place& place, const Query& query) {
     ++asked;
-    if (!scope.admits(place.scene())) ++beyond;
+    const question::Place claimed(place.scene(), claim);
+    if (!scope.admits(place.scene()) || !claimed.takes(query, place.exact(query))) ++beyond;
     return Answer::undecided();
   });
   using Scenes = fuzz::Scope::Scenes;
   for (const auto& [scenes, dimension] :
        {std::pair{Scenes::unit, 0}, {Scenes::lattice, 2}, {Scenes::any, 3}, {Scenes::unit, 2}}) {
     Plan plan = plan_of({"generic", "mixture", "crystals"});
-    plan.scope = scope = {scenes, dimension};
+    plan.scope = scope = {scenes, dimension}, plan.claim = claim;
     fuzz::Store store(":memory:", fuzz::Store::Access::write);
     asked = beyond = 0;
     run_in(store, plan, 256, 2, careful);

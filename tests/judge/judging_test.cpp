@@ -540,3 +540,9 @@ TEST_CASE("The simplest case keeps the circumstance that its finding states", "[
   finding.circumstance.emplace().holds = [](const Features& f) { return !f.is_unit_speed; };
   CHECK(length(simplest(finding, examination, 1e9).question.query.v) != 1);
 }
+  // The simplest of all flies farther than this engine claims to do.
+  JudgeOrder order = order_of(never);
+  order.claim.domain.flight = {0.23, 0.245};
+  TimedExamination near(order, {}, stop);
+  const Question kept = simplest({*example, "here", 1, 1e300}, near, 1e9).question;
+  CHECK((is_in_domain(kept) && fuzz::most_bits(kept.place->scene(), kept.query) < 20));
