@@ -60,8 +60,7 @@ std::size_t ask_set(const std::string& path, const ExaminationOptions& options, 
     const Place& place = *question->place;
     if (!place.has_numbers_for(question->query))
       ++set.of_other_numbers;
-    else if (question->is_query() &&
-             !(place.takes(question->query) && place.takes(question->query, question->exact)))
+    else if (!is_in_domain(*question))
       ++set.outside_domain;
     else
       part.questions.push_back(std::move(*question));

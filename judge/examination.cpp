@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "judge/plan.hpp"
+
 namespace lorentz::judge {
 namespace {
 
@@ -38,21 +40,20 @@ std::vector<double> TimedExamination::warm_up() {
   constexpr std::size_t kTries = 3;
   constexpr double kFast = 0.05;
   std::vector<double> seconds;
-  if (!order_.engine.runs_apart()) return seconds;
-  const auto place = std::make_shared<Place>(unit_scene(2, 0.25), order_.claim);
-  const Query along{{0.5, 0, 0}, {1, 0, 0}, {}};
-  const Question question{
-      .place = place, .query = along, .exact = place->exact(along), .where = "the first question"};
+  Outside outside = 0;
+  const auto question =
+      question_in(place_for(unit_scene(order_.claim.domain.dimension_2 ? 2 : 3, 0.25), order_.claim),
+                  {{0.5, 0, 0}, {1, 0, 0}, {}}, "the first question", outside);
+  if (!order_.engine.runs_apart() || !question) return seconds;
   while (seconds.size() < kTries && !is_over() && (seconds.empty() || seconds.back() > kFast)) {
     std::optional<Reply> reply;
-    seconds.push_back(ask({&question, 1}, [&](const Judged& judged) { reply = judged.reply; }));
+    seconds.push_back(ask({&*question, 1}, [&](const Judged& judged) { reply = judged.reply; }));
     if (!examination_.failed()) continue;
     if (!reply || !reply->was_asked())
       reply = {Answer::error("the engine gave no answer while there was time"), Origin::fault};
-    ExaminedRow& row =
-        results_.row({.name = "first question",
-                      .explanation = "an empty place in the square lattice, before anything else"});
-    take({question, *reply, {oracle::Verdict::missing}}, row);
+    ExaminedRow& row = results_.row(
+        {.name = "first question", .explanation = "along a row of a simple lattice, before anything else"});
+    take({*question, *reply, {oracle::Verdict::missing}}, row);
     break;
   }
   return seconds;

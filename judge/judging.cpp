@@ -157,15 +157,16 @@ std::vector<const NamedPlace*> places_to_race_in(const std::vector<NamedPlace>& 
   return chosen;
 }
 
-// `count` questions of each place.
+// `count` questions of each place, or those of them that are in the engine's domain.
 std::vector<question::Question> questions_to_race_in(const std::vector<const NamedPlace*>& places,
                                                      std::uint64_t seed, std::size_t count) {
   std::vector<question::Question> all;
+  Outside outside = 0;
   for (const NamedPlace* named : places)
-    for (question::Question& question :
-         question::questions_of(named->place, starts::free_starts(named->place->scene(), Kind::uniform, seed,
-                                                                  count, named->place->claim().precision)))
-      all.push_back(std::move(question));
+    for (const Query& start : starts::free_starts(named->place->scene(), Kind::uniform, seed, count,
+                                                  named->place->claim().precision))
+      if (auto question = question_in(named->place, start, named->name, outside))
+        all.push_back(std::move(*question));
   return all;
 }
 
@@ -188,9 +189,10 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
       std::min(kTooLong * (seconds + report.start_up) + terms.answerer.timeout, terms.all.left()));
   question::RaceOptions options{kRounds, terms.answerer};
   options.answerer.enough = [&] { return terms.stop || until.left() == 0; };
+  const std::vector<question::Question> questions = questions_to_race_in(chosen, report.seed, count);
+  if (questions.empty()) return;
   const std::vector<question::Speed> speeds =
-      question::race(questions_to_race_in(chosen, report.seed, count),
-                     {report.engine, question::engine_named("reduction")}, options);
+      question::race(questions, {report.engine, question::engine_named("reduction")}, options);
   const bool is_cut = report.engine.runs_apart() && options.answerer.enough();
   if (speeds[0].failed || is_cut) return;
   report.ns_per_query = speeds[0].ns_per_query;
@@ -200,8 +202,8 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
   report.processor_ns_of_reduction = speeds[1].processor_ns;
   std::vector<std::string> names;
   for (const NamedPlace* place : chosen) names.push_back(place->name);
-  report.speed_of =
-      fmt::format("{} drawn flights in each of {}, in turn with reduction", count, fmt::join(names, "; "));
+  report.speed_of = fmt::format("{} drawn flights in each of {}, in turn with reduction",
+                                questions.size() / chosen.size(), fmt::join(names, "; "));
 }
 
 // If the order has no timeout, it is much longer than any answer should take here, and a small part of the

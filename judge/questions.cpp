@@ -167,10 +167,7 @@ Source golden_set(const std::string& path, const Claim& claim, Outside& outside)
     const auto is_passed_over = [&] {
       const Place& place = *question->place;
       if (place.is_beyond_engine() || !place.has_numbers_for(question->query)) return true;
-      if (!question->is_query() ||
-          (place.takes(question->query) && place.takes(question->query, question->exact)))
-        return false;
-      return ++outside, true;
+      return is_in_domain(*question) ? false : (++outside, true);
     };
     do question = records();
     while (question && is_passed_over());

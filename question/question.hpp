@@ -118,6 +118,13 @@ struct Question {
   bool has_limit() const { return std::isfinite(max_time); }
 };
 
+/// True if the question is in the domain of the claim: the query and its exact answer, or an invalid question's scene.
+inline bool is_in_domain(const Question& question) {
+  const Place& place = *question.place;
+  return question.is_query() ? place.takes(question.query) && place.takes(question.query, question.exact)
+                             : place.claim().domain.has(place.scene());
+}
+
 /// Questions of one place, numbered from 0 by their ids, without answers.
 inline std::vector<Question> questions_of(const std::shared_ptr<Place>& place,
                                           const std::vector<Query>& queries) {

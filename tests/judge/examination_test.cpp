@@ -241,15 +241,24 @@ TEST_CASE("The first 500 questions of each row are compared, and a row without a
   CHECK(more.results().rows[0].tally.speed.ns_per_query == 0);
 }
 
-TEST_CASE("The first question to another program is at an empty place", "[judge][examination]") {
+TEST_CASE("The first question to another program is at an empty place, in its domain",
+          "[judge][examination]") {
   const Folder folder;
   const std::atomic<bool> stop = false;
-  TimedExamination examination(order_of(question::engine_named("cmd:tee " + folder.file("asked") +
-                                                               " | exec " LORENTZ_TOLERANT_ENGINE)),
-                               {}, stop);
-  examination.warm_up();
-  examination.finish();
-  CHECK(contains(folder.read("asked"), R"("x":[0.5,0],"v":[1,0])"));
+  JudgeOrder order = order_of(
+      question::engine_named("cmd:tee " + folder.file("asked") + " | exec " LORENTZ_TOLERANT_ENGINE));
+  const auto asked = [&] {
+    folder.write("asked", "");
+    TimedExamination examination(order, {}, stop);
+    examination.warm_up();
+    examination.finish();
+    return folder.read("asked");
+  };
+  CHECK(contains(asked(), R"("x":[0.5,0],"v":[1,0])"));
+  order.claim.domain.dimension_2 = false, order.claim.domain.speed = {10, 20};
+  CHECK(contains(asked(), R"("x":[0.5,0,0],"v":[16,0,0])"));
+  order.claim.domain.balls = false;
+  CHECK(asked().empty());
 }
 
 TEST_CASE("Nothing is asked when the time is over, and no answer is waited for", "[judge][examination]") {

@@ -207,8 +207,9 @@ TEST_CASE("Only questions in the engine's domain are asked, and what is too fast
     std::size_t count = 0;
     for (std::optional<Question> one; count < most && (one = source()); ++count) {
       INFO(one->where);
+      CHECK(claim.domain.has(one->place->scene()));
       if (!one->is_query()) continue;
-      CHECK((claim.domain.has(one->place->scene()) && claim.domain.has(one->query)));
+      CHECK(claim.domain.has(one->query));
       insides += one->exact.outcome == Outcome::inside;
     }
     asked += count;
@@ -225,6 +226,20 @@ TEST_CASE("Only questions in the engine's domain are asked, and what is too fast
   ask(drawn(places, starts::Kind::uniform, kSeed, 90, passed_over), 1000);
   CHECK(asked > 3000 + 40);  // half of the 90 are in the square
   CHECK(insides == 0);
+  claim.domain.dimension_2 = false;
+  for (const std::string& file : golden::committed_sets())
+    if (file.ends_with("bad-queries.ndjson")) CHECK_FALSE(golden_set(file, claim, passed_over)());
+  // Nor is anything else where the speed is measured.
+  claim.domain.speed = {10, 20};
+  std::size_t beyond = 0;
+  JudgeOrder order = order_of(
+      guest("fast", [&](const Scene& scene, const Query& query, double,
+                        Answer&) { beyond += !(claim.domain.has(scene) && claim.domain.has(query)); }),
+      1);
+  order.claim = claim;
+  const std::atomic<bool> stop = false;
+  CHECK_FALSE(judge::judged(order, stop).speed_of.empty());
+  CHECK(beyond == 0);
 }
 
 TEST_CASE("The parts of a run share all of its time, and what is left", "[judge][judging]") {
@@ -539,10 +554,10 @@ TEST_CASE("The simplest case keeps the circumstance that its finding states", "[
   CHECK(length(simplest(finding, examination, 1e9).question.query.v) == 1);
   finding.circumstance.emplace().holds = [](const Features& f) { return !f.is_unit_speed; };
   CHECK(length(simplest(finding, examination, 1e9).question.query.v) != 1);
-}
   // The simplest of all flies farther than this engine claims to do.
   JudgeOrder order = order_of(never);
   order.claim.domain.flight = {0.23, 0.245};
   TimedExamination near(order, {}, stop);
   const Question kept = simplest({*example, "here", 1, 1e300}, near, 1e9).question;
   CHECK((is_in_domain(kept) && fuzz::most_bits(kept.place->scene(), kept.query) < 20));
+}
