@@ -20,12 +20,14 @@ Judgement judgement_of_invalid(const Answer& given) {
   return {Verdict::wrong, {}, std::numeric_limits<double>::infinity()};
 }
 
-// The limit is the hit's time, within the tolerance of times.
+// The limit is the hit's time, within the tolerance of times; of ulps if times are not judged.
 bool is_at_limit(const Question& question, double ulps) {
   const Answer& exact = question.exact;
   if (exact.outcome != Outcome::hit || ulps == 0) return false;
   const Answer there = Answer::hit(exact.obstacle, question.max_time);
-  return !question.place->judge().judge(question.query, exact, there, ulps).wrong_time;
+  Claim claim = question.place->claim();
+  if (std::isinf(claim.time_tolerance.value_or(0))) claim.time_tolerance.reset();
+  return !oracle::Judge(question.place->scene(), claim).judge(question.query, exact, there, ulps).wrong_time;
 }
 
 }  // namespace
@@ -35,20 +37,17 @@ bool is_later(const Question& question) {
   if (exact.outcome != Outcome::hit) return exact.outcome == Outcome::never;
   // The exact time lies between the neighbours of the rounded time, which therefore decides all other limits.
   if (*exact.time != question.max_time) return question.max_time < *exact.time;
-  oracle::Request request;
-  request.max_time = question.max_time;
-  return question.place->exact(question.query, request).outcome == Outcome::later;
+  return question.place->exact(question.query, {.max_time = question.max_time}).outcome == Outcome::later;
 }
 
 Judgement judgement_of(const Question& question, const Answer& given, double ulps, AtLimit at_limit) {
   if (!question.is_query()) return judgement_of_invalid(given);
   if (question.has_limit()) {
     const bool says_later = given.outcome == Outcome::later || given.outcome == Outcome::never;
-    const bool names_obstacle = given.outcome == Outcome::hit || given.outcome == Outcome::inside;
     if (says_later && is_later(question)) return {Verdict::agree};
     if (says_later && at_limit == AtLimit::excused && is_at_limit(question, ulps))
       return {Verdict::ill_posed};
-    if (says_later || (names_obstacle && at_limit == AtLimit::exact && is_later(question)))
+    if (says_later || (names_obstacle(given) && at_limit == AtLimit::exact && is_later(question)))
       return {Verdict::wrong, {}, std::numeric_limits<double>::infinity()};
   }
   // Equal answers without exits need no judge, nor do those that say nothing, and many scenes never get one.

@@ -103,6 +103,10 @@ TEST_CASE("A limit is judged like a time, and in campaigns exactly", "[compare][
   CHECK(verdict(time + 30 * unit, later, AtLimit::exact) == Verdict::wrong);
   CHECK(verdict(0.1, hit) == Verdict::agree);  // it says more than it was asked
   CHECK(verdict(0.1, hit, AtLimit::exact) == Verdict::wrong);
+  // A tolerance without end is one of times, not of limits.
+  question.place = std::make_shared<Place>(place->scene(), Claim{.time_tolerance = HUGE_VAL});
+  CHECK(verdict(time + 30 * unit, later) == Verdict::ill_posed);
+  CHECK(verdict(time + 40 * unit, later) == Verdict::wrong);
 }
 
 namespace {
