@@ -103,6 +103,7 @@ class TrajectoryRun {
  public:
   TrajectoryRun(Output& out, const TrajectoryOptions& options)
       : engine_(options.engine ? std::optional(question::engine_named(*options.engine)) : std::nullopt),
+        program_(engine_ && engine_->runs_apart() ? engine_->answerer({.listener = terminal()}) : nullptr),
         journey_(journey_of(options)),
         out_(out),
         options_(options) {
@@ -110,7 +111,11 @@ class TrajectoryRun {
   }
 
   void follow(const Id& id, const RationalScene& scene, const Start& start);
-  bool engine_failed() const { return engine_failed_; }
+  /// Ends an external engine. Returns true if it failed.
+  bool engine_failed() {
+    if (program_) program_->finish();
+    return program_ && program_->failed();
+  }
   const std::optional<pictures::PathDrawing>& picture() const { return picture_; }
 
   /// Leaves an old table as it is if no start was followed.
@@ -165,6 +170,7 @@ class TrajectoryRun {
   }
 
   const std::optional<question::EngineInfo> engine_;
+  const std::unique_ptr<question::Answerer> program_;  // an external engine
   const Journey journey_;
   Output& out_;
   const TrajectoryOptions& options_;
@@ -174,7 +180,6 @@ class TrajectoryRun {
   int columns_ = 0;
   std::uint64_t number_ = 0;
   std::optional<pictures::PathDrawing> picture_;  // of the first start
-  bool engine_failed_ = false;
 };
 
 // Adds the end of the path, and the engine's path from the point where they separate.
@@ -196,7 +201,7 @@ void end_drawing(pictures::PathDrawing& drawing, const Arrival& arrival, Rival* 
 
 void TrajectoryRun::follow(const Id& id, const RationalScene& scene, const Start& start) {
   std::unique_ptr<Rival> rival;
-  if (engine_) rival = std::make_unique<Rival>(*engine_, scene, start, terminal());
+  if (engine_) rival = std::make_unique<Rival>(*engine_, program_.get(), scene, start);
   pictures::PathDrawing* picture = nullptr;
   if (options_.svg && !picture_) {
     if (scene.dimension != 2) throw InputError("--svg: draws paths in two dimensions");
@@ -215,12 +220,8 @@ void TrajectoryRun::follow(const Id& id, const RationalScene& scene, const Start
     return true;
   });
   if (Interrupt::came()) return;  // an interrupt is not the end of a trajectory
-  if (rival && arrival.end != JourneyEnd::undecided)
-    rival->finish(arrival.collisions, arrival.end == JourneyEnd::time
-                                          ? std::optional(oracle::nearest(*journey_.time))
-                                          : std::nullopt);
+  if (rival) rival->finish(arrival, journey_.time ? oracle::nearest(*journey_.time) : 0);
   end(arrival, rival.get());
-  engine_failed_ |= rival && rival->failed();
   if (picture) end_drawing(*picture, arrival, rival.get(), options_.engine.value_or(""));
   if (arrival.end == JourneyEnd::undecided)
     say("start {}: undecided at collision {} with {} bits (--max-bits allows more; a line that touches an "

@@ -11,14 +11,8 @@ namespace {
 
 constexpr double kForEver = std::numeric_limits<double>::infinity();
 
-oracle::Request request_until(double max_time) {
-  oracle::Request request;
-  if (max_time < kForEver) request.max_time = max_time;
-  return request;
-}
-
 // Another program is asked one query at a time, because the next query depends on its answer.
-AskFirstHit ask_command(question::Answerer& program) {
+AskFirstHit ask_program(question::Answerer& program) {
   return [&program](const Query& query, double, Answer& answer) {
     program.on_reply([&](const question::Reply& reply) { answer = reply.answer; });
     program.ask("0", query);
@@ -44,27 +38,20 @@ double bits_in_common(const Vec& a, const Vec& b) {
 AskFirstHit asking(const question::EngineInfo& engine, const Scene& scene) {
   return [there = engine.in(scene)](const Query& query, double max_time, Answer& answer) {
     question::Reply reply;
-    there.ask(query, request_until(max_time), reply);
+    there.ask(query, {.max_time = max_time}, reply);
     answer = std::move(reply.answer);
   };
 }
 
-Rival::Rival(const question::EngineInfo& engine, const RationalScene& scene, const Start& start,
-             question::Listener listener)
+Rival::Rival(const question::EngineInfo& engine, question::Answerer* program, const RationalScene& scene,
+             const Start& start)
     : scene_(oracle::nearest(scene)) {
-  AskFirstHit ask;
-  if (engine.runs_apart()) {
-    question::AnswererOptions options;
-    options.listener = std::move(listener);
-    command_ = engine.answerer(options);
-    command_->set_scene(scene_);
-    ask = ask_command(*command_);
-  } else {
-    ask = asking(engine, scene_);
-  }
+  if (program && !program->is_in(scene_)) program->set_scene(scene_);
+  if (program) program->try_again();
   const Query query = oracle::nearest(start);
   try {
-    trajectory_ = std::make_unique<Trajectory>(std::move(ask), scene_, query);
+    trajectory_ =
+        std::make_unique<Trajectory>(program ? ask_program(*program) : asking(engine, scene_), scene_, query);
   } catch (const UnsupportedError& error) {
     throw InputError(std::string("--engine: ") + error.what());
   }
@@ -84,9 +71,13 @@ void Rival::meet(const oracle::CertifiedCollision& truth) {
   bits_right_ = bits_in_common(trajectory_->state().offset, truth.offset);
 }
 
-void Rival::finish(std::uint64_t collisions, std::optional<double> until) {
-  if (diverged_ || !until) return;
-  if (trajectory_->advance(*until)) diverged_ = collisions + 1;
+void Rival::finish(const oracle::Arrival& truth, double until) {
+  using oracle::JourneyEnd;
+  if (diverged_ || truth.end == JourneyEnd::collisions || truth.end == JourneyEnd::undecided) return;
+  const bool at_time = truth.end == JourneyEnd::time;
+  const Stop right = at_time ? Stop::time : truth.end == JourneyEnd::never ? Stop::never : Stop::inside;
+  if (trajectory_->advance(at_time ? until : kForEver) || trajectory_->stop() != right)
+    diverged_ = truth.collisions + 1;
   path_.push_back(trajectory_->place());
 }
 
@@ -99,7 +90,7 @@ void Rival::go_on(std::uint64_t collisions) {
 
 std::string Rival::stopped() const {
   const Stop stop = trajectory_->stop();
-  if (stop == Stop::none || stop == Stop::time || stop == Stop::collisions) return "";
+  if (!diverged_ || stop == Stop::none || stop == Stop::collisions) return "";
   return name_of(stop);
 }
 

@@ -20,18 +20,18 @@ AskFirstHit asking(const question::EngineInfo& engine, const Scene& scene);
 /// to the given start, in the binary64 scene nearest to the given scene.
 class Rival {
  public:
-  /// Throws InputError if the engine's trajectory does not support the start. `listener` gets the events of
-  /// an external program.
-  Rival(const question::EngineInfo& engine, const RationalScene& scene, const Start& start,
-        question::Listener listener = {});
+  /// `program` answers if the engine is an external one, for one rival at a time. Throws InputError if the engine's
+  /// trajectory does not support the start.
+  Rival(const question::EngineInfo& engine, question::Answerer* program, const RationalScene& scene,
+        const Start& start);
 
   /// Takes the next certified collision, and compares it with the rival's own next collision. Does nothing
   /// once the rival has diverged.
   void meet(const oracle::CertifiedCollision& truth);
 
-  /// Ends the rival's trajectory, because the certified one has ended, at the time `until` if it is given. A
-  /// further collision of the rival counts as a difference.
-  void finish(std::uint64_t collisions, std::optional<double> until);
+  /// Ends the rival's trajectory, because the certified one has ended; if at a time, at the time `until`. If the rival's
+  /// ends otherwise or not yet, that counts as a difference.
+  void finish(const oracle::Arrival& truth, double until);
 
   /// Continues alone up to this number of collisions, to record the path.
   void go_on(std::uint64_t collisions);
@@ -40,14 +40,11 @@ class Rival {
   /// The number of bits in which it agrees with the place of the last certified collision, relative to the
   /// obstacle; at most 53.
   double bits_right() const { return bits_right_; }
-  /// True if the engine is an external program and failed.
-  bool failed() const { return command_ && command_->failed(); }
-  /// Why it stopped; empty if it did not stop.
+  /// Why it stopped where the certified one goes on; empty if it did not.
   std::string stopped() const;
   const std::vector<Vec>& path() const { return path_; }
 
  private:
-  std::unique_ptr<question::Answerer> command_;
   Scene scene_;
   std::unique_ptr<Trajectory> trajectory_;
   std::optional<std::uint64_t> diverged_;

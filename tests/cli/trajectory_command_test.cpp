@@ -225,3 +225,23 @@ TEST_CASE("trajectory ends where the particle escapes for ever", "[cli][trajecto
   CHECK(folder.lorentz("trajectory --collisions 4 --svg " + folder.file("path") + " " + near).status == 0);
   CHECK((contains(folder.read("path"), "</svg>") && !contains(folder.read("path"), "nan")));
 }
+
+TEST_CASE("trajectory: an engine is asked at the end, too, and its own end is told",
+          "[cli][trajectory_command]") {
+  const Folder folder;
+  const auto run = [&](const std::string& cell, const std::string& how_far) {
+    const std::string engine = folder.write(
+        "engine.sh",
+        R"(while read -r line; do case $line in *'"v":'*) echo '{"id":1,"outcome":"hit","lattice":0,)"
+        R"("atom":0,"time":0.5,"cell":)" +
+            cell + "}';; esac; done; exit 3");
+    return folder.lorentz("trajectory --scene square --radius 0.125 --x 0.5,0.125 --v 1,0 " + how_far +
+                          " -e 'cmd:sh " + engine + "'");
+  };
+  // The line touches a row of discs.
+  const Run touched = run("[1,0]", "--collisions 5"), beside = run("[1,3]", "--time 2");
+  CHECK(contains(touched.out, R"("end":"never","collisions":0)"));
+  CHECK(contains(touched.out, R"("diverged":1})"));
+  CHECK(contains(touched.err, "ended with exit 3 after its last answer"));
+  CHECK(contains(beside.out, R"("diverged":1,"stopped":"missed"})"));
+}
