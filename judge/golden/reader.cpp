@@ -407,6 +407,10 @@ bool Reader::next(ReadRecord& record) {
 }
 
 question::Source questions_of(Reader& reader, const Claim& claim) {
+    if (names_obstacle(record.expect) &&
+        !(read.query && names_obstacle(record.expect, *read.query, reader.scene())))
+      throw InputError(fmt::format("{}:{}: expect: cannot be right; lorentz golden verify says more",
+                                   reader.path(), read.line));
   return [&reader, claim, scene = std::size_t{0},
           place = std::shared_ptr<question::Place>()]() mutable -> std::optional<question::Question> {
     ReadRecord read;

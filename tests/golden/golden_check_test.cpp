@@ -102,6 +102,10 @@ TEST_CASE("golden check: half a set is not a set", "[golden][golden_check]") {
     CHECK_FALSE(contains(run.err, "stale"));
   }
   CHECK(folder.lorentz("golden check -e oracle --first 5 " + folder.file("set.ndjson")).status == 0);
+  // Nor is a set whose records name what their scenes do not have.
+  half.replace(half.find(R"("lattice":0)", half.find("expect")), 11, R"("lattice":7)");
+  const Run none = folder.lorentz("golden check -e oracle " + folder.write("set.ndjson", half));
+  CHECK((none.status == 2 && contains(none.err, "set.ndjson:3: expect: cannot be right")));
 }
 
 TEST_CASE("golden check: a machine that rounds otherwise gives wrong answers", "[golden][golden_check]") {
