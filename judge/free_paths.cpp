@@ -6,14 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include <lorentz/geometry.hpp>
 #include "report/files/scene_file.hpp"
 #include "statistics/theory/laws.hpp"
 
 namespace lorentz::judge {
 namespace {
 
-// How far a particle gets according to an answer; nothing if the answer does not say.
-std::optional<double> path_of(const Answer& answer) {
+// How long a particle flies according to an answer; nothing if the answer does not say.
+std::optional<double> flight_of(const Answer& answer) {
   if (answer.outcome == Outcome::hit) return answer.time;
   if (answer.outcome == Outcome::never) return std::numeric_limits<double>::infinity();
   if (answer.outcome == Outcome::inside) return 0;
@@ -37,12 +38,15 @@ std::vector<double> sorted(std::vector<double> values) {
 }  // namespace
 
 void FlownScene::add(const question::Question& question, const Answer& given) {
-  const auto path = path_of(given), exact = path_of(question.exact);
-  if (!path || std::isnan(*path) || !exact) return;
+  const auto time = flight_of(given), exact = flight_of(question.exact);
+  if (!time || std::isnan(*time) || !exact) return;
+  is_limited_ |= question.place->claim().domain.flight != Domain::Range();
+  // Directions are of unit length; the domain may have other speeds, by powers of two.
+  const double speed = std::exp2(std::round(std::log2(length(question.query.v))));
   // Rounding must not carry a path across a point of the curve.
   constexpr double kSame = 0x1p-30;
-  given_.push_back(std::fabs(*path - *exact) <= kSame * *exact ? *exact : *path);
-  exact_.push_back(*exact);
+  given_.push_back(speed * (std::fabs(*time - *exact) <= kSame * *exact ? *exact : *time));
+  exact_.push_back(speed * *exact);
 }
 
 double FlownScene::mean_of(const std::vector<double>& paths) {
@@ -82,8 +86,8 @@ std::string FlownScene::name() const {
 std::string FlownScene::text() const {
   std::string text =
       fmt::format("{}: {} flights, mean {:.4g} (exact {:.4g}", name(), flights(), mean(), exact_mean());
-  if (const auto mean = flights::mean_free_path_of(read_scene(scene_, radius_)).value)
-    text += fmt::format("; of infinitely many {:.4g}", *mean);
+  const auto mean_of_all = flights::mean_free_path_of(read_scene(scene_, radius_)).value;
+  if (mean_of_all && !is_limited_) text += fmt::format("; of infinitely many {:.4g}", *mean_of_all);
   text += ")";
   if (const auto farthest = farthest_apart())
     return text + fmt::format(", P(tau > {:.3g}) is {:.3g} where {:.3g} is exact", farthest->t,
@@ -93,7 +97,8 @@ std::string FlownScene::text() const {
 
 report::FreePathCurve FlownScene::curve(const std::string& engine) const {
   report::FreePathCurve curve{scene_, engine, radius_, "surface", "", {}};
-  const auto law = flights::law_of(read_scene(scene_, radius_), flights::Ensemble::surface);
+  const auto law =
+      is_limited_ ? std::nullopt : flights::law_of(read_scene(scene_, radius_), flights::Ensemble::surface);
   if (law) curve.law = fmt::format("{}, {}", law->name, law->when);
   curve.points = points();
   if (law)

@@ -10,9 +10,9 @@
 
 namespace lorentz::judge {
 
-/// The free paths in one scene. Paths are times of flight, because starts have unit speed. A flight that the
-/// engine did not decide is in neither of the two distributions. Both are of the same flights, so any
-/// difference is due to the engine.
+/// The free paths in one scene. A flight that the engine did not decide is in neither of the two distributions. Both are
+/// of the same flights, so any difference is due to the engine. No theory is about flights that the engine's domain
+/// limits.
 class FlownScene {
  public:
   using PathPoint = report::FreePathCurve::CurvePoint;  ///< with the exact share
@@ -44,6 +44,7 @@ class FlownScene {
 
   std::string scene_;
   double radius_;
+  bool is_limited_ = false;
   std::vector<double> given_, exact_;  // infinite: nothing is ever hit
 };
 

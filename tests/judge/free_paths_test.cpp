@@ -4,14 +4,20 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/support/command_line.hpp"
+#include "tests/support/support.hpp"
+
 using namespace lorentz;
+using namespace lorentz::test;
 using namespace lorentz::judge;
 
 namespace {
 
-// A flight of exactly this length.
-question::Question flight(double path) {
-  return {nullptr, {}, Answer::hit({}, path), "here", ""};
+// A flight that takes exactly this time.
+question::Question flight(double time, double speed = 1, const Claim& claim = {}) {
+  return {std::make_shared<question::Place>(unit_scene(2, 0.1), claim),
+          {{}, {speed, 0, 0}, {}},
+          Answer::hit({}, time)};
 }
 
 }  // namespace
@@ -45,4 +51,18 @@ TEST_CASE("What an engine does not decide is in neither distribution", "[judge][
   CHECK(paths.points().empty());
   paths.add(flight(3), Answer::hit({}, 3));
   CHECK(paths.mean() == 3);
+}
+
+TEST_CASE("Free paths are lengths at any speed, and those that a domain cuts short follow no theory",
+          "[judge][free_paths]") {
+  FlownScene paths("square", 0.1);
+  paths.add(flight(3, 16), Answer::hit({}, 3));
+  CHECK(paths.mean() == 48);
+  CHECK(contains(paths.text(), "of infinitely many 4.843"));
+  CHECK_FALSE(paths.curve("engine").law.empty());
+  Claim claim;
+  claim.domain.flight.high = 50;
+  paths.add(flight(3, 16, claim), Answer::hit({}, 3));
+  CHECK_FALSE(contains(paths.text(), "infinitely"));
+  CHECK(paths.curve("engine").law.empty());
 }
