@@ -72,14 +72,16 @@ void VariedStarts::change(Query& query, const Change& change) const {
   if (is_fit(changed)) query = changed;
 }
 
-// Only flights along a plane of the axes go on for ever, but for a few.
+// In crystals only flights along a plane of the axes go on for ever, but for a few.
 double VariedStarts::drawn_limit(Random& random, const Query& query) const {
   const bool is_limited = random.one_in(kSeldom),
              is_flat = query.v[0] == 0 || query.v[1] == 0 || (scene_.dimension == 3 && query.v[2] == 0);
-  if (!claim_.domain.limits || !(is_limited || is_flat)) return VariedStart().max_time;
+  if (!claim_.domain.limits || !(is_limited || is_flat || !is_crystal(scene_))) return VariedStart().max_time;
   const Answer exact = certified_.first_hit(query);
   if (exact.time && !is_limited) return VariedStart().max_time;
-  const double far = kFarVectors * length(scene_.lattices[0].vectors[0]);
+  const Lattice& first = scene_.lattices[0];
+  const double far = kFarVectors * length(first.rank != 0 ? first.vectors[0]
+                                                          : semiaxes_of(first.atoms[0], scene_.dimension)[0]);
   const double time = exact.time ? *exact.time : far / length(query.v);
   const double limit = rounded(time * random.octave(-2, 2), claim_.precision);
   return limit > 0 ? limit : VariedStart().max_time;

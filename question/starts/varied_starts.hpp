@@ -26,7 +26,8 @@ struct VariedStart {
 /// - in 1 of 16, one component of its velocity is made zero;
 /// - in 3 of 4, its speed is made 2^k (1 + u), k from -10 to 9, u from 0 to 1;
 /// - in 1 of 16, its flight is limited to 1/4 to 4 times that to the first hit;
-/// - a flight that meets nothing is limited to about 1000 times the first vector: some engines would walk on for ever.
+/// - a flight that meets nothing is limited to about 1000 times the first vector, or radius if there is no vector: some
+///   engines would walk on for ever.
 /// A change that leads into an obstacle or out of the claim's domain is not made.
 class VariedStarts {
  public:
