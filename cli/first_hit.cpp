@@ -115,6 +115,7 @@ int act_on_lines(const FirstHitOptions& options) {
   AnswererOptions answerer_options{request_of(options, engine)};
   answerer_options.listener = terminal();
   answerer_options.strict = options.strict;
+  answerer_options.applies_limits = true;
   answerer_options.jobs = jobs_of(options, engine);
   answerer_options.timeout = options.timeout.value_or(answerer_options.timeout);
   const std::unique_ptr<Answerer> answerer = engine.answerer(answerer_options);

@@ -33,6 +33,7 @@ struct AnswererOptions {
   /// its first answer may take `timeout` plus twice the time of the slowest start so far, but no more than
   /// this.
   double start_timeout = 0;
+  bool applies_limits = false;  ///< limits are applied to the answers, so a hit with a limit needs its time
   /// An engine of this program is asked as campaigns do: `reduction` and `batch` in two ways at once, and
   /// `classical` and `walk` give up sooner.
   bool in_campaign = false;

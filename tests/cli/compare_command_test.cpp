@@ -685,6 +685,14 @@ TEST_CASE("A program's hit is judged as it was said, also beyond a limit", "[cli
   INFO(run.out << run.err);
   CHECK(contains(run.out, R"("agree":2,"ill_posed":0,"wrong":0)"));
   CHECK(contains(run.out, R"("wrong_time":2,"other_quantity":2)"));
+  // A time is needed where the limit is applied, and only there.
+  const std::string timeless =
+      folder.write("timeless", "sh " + program + R"( | exec sed -u 's/,"time":5//')");
+  const auto asked = [&](const std::string& command) {
+    return folder.lorentz(command + queries + " --scene square --radius 0.1 -e 'cmd:sh " + timeless + "'");
+  };
+  CHECK(contains(asked("compare --json --queries ").out, R"("agree":2,)"));
+  CHECK(contains(asked("first-hit ").out, "gave a hit without its time, which a limit needs"));
   // As an answer to a user it is `later`, with proofs or without.
   for (const char* prove : {"", " --prove"})
     CHECK(folder
