@@ -124,7 +124,7 @@ std::vector<std::string> reason_lines(const Finding& finding) {
     lines.push_back("not asked again: no time; whether it goes wrong by itself is not known");
   else if (finding.repetitions > 1)
     lines.push_back(fmt::format(
-        "asked alone it is answered otherwise; asked again and again, this comes at the {}th time",
+        "asked alone it is answered otherwise; asked again and again, this comes at time number {}",
         finding.repetitions));
   return lines;
 }

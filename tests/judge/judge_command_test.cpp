@@ -167,7 +167,7 @@ TEST_CASE("judge: a fault that comes with a count is told, and the command that 
   INFO(run.out << run.err);
   CHECK(run.status == 3);
   CHECK(contains(run.out, "\nbroken: "));
-  CHECK(contains(run.out, "asked again and again, this comes at the 50th time"));
+  CHECK(contains(run.out, "asked again and again, this comes at time number 50"));
   const Run again = run_printed(folder, line_after(run.out, "\n   $ "));
   INFO(again.out << again.err);
   CHECK(again.status == 3);
