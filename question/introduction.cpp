@@ -15,31 +15,28 @@ namespace {
 constexpr double kToIntroduce = 10, kLongest = 1e6;  // seconds
 constexpr std::chrono::milliseconds kToEnd{1000};
 
-// Reads the object that is the line's first member, if that has this key.
+// Reads the object with this key in the object that the line is. Returns false if there is none, or the line has an id,
+// as answers have.
 template <class Read>
-bool read_first(std::string_view line, std::string_view key, const Read& read) {
-  const std::string_view rest = line.substr(std::min(line.find_first_not_of(" \t{"), line.size()));
-  if (!rest.starts_with('"' + std::string(key) + '"')) return false;
+bool read_member(std::string_view line, std::string_view key, const Read& read) {
+  if (line.find('"' + std::string(key) + '"') == line.npos)
+    return false;  // as the lines of a million answers
+  bool is_there = false, has_id = false;
   try {
     json::Document document;
     document.open(line);
     json::each_member(document.object(), [&](std::string_view name, json::Value value) {
+      is_there |= name == key, has_id |= name == "id";
       name == key ? json::each_member(value, read) : skip(value);
     });
-    return true;
   } catch (const NotJson& error) {
     throw InputError(fmt::format("{}: {}", key, error.what()));
   }
+  return is_there && !has_id;
 }
 
-NumberFormat format_called(std::string_view name) {
-  for (const NumberFormat format : {NumberFormat::binary64, NumberFormat::binary32})
-    if (name == name_of(format)) return format;
-  throw InputError("precision is binary64 or binary32, not " + json_quoted(std::string(name)));
-}
-
-double not_negative(json::Value value, const char* what) {
-  const double number = read_number_or_infinity(value, what);
+double not_negative(json::Value value, const char* what, bool is_finite = false) {
+  const double number = is_finite ? read_number(value, what) : read_number_or_infinity(value, what);
   if (std::isnan(number) || number < 0) throw InputError(fmt::format("{} is below zero", what));
   return number;
 }
@@ -95,9 +92,17 @@ StartInside rule_called(std::string_view name) {
 
 }  // namespace
 
+NumberFormat format_called(std::string_view name) {
+  for (const NumberFormat format : {NumberFormat::binary64, NumberFormat::binary32})
+    if (name == name_of(format)) return format;
+  throw InputError("precision is binary64 or binary32, not " + json_quoted(std::string(name)));
+}
+
 std::optional<Introduction> introduction_in(std::string_view line) {
   Introduction made;
-  const bool is_there = read_first(line, "engine", [&](std::string_view key, json::Value value) {
+  if (line.starts_with('{') && line.find('}') == line.npos)
+    throw InputError("its introduction does not stand in one line");
+  const bool is_there = read_member(line, "engine", [&](std::string_view key, json::Value value) {
     if (key == "name") made.name = value.text();
     if (key == "version") made.version = value.text();
     if (key == "precision") made.precision = format_called(value.text());
@@ -152,9 +157,9 @@ std::optional<Introduction> introduction_of_command(const std::string& command, 
 
 std::optional<OwnTime> own_time_in(std::string_view line, const OnUnknownKey& on_unknown_key) {
   OwnTime time;
-  const bool is_there = read_first(line, "engine_time", [&](std::string_view key, json::Value value) {
+  const bool is_there = read_member(line, "engine_time", [&](std::string_view key, json::Value value) {
     if (key == "seconds")
-      time.seconds = not_negative(value, "engine_time: seconds");
+      time.seconds = not_negative(value, "engine_time: seconds", true);
     else if (key == "queries")
       time.queries = static_cast<double>(value.natural());
     else if (on_unknown_key)
@@ -165,7 +170,7 @@ std::optional<OwnTime> own_time_in(std::string_view line, const OnUnknownKey& on
 
 std::optional<std::string> doing_in(std::string_view line) {
   std::string doing;
-  const bool is_there = read_first(line, "library", [&](std::string_view key, json::Value value) {
+  const bool is_there = read_member(line, "library", [&](std::string_view key, json::Value value) {
     if (key == "does") doing = value.text();
   });
   return is_there ? std::optional(doing) : std::nullopt;

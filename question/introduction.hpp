@@ -26,8 +26,11 @@ struct Introduction {
   std::vector<std::string> unknown = {};  ///< keys that no introduction has
 };
 
-/// Reads an introduction. Returns nothing if the line is not an object whose first key is "engine". Throws
-/// InputError for impossible values.
+/// The format with this name. Throws InputError if there is none.
+NumberFormat format_called(std::string_view name);
+
+/// Reads an introduction. Returns nothing if the line is not an object with the key "engine". Throws InputError for
+/// impossible values, and for a line on which an object begins that does not end there.
 std::optional<Introduction> introduction_in(std::string_view line);
 
 /// What a program writes first when its input is empty.

@@ -30,13 +30,6 @@ int read_index(json::Value value, const std::string& key) {
   return static_cast<int>(read_count(value, key, 1'000'000'000));
 }
 
-NumberFormat read_precision(json::Value value, const std::string& key) {
-  const std::string name = read_text(value, key);
-  for (const NumberFormat precision : {NumberFormat::binary64, NumberFormat::binary32})
-    if (name == name_of(precision)) return precision;
-  throw InputError(key + ": " + json_quoted(name) + " is unknown; expected binary64 or binary32");
-}
-
 Header read_header(json::Value value, const OnUnknownKey& on_unknown_key) {
   Header header;
   const std::map<std::string_view, std::string*> texts{{"name", &header.name},
@@ -54,7 +47,7 @@ Header read_header(json::Value value, const OnUnknownKey& on_unknown_key) {
       if (header.format < 1 || header.format > kFormat)
         throw InputError("format: only formats 1 and 2 are known here");
     } else if (key == "precision") {
-      header.precision = read_precision(member, key);
+      header.precision = question::format_called(read_text(member, key));
     } else if (key == "count") {
       header.count = static_cast<std::uint64_t>(read_count(member, key));
     } else if (key == "tags") {
@@ -407,10 +400,6 @@ bool Reader::next(ReadRecord& record) {
 }
 
 question::Source questions_of(Reader& reader, const Claim& claim) {
-    if (names_obstacle(record.expect) &&
-        !(read.query && names_obstacle(record.expect, *read.query, reader.scene())))
-      throw InputError(fmt::format("{}:{}: expect: cannot be right; lorentz golden verify says more",
-                                   reader.path(), read.line));
   return [&reader, claim, scene = std::size_t{0},
           place = std::shared_ptr<question::Place>()]() mutable -> std::optional<question::Question> {
     ReadRecord read;
@@ -418,6 +407,10 @@ question::Source questions_of(Reader& reader, const Claim& claim) {
     if (scene != reader.scene_number()) place = std::make_shared<question::Place>(reader.scene(), claim);
     scene = reader.scene_number();
     Record& record = read.record;
+    if (names_obstacle(record.expect) &&
+        !(read.query && names_obstacle(record.expect, *read.query, reader.scene())))
+      throw InputError(fmt::format("{}:{}: expect: cannot be right; lorentz golden verify says more",
+                                   reader.path(), read.line));
     if (claim.inside != StartInside::inside && record.expect.outcome == Outcome::inside && read.query)
       record.expect = place->exact(*read.query);
     return question::Question{

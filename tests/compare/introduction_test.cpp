@@ -51,9 +51,11 @@ TEST_CASE("An introduction is read, whatever is left out", "[compare][introducti
   CHECK(empty->dimensions.empty());
   CHECK(introduction_in(R"({"engine":{"time_tolerance":"inf"}})")->time_tolerance ==
         std::numeric_limits<double>::infinity());
-  for (const char* other : {"", "hello", "{}", R"({"id":1,"outcome":"never"})", R"({"engines":{}})"})
+  for (const char* other :
+       {"", "hello", "{}", R"({"id":1,"outcome":"never"})", R"({"engines":{}})", R"({"id":1,"engine":{}})"})
     CHECK_FALSE(introduction_in(other));
-  for (const char* bad : {R"({"engine":1})", R"({"engine":{)", R"({"engine":{"precision":"float"}})",
+  CHECK(introduction_in(R"({"comment":"hi","engine":{"name":"m"}})")->name == "m");
+  for (const char* bad : {"{", R"({"engine":1})", R"({"engine":{)", R"({"engine":{"precision":"float"}})",
                           R"({"engine":{"time_tolerance":-1}})", R"({"engine":{"dimensions":[4]}})",
                           R"({"engine":{"name":"a","name":"b"}})"})
     CHECK_THROWS_AS(introduction_in(bad), InputError);
@@ -112,7 +114,8 @@ TEST_CASE("The time of an engine's own calls is read", "[compare][introduction]"
   CHECK_FALSE(own_time_in(R"({"engine_time":{"seconds":0,"queries":0}})")->ns_per_query());
   CHECK_FALSE(own_time_in(R"({"id":1,"outcome":"never"})"));
   for (const char* bad :
-       {R"({"engine_time":{"seconds":-1,"queries":1}})", R"({"engine_time":{"queries":-1}})"})
+       {R"({"engine_time":{"seconds":-1,"queries":1}})", R"({"engine_time":{"queries":-1}})",
+        R"({"engine_time":{"seconds":"inf","queries":1}})"})
     CHECK_THROWS_AS(own_time_in(bad), InputError);
   std::string unknown;
   const auto see = [&](const std::string& key) { unknown += key; };
