@@ -1,5 +1,6 @@
 #include "fuzz/campaign/time_limit.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,7 +13,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The time used if nothing is hit.
-constexpr double kSomeTime = 100;
+constexpr double kSomeTime = 100, kLeastTime = 2 * std::numeric_limits<double>::denorm_min();
 
 // The range of the bits by which `before` and `after` differ from the time.
 constexpr int kFewestBits = 20, kMostBits = 51;
@@ -50,11 +51,13 @@ LimitAt drawn_limit(Random& random, const Answer& exact) {
   if (!at_once && random.one_in(2))
     return {random.one_in(2) ? LimitAt::before : LimitAt::after,
             static_cast<int>(random.integer(kFewestBits, kMostBits))};
-  return random.one_in(2) ? LimitAt::time : random.one_in(2) ? LimitAt::below : LimitAt::above;
+  const auto at = random.one_in(2) ? LimitAt::time : random.one_in(2) ? LimitAt::below : LimitAt::above;
+  return at_once ? LimitAt::above : at;  // a limit is above 0
 }
 
 double limit_of(LimitAt limit, const Answer& exact) {
-  const double time = exact.outcome == Outcome::hit ? *exact.time : kSomeTime;
+  // All limits are above 0, also the one below the time.
+  const double time = exact.outcome == Outcome::hit ? std::max(*exact.time, kLeastTime) : kSomeTime;
   const double share = std::ldexp(1, -limit.bits);
   switch (limit.place) {
     case LimitAt::none:

@@ -339,6 +339,7 @@ TEST_CASE("Rewording: a limit's answer follows from the rounded time, but at the
       CHECK(fuzz::limit_in("basis 2^3, " + fuzz::words_of(limit)) == limit);
       oracle::Request request;
       request.max_time = fuzz::limit_of(limit, exact);
+      CHECK(*request.max_time > 0);
       const bool is_later = oracle.first_hit(one.query, request).outcome == Outcome::later;
       ++met[at];
       later[at] += is_later;
