@@ -19,6 +19,8 @@ bool is_everyday(const Question& question) {
   const auto see = [&](double a) { all &= a == 0 || (kLeast <= std::fabs(a) && std::fabs(a) <= kMost); };
   const auto see_each = [&](const Vec& a) { std::ranges::for_each(a, see); };
   see_each(question.query.x), see_each(question.query.v);
+  for (const Lattice& lattice : question.place->scene().lattices)
+    for (const Vec& vector : lattice.vectors) see_each(vector);
   for_each_atom(question.place->scene(), [&](const Atom& atom) {
     see(atom.radius), see_each(atom.position);
     for (const Vec& axis : atom.semiaxes) see_each(axis);

@@ -17,7 +17,7 @@ struct RaceOptions {
   std::vector<Answerer*> running = {};
 };
 
-/// The engines' speeds, on one thread. A round of an engine ends after ten seconds. An external program is
+/// The engines' speeds, on one thread. A round of an engine ends after ten seconds, except that of an external program, which is
 /// timed by the wall clock, pipes included, from the first query to the last answer; a library by its own
 /// calls. A program that failed is not run again.
 std::vector<Speed> race(std::span<const Question> questions, const std::vector<EngineInfo>& engines,

@@ -37,7 +37,8 @@ void SceneEngine::fly(const QueryColumns& queries, FlightTable& flights) const {
   }
   Reply reply;
   for (const std::size_t i : rest) {
-    ask(queries.query(i, dimension_), {}, reply);
+    const double limit = queries.max_time.empty() ? kForEver : queries.max_time[i];
+    ask(queries.query(i, dimension_), {.max_time = limit}, reply);
     columns.outcome[i] = reply.answer.outcome;
     columns.time[i] = reply.answer.time.value_or(0);
   }
@@ -120,9 +121,7 @@ class RowsAnswered {
   }
 
   void ask(std::size_t i, std::uint8_t stage) {
-    oracle::Request request;
-    if (limit(i) < HUGE_VAL) request.max_time = limit(i);
-    engine_.ask(queries_.query(i, answers_.dimension), request, reply_);
+    engine_.ask(queries_.query(i, answers_.dimension), {.max_time = limit(i)}, reply_);
     answers_.set(first_ + i, reply_.answer, stage, engine_.traits().is_exact);
   }
 

@@ -357,7 +357,8 @@ class Shrinker {
     }
     if (const auto& from = one.query.from) {
       add(static_cast<std::uint64_t>(64 * from->lattice + from->atom + 1));
-      for (const Integer& n : from->cell) add(static_cast<std::uint64_t>(n.int64()));
+      for (const Integer& n : from->cell)
+        for (const char digit : n.decimal()) add(static_cast<std::uint64_t>(digit));
     }
     return hash;
   }

@@ -51,10 +51,10 @@ class Flyer {
 
   // Counts a flight. Returns false if the start lies in an obstacle.
   bool count(const Flight& flight, std::uint64_t index, FlightTally& tally) {
+    if (flight.outcome != Outcome::inside) inside_in_a_row_ = 0;
     switch (flight.outcome) {
       case Outcome::hit:
         tally.count_hit(flight.time);
-        inside_in_a_row_ = 0;
         return true;
       case Outcome::never:
         ++tally.never;

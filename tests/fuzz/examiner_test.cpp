@@ -112,6 +112,11 @@ TEST_CASE("A single flight that says anything else than a batch is seen", "[fuzz
   // The limit goes both ways, too.
   for (const char* engine : {"reduction", "batch", "certified", "certified-batch", "walk"})
     CHECK(said(*fuzz::answerer_maker(question::engine_named(engine))({}), scene, queries, 0.125) == "ll");
+  QueryTable table;
+  table.push_back(queries[0], 0.125);
+  FlightTable flights;
+  question::engine_named("walk").in(scene).fly(table.columns(), flights);
+  CHECK(flights[0].outcome == Outcome::later);
 }
 
 TEST_CASE("With a limit at, below or above the time an answer is right or wrong, never ill-posed",

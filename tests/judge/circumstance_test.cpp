@@ -240,6 +240,17 @@ TEST_CASE("Two faults with one cause are two findings, each with its own example
   CHECK((all[1].count == 20 && all[1].by_row.at("row") == 20));
 }
 
+TEST_CASE("A question with numbers of every day comes before a simpler one in a vast cell",
+          "[judge][findings]") {
+  Scene vast = unit_scene(2, 0.25);
+  vast.lattices[0].vectors = {Vec{0x1p30, 0}, Vec{0, 0x1p30}};
+  const std::vector<Question> questions{asked(vast, {0.5, 0}, {-1, 0}),
+                                        asked(unit_scene(2, 0.25), {0.512345, 0.01}, {1, 0.07})};
+  const auto all =
+      found(questions, [](const Question&, Answer& given) { given = Answer::never(); }).all(rows(2));
+  CHECK(all[0].simplest.question.query.v[0] == 1);
+}
+
 TEST_CASE("Up to three faults with one cause are told apart", "[judge][findings]") {
   const Scene scene = unit_scene(2, 0.25);
   std::vector<Question> questions;
