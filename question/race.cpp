@@ -54,15 +54,12 @@ Round run_round(Questions questions, const std::vector<const SceneEngine*>& engi
                 const Listener& listener) {
   Round round;
   std::vector<Reply> replies(kBlock);
-  std::vector<oracle::Request> requests(questions.size());
-  for (std::size_t i = 0; i < questions.size(); ++i)
-    if (questions[i].has_limit()) requests[i].max_time = questions[i].max_time;
   double spent = 0;
   round.time_blocks(questions.size(), kBlock, [&](std::size_t begin, std::size_t end) {
     spent -= thread_ns();
     const auto start = SteadyClock::now();
     for (std::size_t i = begin; i < end; ++i)
-      engines[i]->ask(questions[i].query, requests[i], replies[i - begin]);
+      engines[i]->ask(questions[i].query, {.max_time = questions[i].max_time}, replies[i - begin]);
     const double ns = ns_since(start);
     spent += thread_ns();
     report(listener, name, end, questions.size());

@@ -100,10 +100,7 @@ void Maker::excuse(const Query& query, Record& record) const {
 }
 
 Proved Maker::prove(const Query& query) const {
-  oracle::Request request;
-  request.digits = kDigits;
-  request.detail = is_one_obstacle(scene_);
-  Proved proved{oracle_.first_hit(query, request), {}};
+  Proved proved{oracle_.first_hit(query, {.digits = kDigits, .detail = is_one_obstacle(scene_)}), {}};
   proved.exact.detail.reset();
   proved.certificate =
       others_.prove ? others_.prove(query, proved.exact) : prover_.prove(query, proved.exact);

@@ -69,9 +69,7 @@ bool move_to_edge(const std::function<double()>& off_edge, const Scene& scene, c
                   Query& query, NumberFormat precision) {
   query = rounded(query, precision);
   if (query.v == Vec{}) return false;
-  oracle::Request request;
-  request.detail = true;
-  const Answer answer = oracle.first_hit(query, request);
+  const Answer answer = oracle.first_hit(query, {.detail = true});
   if (answer.outcome != Outcome::hit || !answer.detail) return false;
   const auto axes =
       semiaxes_of(scene.lattices[answer.obstacle.lattice].atoms[answer.obstacle.atom], scene.dimension);
