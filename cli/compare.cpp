@@ -165,7 +165,7 @@ auto spread_of(const std::vector<double>& values) {
 }
 
 void add_tally(json::Members& object, const Tally& t, bool judged) {
-  const auto if_timed = [&](double ulps) { return t.timed_hits > 0 ? std::optional(ulps) : std::nullopt; };
+  const auto if_timed = [&](double ulps) { return !t.ulps.empty() ? std::optional(ulps) : std::nullopt; };
   const auto if_fast = [&](double ns) { return t.speed.ns_per_query > 0 ? std::optional(ns) : std::nullopt; };
   object.add("engine", t.name, "queries", t.queries);
   add_counts(object, t.counts, Counted::examinations, judged);

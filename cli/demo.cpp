@@ -44,7 +44,7 @@ std::vector<std::string> row(const std::string& engine, const Tally& t, const st
   for (const std::size_t number : {t[Count::agree] - t[Count::wrong_time], t[Count::wrong_time],
                                    t[Count::ill_posed], t[Count::wrong], t[Count::undecided]})
     cells.push_back(std::to_string(number));
-  cells.push_back(t.timed_hits ? fmt::format("{:.3g}", t.mean_ulp()) : "-");
+  cells.push_back(t.ulps.empty() ? "-" : fmt::format("{:.3g}", t.mean_ulp()));
   cells.insert(cells.end(), {plane, space});
   return cells;
 }

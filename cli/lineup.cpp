@@ -233,7 +233,7 @@ std::string table_of(const std::list<LineupEntry>& all) {
       return count == Count::wrong || count == Count::wrong_time ? share(number, t.counts.answers())
                                                                  : std::to_string(number);
     };
-    const auto ulps = [&](double number) { return t.timed_hits ? fmt::format("{:.3g}", number) : "-"; };
+    const auto ulps = [&](double number) { return t.ulps.empty() ? "-" : fmt::format("{:.3g}", number); };
     table.add(cells_counted(t.counts, Counted::examinations, {t.name, std::to_string(t.queries)},
                             {ulps(t.max_ulp()), ulps(t.mean_ulp()), nanoseconds(t.speed.ns_per_query),
                              nanoseconds(t.speed.ns_median)},

@@ -223,7 +223,7 @@ constexpr double kSlowStart = 0.05;  // seconds; less is not worth a line
 
 // For times near 0, ulps are not informative.
 std::string largest_ulp(const question::Tally& t) {
-  if (!t.timed_hits) return "-";
+  if (t.ulps.empty()) return "-";
   return t.max_ulp() < oracle::kLargestMargin ? fmt::format("{:.3g}", t.max_ulp()) : "> 2^20";
 }
 
@@ -297,7 +297,7 @@ void add_row(json::Members& object, const ExaminedRow& row, const JudgeReport& r
   object.add("queries", t.queries);
   question::add_counts(object, t.counts, Counted::judge);
   object.add("max_radii", json::finite(row.max_radii), "records", row.records);
-  object.add("max_ulp", t.timed_hits ? json::finite(t.max_ulp()) : std::nullopt, "ns_per_query",
+  object.add("max_ulp", t.ulps.empty() ? std::nullopt : json::finite(t.max_ulp()), "ns_per_query",
              t.speed.ns_per_query > 0 ? json::finite(t.speed.ns_per_query) : std::nullopt);
 }
 

@@ -63,9 +63,9 @@ std::string shares_text(const char* what, const std::deque<ExaminedRow>& rows, C
 // "; wrong times 0.2 % (0.1 % are another quantity), by up to 0.003 radii along the ray"
 std::string times_text(const JudgeReport& report) {
   question::Tally drawn = sum_of(report.rows, false), hard = sum_of(report.rows, true);
-  if (drawn.timed_hits + hard.timed_hits == 0) return "";
+  if (drawn.ulps.empty() && hard.ulps.empty()) return "";
   const bool is_right = drawn[Count::wrong_time] + hard[Count::wrong_time] == 0;
-  if (is_right && drawn.timed_hits == 0) return "";
+  if (is_right && drawn.ulps.empty()) return "";
   const auto radii = json::finite(is_right ? largest_radii(report.rows, false) : report.max_radii());
   if (is_right && radii == 0) return "; times exact on drawn flights";
   const std::string along = radii ? fmt::format("{:.2g} radii along the ray", *radii) : "";

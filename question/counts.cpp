@@ -35,10 +35,6 @@ std::size_t Counts::total() const {
                          std::size_t{0});
 }
 
-std::size_t Counts::all() const {
-  return std::accumulate(number_.begin(), number_.end(), std::size_t{0});
-}
-
 std::vector<CountName> names_counted(Counted by) {
   std::vector<CountName> names;
   for (const CountName& name : kCountNames)

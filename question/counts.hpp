@@ -68,7 +68,6 @@ class Counts {
 
   std::size_t sum(std::initializer_list<Count> some) const;
   std::size_t total() const;  ///< of all verdicts
-  std::size_t all() const;    ///< of everything that is counted
   /// Those that name an outcome.
   std::size_t answers() const { return sum({Count::agree, Count::ill_posed, Count::wrong}); }
 

@@ -14,9 +14,7 @@ void Tally::count(const oracle::Judgement& judgement) {
     wrong_ulps.push_back(judgement.ulps.value_or(std::numeric_limits<double>::infinity()));
     wrong_conditions.push_back(judgement.departs);
   }
-  if (!judgement.ulps) return;
-  ++timed_hits;
-  ulps.push_back(*judgement.ulps);
+  if (judgement.ulps) ulps.push_back(*judgement.ulps);
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -29,7 +27,7 @@ double quantile(std::vector<double> values, double share) {
 
 void Tally::add(const Tally& other) {
   counts += other.counts;
-  queries += other.queries, timed_hits += other.timed_hits;
+  queries += other.queries;
   for (const auto errors : {&Tally::ulps, &Tally::wrong_ulps, &Tally::wrong_conditions})
     (this->*errors).insert((this->*errors).end(), (other.*errors).begin(), (other.*errors).end());
 }

@@ -28,8 +28,7 @@ struct Tally {
   std::string name;
   std::size_t queries = 0;
   Counts counts;
-  std::size_t timed_hits = 0;  ///< hits of the right obstacle with a time that could be measured
-  std::vector<double> ulps;    ///< errors of these times
+  std::vector<double> ulps;  ///< errors of the times of right obstacles, as far as they could be measured
   std::vector<double> wrong_ulps, wrong_conditions;  ///< errors of wrong times: in ulps, in units of the
                                                      ///< condition
   Speed speed;

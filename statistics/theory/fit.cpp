@@ -188,7 +188,6 @@ std::optional<TailExponent> tail_exponent_from(std::size_t first, std::span<cons
   result.low = likely(kFlattest) < 0 ? 1 + zero_of(likely, kFlattest, *a) : 1;
   result.high = likely(kSteepest) < 0 ? 1 + zero_of(likely, *a, kSteepest) : kInfinity;
   result.from = edges[first];
-  result.to = edges.back();
   result.count = static_cast<std::uint64_t>(tail.total());
   return result;
 }

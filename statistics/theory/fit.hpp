@@ -33,7 +33,7 @@ ChiSquared chi_squared(std::span<const double> edges, std::span<const std::uint6
 struct TailExponent {
   double exponent = 0;
   double low = 0, high = 0;  ///< 95 % interval of the local exponent from `from` on
-  double from = 0, to = 0;   ///< the edges in use; paths beyond `to` are counted, too
+  double from = 0;           ///< the first edge in use
   std::uint64_t count = 0;   ///< paths from `from` on
 };
 

@@ -22,7 +22,7 @@ TEST_CASE("A tally counts each verdict, and wrong times among those that agree",
   CHECK(tally.queries == 9);
   for (const std::size_t once :
        {tally[Count::ill_posed], tally[Count::undecided], tally[Count::unsupported], tally[Count::error],
-        tally[Count::missing], tally[Count::wrong_time], tally.timed_hits})
+        tally[Count::missing], tally[Count::wrong_time], tally.ulps.size()})
     CHECK(once == 1);
   CHECK(tally[Count::wrong] == 2);
   CHECK(tally[Count::agree] == 2);
@@ -32,7 +32,7 @@ TEST_CASE("A tally counts each verdict, and wrong times among those that agree",
   twice.add(tally);
   CHECK((twice.queries == 18 && twice[Count::agree] == 4 && twice[Count::wrong] == 4 &&
          twice[Count::wrong_time] == 2));
-  CHECK((twice.timed_hits == 2 && twice.mean_ulp() == 9 && twice.max_ulp() == 9));
+  CHECK((twice.ulps.size() == 2 && twice.mean_ulp() == 9 && twice.max_ulp() == 9));
   CHECK(twice.wrong_ulps == std::vector<double>{9, 9});
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("A tally's errors of times: the largest, the mean, and what a share of
   for (const double ulps : {3, 10, 1, 2, 9, 4, 8, 5, 7, 6})
     tally.count({.verdict = Verdict::agree, .ulps = ulps});
   tally.count({Verdict::agree});  // without a time
-  CHECK(tally.timed_hits == 10);
+  CHECK(tally.ulps.size() == 10);
   CHECK(tally.max_ulp() == 10);
   CHECK(tally.mean_ulp() == 5.5);
   CHECK(question::quantile(tally.ulps, 0) == 1);

@@ -77,7 +77,6 @@ TEST_CASE("The verdict line: two digits of shares and speed, all before the poin
 TEST_CASE("The verdict line: wrong times are told with the share of answers, and condemn if they are to",
           "[judge][verdict_line]") {
   JudgeReport report = report_of({row(false, 1000), row(true, 0)});
-  report.rows[0].tally.timed_hits = 900;
   report.rows[0].tally.ulps = {1, 3.14159, 0.5};
   report.rows[0].max_radii = 2.5e-16;
   CHECK(report.line() ==
