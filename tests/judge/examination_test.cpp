@@ -10,7 +10,7 @@
 
 #include "judge/simplest.hpp"
 #include "question/engines.hpp"
-#include "question/starts/free_starts.hpp"
+#include "tests/judge/judge_support.hpp"
 #include "tests/support/command_line.hpp"
 
 using namespace lorentz;
@@ -20,48 +20,10 @@ using namespace lorentz::judge;
 namespace {
 
 constexpr double kForEver = 1e9;
-constexpr std::uint64_t kSeed = 20161115;
 
 std::string tolerant(const std::string& fault) {
   return "cmd:exec " LORENTZ_TOLERANT_ENGINE " " + fault;
 }
-
-// An order to judge this engine, in which silence is a fault.
-JudgeOrder order_of(const question::EngineInfo& engine, std::optional<std::size_t> questions = {}) {
-  JudgeOrder order;
-  order.engine = engine, order.questions = questions, order.timeout = 60;
-  return order;
-}
-
-// Drawn questions of each of these scenes in turn, in the square or cubic lattice.
-Source questions(std::vector<int> dimensions, std::size_t number) {
-  const auto all = std::make_shared<std::vector<Question>>();
-  for (const int dimension : dimensions) {
-    const auto place = std::make_shared<Place>(unit_scene(dimension, 0.25));
-    for (const Query& query : starts::free_starts(place->scene(), starts::Kind::uniform, kSeed, number))
-      all->push_back({.place = place, .query = query, .exact = place->exact(query), .where = "here"});
-  }
-  return [=, next = std::size_t{0}]() mutable -> std::optional<Question> {
-    while (next < all->size() && (*all)[next].place->is_beyond_engine()) ++next;
-    return next < all->size() ? std::optional((*all)[next++]) : std::nullopt;
-  };
-}
-
-// An engine of ours that answers exactly, and sets a flag at its `at`-th question.
-class Flagging final : public question::Answerer {
- public:
-  Flagging(std::atomic<bool>& flag, long at) : flag_(flag), left_(at) {}
-  void ask(const Id&, const Query& query) override {
-    if (--left_ <= 0) flag_ = true;
-    deliver({oracle_->first_hit(query)});
-  }
-
- private:
-  void enter(const Scene& scene) override { oracle_.emplace(scene); }
-  std::atomic<bool>& flag_;
-  long left_;
-  std::optional<oracle::Oracle> oracle_;
-};
 
 }  // namespace
 
@@ -70,10 +32,10 @@ TEST_CASE("A program is given up for a scene, not for the run, and the row says 
   const std::atomic<bool> stop = false;
   // Counted: no scene is left because starting takes long here.
   TimedExamination examination(order_of(question::engine_named(tolerant("dies-in 3")), 1000), {}, stop);
-  examination.run({"plane", ""}, questions({2}, 20), kForEver);
-  examination.run({"space", ""}, questions({3}, 20), kForEver);
-  examination.run({"plane again", ""}, questions({2}, 20), kForEver);
-  examination.run({"both", ""}, questions({3, 2, 3}, 20), kForEver);
+  examination.run({"plane", ""}, drawn_in({2}, 20), kForEver);
+  examination.run({"space", ""}, drawn_in({3}, 20), kForEver);
+  examination.run({"plane again", ""}, drawn_in({2}, 20), kForEver);
+  examination.run({"both", ""}, drawn_in({3, 2, 3}, 20), kForEver);
   examination.finish();
   const std::deque<ExaminedRow>& rows = examination.results().rows;
   REQUIRE(rows.size() == 4);
@@ -101,7 +63,7 @@ TEST_CASE("An invalid answer is told apart from a missing one, with what the pro
   const std::atomic<bool> stop = false;
   const auto finding_of = [&](const std::string& command) {
     TimedExamination examination(order_of(question::engine_named("cmd:" + command)), {}, stop);
-    examination.run({"plane", ""}, questions({2}, 1), kForEver);
+    examination.run({"plane", ""}, drawn_in({2}, 1), kForEver);
     examination.finish();
     const std::vector<Finding> findings = examination.results().all_findings();
     REQUIRE(findings.size() == 1);
@@ -121,8 +83,8 @@ TEST_CASE("A program that never answered is not asked on and on", "[judge][exami
   const std::atomic<bool> stop = false;
   // Counted: no scene is left because starting takes long here.
   TimedExamination examination(order_of(question::engine_named("cmd:exit 3"), 1000), {}, stop);
-  examination.run({"first", ""}, questions({2, 3}, 20), kForEver);
-  examination.run({"second", ""}, questions({2, 3}, 20), kForEver);
+  examination.run({"first", ""}, drawn_in({2, 3}, 20), kForEver);
+  examination.run({"second", ""}, drawn_in({2, 3}, 20), kForEver);
   examination.finish();
   CHECK(examination.results().rows[0].tally[Count::missing] == 5);
   CHECK(examination.results().rows[1].tally.queries == 0);
@@ -157,9 +119,9 @@ TEST_CASE("Counted questions: each row asks its number, in slow scenes, too", "[
       "printf '%s\\n' \"$line\"; done | exec " LORENTZ_TOLERANT_ENGINE;
   TimedExamination timed(order_of(question::engine_named(slow)), {}, stop),
       counted(order_of(question::engine_named(slow), 12), {}, stop);
-  timed.run({"row", ""}, questions({2, 3}, 8), kForEver);
-  counted.run({"row", ""}, questions({2, 3}, 8), kForEver);
-  counted.run({"few", ""}, questions({2}, 8), kForEver);
+  timed.run({"row", ""}, drawn_in({2, 3}, 8), kForEver);
+  counted.run({"row", ""}, drawn_in({2, 3}, 8), kForEver);
+  counted.run({"few", ""}, drawn_in({2}, 8), kForEver);
   timed.finish(), counted.finish();
   CHECK(timed.results().rows[0].tally.queries < 16);  // both scenes are left
   CHECK(counted.results().rows[0].tally.queries == 12);
@@ -169,27 +131,16 @@ TEST_CASE("Counted questions: each row asks its number, in slow scenes, too", "[
 TEST_CASE("Counted questions: where scenes are left, each row asks the same, however long an answer takes",
           "[judge][examination]") {
   const std::atomic<bool> stop = false;
-  // Supports no 3D, and takes this long.
-  class Planar final : public question::Answerer {
-   public:
-    explicit Planar(int milliseconds) : pause_(milliseconds) {}
-    void ask(const Id&, const Query& query) override {
-      std::this_thread::sleep_for(pause_);
-      if (scene().dimension == 3) return deliver({Answer::unsupported_because("it is planar")});
-      deliver({oracle_->first_hit(query)});
-    }
-
-   private:
-    void enter(const Scene& scene) override { oracle_.emplace(scene); }
-    const std::chrono::milliseconds pause_;
-    std::optional<oracle::Oracle> oracle_;
-  };
   const auto asked = [&](int milliseconds) {
-    const question::EngineInfo planar = question::guest_engine(
-        "planar" + std::to_string(milliseconds),
-        [=](const question::AnswererOptions&) { return std::make_unique<Planar>(milliseconds); });
+    // Supports no 3D, and takes this long.
+    const auto planar = guest("planar" + std::to_string(milliseconds),
+                              [=](const Scene& scene, const Query&, double, Answer& answer) {
+                                std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+                                if (scene.dimension == 3)
+                                  answer = Answer::unsupported_because("it is planar");
+                              });
     TimedExamination examination(order_of(planar, 60), {}, stop);
-    examination.run({"row", ""}, questions({2, 3}, 40), kForEver);
+    examination.run({"row", ""}, drawn_in({2, 3}, 40), kForEver);
     return examination.results().rows[0].tally;
   };
   const question::Tally fast = asked(0), slow = asked(30);
@@ -210,7 +161,7 @@ TEST_CASE(
     JudgeOrder order = order_of(question::engine_named(tolerant(fault)));
     if (is_slowness) order.timeout.reset();
     auto one = std::make_unique<TimedExamination>(order, options, stop);
-    one->run({"plane", ""}, questions({2}, 40), kForEver);
+    one->run({"plane", ""}, drawn_in({2}, 40), kForEver);
     one->finish();
     return one;
   };
@@ -228,15 +179,15 @@ TEST_CASE("The first 500 questions of each row are compared, and a row without a
   const std::atomic<bool> stop = false;
   TimedExamination whole(order_of(question::engine_named("oracle")), {}, stop),
       none(order_of(question::engine_named("oracle")), {}, stop);
-  whole.run({"row", ""}, questions({2}, 510), kForEver);
+  whole.run({"row", ""}, drawn_in({2}, 510), kForEver);
   long calls = 0;
   for (const auto& [decade, call] : whole.results().curves[0].by_decade())
     calls += static_cast<long>(call.counts.answers() + call.counts[Count::undecided]);
   CHECK(whole.results().rows[0].tally[Count::agree] == 510);
   CHECK(calls == 500);
-  none.run({"row", ""}, questions({2}, 0), kForEver);
+  none.run({"row", ""}, drawn_in({2}, 0), kForEver);
   TimedExamination more(order_of(question::engine_named("oracle")), {}, stop);
-  more.run({"row", ""}, questions({2}, 0), kForEver);
+  more.run({"row", ""}, drawn_in({2}, 0), kForEver);
   more.results().add(none.results());
   CHECK(more.results().rows[0].tally.speed.ns_per_query == 0);
 }
@@ -263,11 +214,12 @@ TEST_CASE("The first question to another program is at an empty place, in its do
 
 TEST_CASE("Nothing is asked when the time is over, and no answer is waited for", "[judge][examination]") {
   std::atomic<bool> stop = false;
-  const question::EngineInfo guest = question::guest_engine(
-      "flagging", [&](const question::AnswererOptions&) { return std::make_unique<Flagging>(stop, 30); });
-  TimedExamination examination(order_of(guest), {}, stop);
-  examination.run({"asked", ""}, questions({2}, 1000), kForEver);
-  examination.run({"not asked", ""}, questions({2}, 1000), kForEver);
+  long left = 30;
+  const auto flagging =
+      guest("flagging", [&](const Scene&, const Query&, double, Answer&) { stop = --left <= 0; });
+  TimedExamination examination(order_of(flagging), {}, stop);
+  examination.run({"asked", ""}, drawn_in({2}, 1000), kForEver);
+  examination.run({"not asked", ""}, drawn_in({2}, 1000), kForEver);
   const std::size_t asked = examination.results().rows[0].tally.queries;
   CHECK(asked >= 30);
   CHECK(asked < 30 + 32);  // those that were asked together with it
@@ -282,7 +234,7 @@ TEST_CASE("Nothing is asked when the time is over, and no answer is waited for",
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     over = true;
   });
-  silent.run({"silent", ""}, questions({2}, 1000), kForEver);
+  silent.run({"silent", ""}, drawn_in({2}, 1000), kForEver);
   silent.finish();
   clock.join();
   CHECK(silent.results().rows[0].tally.queries == 0);
@@ -290,7 +242,7 @@ TEST_CASE("Nothing is asked when the time is over, and no answer is waited for",
 
 TEST_CASE("Asked again: it fails, it does not, or there is no time to see", "[judge][repetition]") {
   const std::atomic<bool> stop = false, stopped = true;
-  const Question question = *questions({2}, 1)();
+  const Question question = *drawn_in({2}, 1)();
   Finding finding{
       {question, Answer::error("cmd died"), {}, {Cause::no_answer, Severity::error}}, "here", 1, {}};
   const auto recheck_of = [&](const std::string& fault, const std::atomic<bool>& over) {

@@ -16,8 +16,8 @@
 #include "judge/plan.hpp"
 #include "judge/simplest.hpp"
 #include "question/engines.hpp"
-#include "question/starts/free_starts.hpp"
 #include "report/files/scene_file.hpp"
+#include "tests/judge/judge_support.hpp"
 #include "tests/support/support.hpp"
 
 using namespace lorentz;
@@ -37,71 +37,24 @@ struct Log {
   std::map<std::thread::id, std::map<std::string, int>> by_thread;
   std::atomic<bool> is_on = false;  // else nothing is answered, nor written down
   std::atomic<bool> is_enough = false;
-};
 
-// An engine of ours that is exact but for flights that a fault changes.
-class Faulty final : public question::Answerer {
- public:
-  using Fault = std::function<void(const Scene&, const Query&, Answer&)>;
-  explicit Faulty(Fault fault, Log* asked = nullptr) : fault_(std::move(fault)), asked_(asked) {}
-  void ask(const Id&, const Query& query) override {
-    if (asked_ && !write(query)) return deliver({Answer::unsupported_because("this is no campaign")});
-    Answer answer = oracle_->first_hit(query);
-    fault_(scene(), query, answer);
-    deliver({answer});
-  }
-
- private:
-  void enter(const Scene& scene) override { oracle_.emplace(scene); }
-  bool write(const Query& query) {
+  bool write(const Scene& scene, const Query& query) {
     constexpr std::size_t kEnough = 100;  // of each thread
-    const std::lock_guard lock(asked_->mutex);
-    if (!asked_->is_on) return false;
-    ++asked_->by_thread[std::this_thread::get_id()][stream(scene(), query)];
+    const std::lock_guard lock(mutex);
+    if (!is_on) return false;
+    ++by_thread[std::this_thread::get_id()][stream(scene, query)];
     std::size_t threads = 0;
-    for (const auto& [thread, questions] : asked_->by_thread) threads += questions.size() >= kEnough;
-    if (threads == 2) asked_->is_enough = true;
+    for (const auto& [thread, questions] : by_thread) threads += questions.size() >= kEnough;
+    if (threads == 2) is_enough = true;
     return true;
   }
-
-  Fault fault_;
-  Log* asked_;
-  Scene scene_;
-  std::optional<oracle::Oracle> oracle_;
 };
 
-question::EngineInfo guest(const std::string& name, Faulty::Fault fault, Log* asked = nullptr) {
-  return question::guest_engine(
-      name, [=](const question::AnswererOptions&) { return std::make_unique<Faulty>(fault, asked); });
-}
-
 // Leaves the disc it comes from at once in 2D, and sees nothing in 3D in the direction -x.
-void two_faults(const Scene& scene, const Query& query, Answer& answer) {
+void two_faults(const Scene& scene, const Query& query, double, Answer& answer) {
   if (scene.dimension == 2 && query.v[1] > 0 && answer.outcome == Outcome::hit)
     answer.obstacle.cell[1] = 77777;
   if (scene.dimension == 3 && query.v[0] < 0 && answer.outcome == Outcome::hit) answer = Answer::never();
-}
-
-// An order to judge this engine, in which silence is a fault.
-JudgeOrder order_of(const question::EngineInfo& engine, std::optional<std::size_t> questions = {}) {
-  JudgeOrder order;
-  order.engine = engine, order.questions = questions, order.timeout = 60;
-  return order;
-}
-
-Source drawn_in(const std::vector<int>& dimensions, std::uint64_t seed, std::size_t number) {
-  const auto all = std::make_shared<std::vector<Question>>();
-  for (const int dimension : dimensions) {
-    const auto place = std::make_shared<Place>(unit_scene(dimension, 0.25));
-    for (const Query& query : starts::free_starts(place->scene(), starts::Kind::uniform, seed, number))
-      all->push_back({.place = place,
-                      .query = query,
-                      .exact = place->exact(query),
-                      .where = "seed " + std::to_string(seed)});
-  }
-  return [=, next = std::size_t{0}]() mutable -> std::optional<Question> {
-    return next < all->size() ? std::optional((*all)[next++]) : std::nullopt;
-  };
 }
 
 // All that a finding says.
@@ -257,7 +210,11 @@ TEST_CASE("The parts of a run share all of its time, and what is left", "[judge]
 TEST_CASE("Two threads of a judge's campaign ask different questions, and all of them count",
           "[judge][judging]") {
   Log asked;
-  const auto engine = guest("two-threads", two_faults, &asked);
+  const auto engine =
+      guest("two-threads", [&](const Scene& scene, const Query& query, double limit, Answer& answer) {
+        if (!asked.write(scene, query)) answer = Answer::unsupported_because("this is no campaign");
+        two_faults(scene, query, limit, answer);
+      });
   judge::JudgeOrder order;
   order.engine = engine;
   order.quick = true;
@@ -295,7 +252,7 @@ TEST_CASE("What several examinations come to is what one comes to", "[judge][exa
     std::unique_ptr<TimedExamination> first;
     for (const std::uint64_t seed : seeds) {
       auto one = std::make_unique<TimedExamination>(order_of(engine), question::AnswererOptions{}, stop);
-      one->run({"row", ""}, drawn_in({2, 3}, seed, 30), kForEver);
+      one->run({"row", ""}, drawn_in({2, 3}, 30, seed), kForEver);
       if (first)
         first->results().add(one->results());
       else
@@ -307,7 +264,7 @@ TEST_CASE("What several examinations come to is what one comes to", "[judge][exa
   TimedExamination whole(order_of(engine), {}, stop);
   const std::vector<std::uint64_t> seeds{1, 2, 3};
   std::vector<Source> sources;
-  for (const std::uint64_t seed : seeds) sources.push_back(drawn_in({2, 3}, seed, 30));
+  for (const std::uint64_t seed : seeds) sources.push_back(drawn_in({2, 3}, 30, seed));
   std::size_t at = 0;
   whole.run(
       {"row", ""},
@@ -335,17 +292,6 @@ TEST_CASE("What several examinations come to is what one comes to", "[judge][exa
 }
 
 namespace {
-
-// Exact, but for invalid questions: it answers these.
-class Gullible final : public question::Answerer {
- public:
-  void ask(const Id&, const Query& query) override { deliver({oracle_->first_hit(query)}); }
-  void ask_text(const Id&, const std::string&) override { deliver({Answer::never()}); }
-
- private:
-  void enter(const Scene& scene) override { oracle_.emplace(scene); }
-  std::optional<oracle::Oracle> oracle_;
-};
 
 Example example_in(int dimension, Cause cause) {
   const auto place = std::make_shared<Place>(unit_scene(dimension, 0.25));
@@ -379,8 +325,8 @@ TEST_CASE("What another program failed in, and what was nonsense, is added up, t
     return one;
   };
   const auto fragile = question::engine_named("cmd:exec " LORENTZ_TOLERANT_ENGINE " dies-in 3");
-  const auto fine = examined(fragile, drawn_in({2}, 1, 5)), broken = examined(fragile, drawn_in({3}, 1, 20)),
-             also = examined(fragile, drawn_in({3}, 2, 20));
+  const auto fine = examined(fragile, drawn_in({2}, 5, 1)), broken = examined(fragile, drawn_in({3}, 20, 1)),
+             also = examined(fragile, drawn_in({3}, 20, 2));
   CHECK_FALSE(fine->failed());
   fine->results().add(broken->results());
   CHECK(fine->failed());
@@ -390,8 +336,8 @@ TEST_CASE("What another program failed in, and what was nonsense, is added up, t
   CHECK(fine->results().rows[0].scenes_given_up == 2);
   CHECK(fine->results().all_findings().size() == 1);
   CHECK(fine->results().all_findings()[0].count == fine->results().rows[0].tally[Count::missing]);
-  const question::EngineInfo gullible = question::guest_engine(
-      "gullible", [](const question::AnswererOptions&) { return std::make_unique<Gullible>(); });
+  const auto gullible =
+      guest("gullible", [](const Scene&, const Query&, double, Answer& answer) { answer = Answer::never(); });
   const auto nonsense = [&](std::size_t number) {
     const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
     return examined(gullible, [=, left = number]() mutable -> std::optional<Question> {
@@ -516,11 +462,11 @@ TEST_CASE("Drawn and flown questions come in blocks of each place, and none is l
 
 TEST_CASE("The simplest case keeps what was said, and what is true", "[judge][simplest]") {
   // Starts in a disc: a flight with many bits is said to hit something, others never end.
-  const auto engine = guest("two-sayings", [](const Scene&, const Query& query, Answer& answer) {
+  const auto engine = guest("two-sayings", [](const Scene&, const Query& query, double, Answer& answer) {
     if (answer.outcome != Outcome::inside) return;
     answer = fuzz::bits_of(query.x[0]) > 3 ? Answer::hit({0, 0, {5, 0, 0}}, 1) : Answer::never();
   });
-  const auto liar = guest("inside", [](const Scene&, const Query&, Answer& answer) {
+  const auto liar = guest("inside", [](const Scene&, const Query&, double, Answer& answer) {
     answer = Answer::inside({0, 0, {7, 7, 0}});
   });
   const std::atomic<bool> stop = false;
@@ -543,7 +489,7 @@ TEST_CASE("The simplest case keeps what was said, and what is true", "[judge][si
 
 TEST_CASE("The simplest case keeps the circumstance that its finding states", "[judge][simplest]") {
   const auto never =
-      guest("never", [](const Scene&, const Query&, Answer& answer) { answer = Answer::never(); });
+      guest("never", [](const Scene&, const Query&, double, Answer& answer) { answer = Answer::never(); });
   const std::atomic<bool> stop = false;
   TimedExamination examination(order_of(never), {}, stop);
   const auto place = std::make_shared<Place>(unit_scene(2, 0.25));

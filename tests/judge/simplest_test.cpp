@@ -6,21 +6,11 @@
 
 #include <lorentz/geometry.hpp>
 #include "fuzz/campaign/shrink.hpp"
-#include "question/starts/free_starts.hpp"
+#include "tests/judge/judge_support.hpp"
 
 using namespace lorentz;
+using namespace lorentz::test;
 using namespace lorentz::judge;
-
-namespace {
-
-// An order to judge this engine, in which silence is a fault.
-JudgeOrder order_of(const question::EngineInfo& engine, std::optional<std::size_t> questions = {}) {
-  JudgeOrder order;
-  order.engine = engine, order.questions = questions, order.timeout = 60;
-  return order;
-}
-
-}  // namespace
 
 TEST_CASE("The simplest case is simpler, of the same cause, and no deeper than what was met",
           "[judge][simplest]") {
@@ -67,27 +57,12 @@ TEST_CASE("The simplest case keeps the cause, where simpler ones go wrong in ano
         fuzz::complexity(place->scene(), example.question.query));
 }
 
-namespace {
-
-// Compares the limit with the length of the flight instead of its time.
-class ByLength final : public question::Answerer {
- public:
-  void ask(const Id&, const Query& query) override { deliver({oracle_->first_hit(query)}); }
-  void ask_until(const Id&, const Query& query, double max_time) override {
-    const Answer exact = oracle_->first_hit(query);
-    deliver({exact.time && *exact.time * length(query.v) > max_time ? Answer::later() : exact});
-  }
-
- private:
-  void enter(const Scene& scene) override { oracle_.emplace(scene); }
-  std::optional<oracle::Oracle> oracle_;
-};
-
-}  // namespace
-
 TEST_CASE("The simplest case keeps its limit, as near to the hit", "[judge][simplest]") {
-  const auto engine = question::guest_engine(
-      "by length", [](const question::AnswererOptions&) { return std::make_unique<ByLength>(); });
+  // It compares the limit with the length of the flight instead of its time.
+  const auto engine =
+      guest("by length", [](const Scene&, const Query& query, double max_time, Answer& answer) {
+        if (answer.time && *answer.time * length(query.v) > max_time) answer = Answer::later();
+      });
   const std::atomic<bool> stop = false;
   TimedExamination examination(order_of(engine), {}, stop);
   const auto place = std::make_shared<Place>(unit_scene(2, 0.25));
