@@ -71,15 +71,11 @@ class AnswerOrder {
 constexpr std::size_t kMaxWaiting = 100'000;  // lines: bounds the bad lines behind a query
 
 oracle::Request request_of(const FirstHitOptions& options, const EngineInfo& engine) {
-  oracle::Request request;
-  if (options.digits) {
-    if (!engine.traits.knows_digits)
-      throw InputError("--digits: only the oracle knows more digits than a binary64 has");
-    request.digits = static_cast<int>(*options.digits);
-  }
-  request.max_time = options.max_time;
-  request.detail = options.detail;
-  return request;
+  if (options.digits && !engine.traits.knows_digits)
+    throw InputError("--digits: only the oracle knows more digits than a binary64 has");
+  return {.digits = static_cast<int>(options.digits.value_or(0)),
+          .detail = options.detail,
+          .max_time = options.max_time};
 }
 
 int jobs_of(const FirstHitOptions& options, const EngineInfo& engine) {

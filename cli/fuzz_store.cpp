@@ -57,16 +57,8 @@ int list(const Store& store, const ShowOptions& options) {
   print(campaign_table(store));
   for (const fuzz::Campaign& campaign : store.campaigns())
     print(fmt::format("\ncampaign {}\n{}", campaign.id, report_of(store, campaign).target_table()));
-  print("\n");
-  if (findings.empty())
-    print("no findings\n");
-  else
-    print(table_of(causes_of(findings)));
+  print(findings.empty() ? "\nno findings\n" : '\n' + table_of(causes_of(findings)));
   return kDone;
-}
-
-std::string lines_of(const std::string& heading, const fuzz::CaseText& text, const Claim& claim) {
-  return '\n' + heading + '\n' + text_of(text, claim);
 }
 
 // The campaign that found it.
@@ -85,9 +77,10 @@ std::string text_of(const std::string& id, const fuzz::Finding& f, const Claim& 
   std::string out = fmt::format("{}: {}{}\ncause: {}\n", id, f.kind, report::words_of(claim), f.cause);
   if (!f.words.empty()) out += fmt::format("in other words: {}\n", f.words);
   if (f.shrinking == fuzz::Shrinking::due)
-    return out + "not shrunk yet: the campaign does so when it is resumed\n" +
-           lines_of("as found:", f.text, claim);
-  return out + lines_of(heading_of_shrunk(f), f.shrunk, claim) + lines_of("as found:", f.text, claim);
+    out += "not shrunk yet: the campaign does so when it is resumed\n";
+  else
+    out += '\n' + heading_of_shrunk(f) + '\n' + text_of(f.shrunk, claim);
+  return out + "\nas found:\n" + text_of(f.text, claim);
 }
 
 // The report of the shrunk case, which is the one to examine.

@@ -25,9 +25,14 @@ bool is_at_limit(const Question& question, double ulps) {
   const Answer& exact = question.exact;
   if (exact.outcome != Outcome::hit || ulps == 0) return false;
   const Answer there = Answer::hit(exact.obstacle, question.max_time);
-  Claim claim = question.place->claim();
-  if (std::isinf(claim.time_tolerance.value_or(0))) claim.time_tolerance.reset();
-  return !oracle::Judge(question.place->scene(), claim).judge(question.query, exact, there, ulps).wrong_time;
+  const Place& place = *question.place;
+  Claim claim = place.claim();
+  const auto is_right = [&](const oracle::Judge& judge) {
+    return !judge.judge(question.query, exact, there, ulps).wrong_time;
+  };
+  if (!std::isinf(claim.time_tolerance.value_or(0))) return is_right(place.judge());
+  claim.time_tolerance.reset();
+  return is_right(oracle::Judge(place.scene(), claim));
 }
 
 }  // namespace
