@@ -211,8 +211,8 @@ void show_json(const std::string& name, const std::string& file, const Scene& sc
                const SceneFacts& findings) {
   std::vector<std::optional<double>> volumes;
   for (const Lattice& lattice : scene.lattices) {
-    const double volume = cell_volume(lattice, scene.dimension);
-    volumes.push_back(std::isnormal(volume) ? std::optional(volume) : std::nullopt);
+    volumes.emplace_back(cell_volume(lattice, scene.dimension));
+    if (!std::isnormal(*volumes.back())) volumes.back().reset();
   }
   const std::vector<oracle::Contact>& contacts = findings.contacts.found;
   const std::span first(contacts.data(), std::min(contacts.size(), kContactsShown));

@@ -86,10 +86,8 @@ void measure_velocity(const Query& query, int dimension, Features& its) {
 }
 
 double largest_coordinate(const Scene& scene, const Query& query) {
-  double largest = 0;
-  const auto see = [&](const Vec& a) { largest = std::max(largest, largest_component(a)); };
-  see(query.x);
-  for_each_atom(scene, [&](const Atom& atom) { see(atom.position); });
+  double largest = largest_component(query.x);
+  for_each_atom(scene, [&](const Atom& a) { largest = std::max(largest, largest_component(a.position)); });
   return largest;
 }
 

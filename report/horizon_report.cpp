@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <lorentz/exchange.hpp>
+#include <lorentz/geometry.hpp>
 #include "report/table.hpp"
 #include "src/exchange/exchange_write.hpp"
 #include "src/exchange/json_writer.hpp"
@@ -22,7 +23,9 @@ std::string counted(std::size_t count, const char* what) {
 std::string verdict_of(const oracle::Horizon& h) {
   if (h.is_finite()) return "finite horizon: every path ends";
   if (!h.is_infinite())
-    return h.is_decided() ? "no channel is so wide" : "no open channel found, but not all is known";
+    return h.min_width > 0 && h.undecided.empty() && h.families.empty() && h.no_cylinders.empty()
+               ? "no channel is so wide"
+               : "no open channel found, but not all is known";
   std::vector<std::string> parts;
   if (!h.channels.empty())
     parts.push_back(h.dimension == 2 ? counted(h.normals, "corridor direction")
@@ -56,8 +59,7 @@ std::string rest_of(std::size_t all) {
 // Points that rounding has moved out of the channel are followed by a *. A component that is only the
 // rounding error of another one is shown as 0.
 std::string point_text(Vec point, bool inside, int dimension) {
-  double largest = 0;
-  for (const double component : point) largest = std::max(largest, std::fabs(component));
+  const double largest = largest_component(point);
   for (double& component : point)
     if (std::fabs(component) < 0x1p-50 * largest) component = 0;
   return text_of(point, dimension) + (inside ? "" : " *");

@@ -73,8 +73,6 @@ struct Horizon {
 
   /// True if some path is known to be infinite, whatever is undecided.
   bool is_infinite() const;
-  /// True if nothing is left undecided of channels at least `min_width` wide.
-  bool is_decided() const;
   /// True if it is known that no path is infinite.
   bool is_finite() const;
 };

@@ -210,13 +210,6 @@ bool is_near_rational(const Scene& scene, const Vec& v) {
   return false;
 }
 
-// The exponent of the largest component.
-int exponent_of(const Vec& v) {
-  double largest = 0;
-  for (const double component : v) largest = std::max(largest, std::abs(component));
-  return std::ilogb(largest);
-}
-
 // The distance to a hit along direction 2^exponent; the time may be out of range for binary64.
 long double flown(const Answer& exact, const Vec& direction, int exponent) {
   if (exact.outcome != Outcome::hit) return 0;
@@ -244,7 +237,7 @@ std::vector<std::string> tags_seen(const Scene& scene, const Query& query, const
                                    const std::optional<oracle::HardestDecision>& decision) {
   const auto is = [&](oracle::DecisionKind kind) { return is_hard(decision) && decision->kind == kind; };
   const double unit = shortest_vector(scene);
-  const int exponent = exponent_of(query.v);
+  const int exponent = std::ilogb(largest_component(query.v));
   const Vec direction = times_power_of_two(query.v, -exponent);  // its largest component is from 1 to 2
   const bool has_zero = std::any_of(query.v.begin(), query.v.begin() + scene.dimension,
                                     [](double component) { return component == 0; });

@@ -116,8 +116,7 @@ double tail_constant(const Scene& scene, const ChannelScene<D>& exact, const std
   constexpr int d = static_cast<int>(D);
   const int unit = static_cast<int>(std::floor(log2_of(cell)) / d + static_cast<double>(exact.exponent));
   const auto scaled = [unit](auto vectors) {
-    for (Vec& a : vectors)
-      for (double& component : a) component = std::scalbn(component, -unit);
+    for (Vec& a : vectors) a = times_power_of_two(a, -unit);
     return vectors;
   };
   const double volume = round_to_binary64({cell, 1, 0, 1, d * (exact.exponent - unit)});
@@ -150,8 +149,7 @@ Horizon horizon_in(const Scene& scene, double min_width, bool with_cylinders,
   Slabs<D> slabs = free_slabs(exact, progress);
   if (!slabs.refusal.empty()) throw TooManyChannels(slabs.refusal);
   Horizon horizon;
-  horizon.dimension = scene.dimension;
-  horizon.min_width = min_width;
+  horizon.dimension = scene.dimension, horizon.min_width = min_width;
   std::set<ZVec<D>> normals;
   for (const Slab<D>& slab : slabs.open) {
     normals.insert(slab.normal);
@@ -189,12 +187,8 @@ bool Horizon::is_infinite() const {
   return !channels.empty() || !cylinders.empty() || std::any_of(families.begin(), families.end(), infinite);
 }
 
-bool Horizon::is_decided() const {
-  return undecided.empty() && families.empty() && no_cylinders.empty();
-}
-
 bool Horizon::is_finite() const {
-  return min_width == 0 && !is_infinite() && is_decided();
+  return min_width == 0 && !is_infinite() && undecided.empty() && families.empty() && no_cylinders.empty();
 }
 
 Horizon horizon_of(const Scene& scene, double min_width, bool with_cylinders,

@@ -40,6 +40,15 @@ double parse_hexadecimal(std::string_view text, const std::string& place) {
   return finite(nearest_hexadecimal(text), text, place, kWhat);
 }
 
+void check_keys(const SceneNode& node, const std::string& place,
+                std::initializer_list<std::string_view> known, const OnUnknownKey& on_unknown_key) {
+  if (const auto* array = std::get_if<SceneNode::Array>(&node.value))
+    for (const SceneNode& element : *array) check_keys(element, place, known, on_unknown_key);
+  if (const auto* object = std::get_if<SceneNode::Object>(&node.value))
+    for (const auto& [key, value] : *object)
+      if (std::find(known.begin(), known.end(), key) == known.end()) on_unknown_key(place + key);
+}
+
 double parse_number(std::string_view text) {
   if (looks_hexadecimal(text)) return parse_hexadecimal(text, "number");
   return finite(nearest_decimal(text), text, "number", " is not a finite number");
@@ -119,19 +128,6 @@ AnAtom atom_from(const SceneNode& node, int dimension, const std::string& place)
     atom.semiaxes = vectors_at<Number>(*semiaxes, dimension, true, place + ".semiaxes");
   return atom;
 }
-
-}  // namespace
-
-void check_keys(const SceneNode& node, const std::string& place,
-                std::initializer_list<std::string_view> known, const OnUnknownKey& on_unknown_key) {
-  if (const auto* array = std::get_if<SceneNode::Array>(&node.value))
-    for (const SceneNode& element : *array) check_keys(element, place, known, on_unknown_key);
-  if (const auto* object = std::get_if<SceneNode::Object>(&node.value))
-    for (const auto& [key, value] : *object)
-      if (std::find(known.begin(), known.end(), key) == known.end()) on_unknown_key(place + key);
-}
-
-namespace {
 
 void check_scene_keys(const SceneNode& node, const OnUnknownKey& on_unknown_key) {
   check_keys(node, "", {"dimension", "lattices"}, on_unknown_key);

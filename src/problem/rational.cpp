@@ -67,24 +67,22 @@ int take_point(std::string& digits) {
 std::optional<Rational> decimal(std::string_view text, bool negative) {
   const auto power = take_exponent(text, "eE");
   std::string digits(text), denominator = "1";
-  const int after = take_point(digits);
+  const int exponent = power.value_or(0) - take_point(digits);
   if (!power || !all_digits(digits)) return std::nullopt;
-  const int exponent = *power - after;
   (exponent < 0 ? denominator : digits).append(static_cast<std::size_t>(std::abs(exponent)), '0');
   return fraction_of(std::move(digits), std::move(denominator), negative);
 }
 
-// Rejects all but the binary64 numbers.
+// Rejects numbers that a binary64 rounds.
 std::optional<Rational> hexadecimal(std::string_view text, bool negative) {
   const auto power = take_exponent(text, "pP");
   std::string digits(text);
-  const int after = take_point(digits);
+  const int exponent = power.value_or(0) - 4 * take_point(digits);
   std::uint64_t whole = 0;
   const auto end = digits.data() + digits.size();
   const auto [read, status] = std::from_chars(digits.data(), end, whole, 16);
   const bool is_long = std::countl_zero(whole) + std::countr_zero(whole) < 64 - 53;
   if (!power || status != std::errc{} || read != end || is_long) return std::nullopt;
-  const int exponent = *power - 4 * after;
   const double scaled = static_cast<double>(whole), value = std::scalbn(scaled, exponent);
   if (!std::isfinite(value) || std::scalbn(value, -exponent) != scaled) return std::nullopt;
   return negative ? -value : value;

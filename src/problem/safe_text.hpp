@@ -10,7 +10,6 @@ namespace lorentz {
 /// True for control characters, line and paragraph separators, the marks and overrides of the writing
 /// direction, the byte order mark, and the two code points that XML excludes.
 bool acts(char32_t code);
-
 /// Appends \\x, or \\u, and two or four hexadecimal digits.
 void append_escape(std::string& out, char32_t code, int digits);
 

@@ -150,13 +150,12 @@ int size_exponent(const Lattice& lattice, int dimension) {
 }  // namespace
 
 Scene scaled(Scene scene, int exponent) {
-  const auto scale = [exponent](Vec& a) { a = times_power_of_two(a, exponent); };
   for (Lattice& lattice : scene.lattices)
-    for (Vec& u : lattice.vectors) scale(u);
+    for (Vec& u : lattice.vectors) u = times_power_of_two(u, exponent);
   for_each_atom(scene, [&](Atom& atom) {
     atom.radius = std::scalbn(atom.radius, exponent);
-    scale(atom.position);
-    for (Vec& axis : atom.semiaxes) scale(axis);
+    atom.position = times_power_of_two(atom.position, exponent);
+    for (Vec& axis : atom.semiaxes) axis = times_power_of_two(axis, exponent);
   });
   return scene;
 }

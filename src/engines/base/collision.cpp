@@ -27,9 +27,8 @@ Vec divided(const Vec& a, double by) {
   return {a[0] / by, a[1] / by, a[2] / by};
 }
 
-// The line of flight and the obstacle that an answer names, scaled by powers of two: the obstacle's size and the
-// velocity are near 1, so their squares neither overflow nor underflow. `arm`: from its centre to the point of the line
-// where the answer's time is, or to x.
+// The line of flight and the obstacle that an answer names, in powers of two of its size and of the velocity, for their
+// squares may be beyond binary64. `arm`: from its centre to where the line is at the answer's time, or to x.
 class Chord {
  public:
   Chord(const Scene& scene, const Query& query, const Answer& answer)

@@ -170,8 +170,7 @@ std::size_t Batch::fly(const QueryColumns& queries, const FlightColumns& flights
     }
   };
   {
-    const auto others =
-        threads_of(std::min<std::size_t>(std::max(jobs, 1), std::max<std::size_t>(pieces, 1)) - 1, work);
+    const auto others = threads_of(std::clamp<std::size_t>(pieces, 1, std::max(jobs, 1)) - 1, work);
     work();
   }
   return left;

@@ -111,8 +111,7 @@ struct CellWalk::CellLattice {
 CellWalk::CellLattice::CellLattice(const Scene& scene, int l) : dimension(scene.dimension), index(l) {
   double largest = 0;
   for (int i = 0; i < dimension; ++i)
-    for (const double component : scene.lattices[l].vectors[i])
-      largest = std::max(largest, std::fabs(component));
+    largest = std::max(largest, largest_component(scene.lattices[l].vectors[i]));
   if (largest > 0) exponent = std::ilogb(largest);
   for (int i = 0; i < dimension; ++i) vectors[i] = scaled(scene.lattices[l].vectors[i]);
   dual = dual_of(vectors, dimension);
