@@ -442,7 +442,7 @@ TEST_CASE("golden explain: a hit, inside, never, and an invalid query", "[golden
   CHECK(contains(explained("boundary-starts", "\"expect\":{\"outcome\":\"inside\""),
                  "It starts inside lattice "));
   CHECK(contains(explained("never", "\"outcome\":\"never\""), "Nothing is ever hit: the flight is periodic"));
-  CHECK(contains(explained("ball-3d", "\"outcome\":\"never\""), "Nothing is ever hit.\nThe hard decision: "));
+  CHECK(contains(explained("ball-3d-binary32", "\"outcome\":\"never\""), "Nothing is ever hit.\nThe hard decision: "));
   const std::string single = explained("grazing-binary32", "\"outcome\":\"hit\"", " --svg " + picture);
   CHECK(contains(folder.read("tie.svg"),
                  fmt::format("{:.3g} ulps in each", std::stod(between(single, "Yes, by ", " ulps.")))));
