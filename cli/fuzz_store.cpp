@@ -79,8 +79,8 @@ std::string text_of(const std::string& id, const fuzz::Finding& f, const Claim& 
   if (f.shrinking == fuzz::Shrinking::due)
     out += "not shrunk yet: the campaign does so when it is resumed\n";
   else
-    out += '\n' + heading_of_shrunk(f) + '\n' + text_of(f.shrunk, claim);
-  return out + "\nas found:\n" + text_of(f.text, claim);
+    out += '\n' + heading_of_shrunk(f) + '\n' + cli::text_of(f.shrunk, claim);
+  return out + "\nas found:\n" + cli::text_of(f.text, claim);
 }
 
 // The report of the shrunk case, which is the one to examine.
