@@ -60,12 +60,12 @@ using Place = std::tuple<std::uintptr_t, std::size_t, std::size_t>;
 
 // The lattices of the obstacles that were hit: no others are left.
 void put_lattices_hit(const CardAnswers& answers, gpu::Memory& there) {
-  std::vector<std::int32_t> outcome(answers.count()), lattice(answers.count());
-  card().get(outcome.data(), answers.outcome, 4 * answers.count());
-  card().get(lattice.data(), answers.lattice, 4 * answers.count());
-  for (std::size_t i = 0; i < lattice.size(); ++i)
-    if (outcome[i] != static_cast<std::int32_t>(Outcome::hit)) lattice[i] = -1;
-  there.put(lattice.data(), 4 * lattice.size());
+  std::vector<std::int32_t> outcomes(answers.count()), lattices(answers.count());
+  card().get(outcomes.data(), answers.outcome, 4 * answers.count());
+  card().get(lattices.data(), answers.lattice, 4 * answers.count());
+  for (std::size_t i = 0; i < lattices.size(); ++i)
+    if (outcomes[i] != static_cast<std::int32_t>(Outcome::hit)) lattices[i] = -1;
+  there.put(lattices.data(), 4 * lattices.size());
 }
 
 std::shared_ptr<CardAnswers> first_hits(const oracle::CertifiedBatch& engine, int dimension,

@@ -110,6 +110,8 @@ bool read_answer(json::Value object, Id& id, Answer& answer, std::size_t& compon
   AnswerFields has;
   json::each_member(object, [&](std::string_view key, json::Value value) {
     if (keys) keys->emplace(key);
+    if (keys && (key == "message" || key == "reason") && value.type() == json::Type::null)
+      throw InputError(std::string(key) + ": needs a text, not null, in a record");
     if (ulps && key == "ulps")
       *ulps = read_number(value, "ulps");
     else

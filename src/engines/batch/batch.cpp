@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <system_error>
+#include <thread>
 
 #include <lorentz/errors.hpp>
 
 #include "src/engines/batch/stretch.hpp"
-#include "src/problem/threads.hpp"
 
 namespace lorentz {
 namespace {
@@ -72,7 +73,7 @@ void Batch::Inside::ask(const QueryColumns& queries, StretchBuffer& buffer, Stre
 
 // Takes the caller's columns if they exist and consist of whole vectors; otherwise those of the buffer, which
 // `tell` copies to the caller's.
-static void set_told(const FlightColumns& flights, std::size_t n, StretchBuffer& buffer, Stretch& stretch) {
+void set_told(const FlightColumns& flights, std::size_t n, StretchBuffer& buffer, Stretch& stretch) {
   const bool whole = n % kMaxLanes == 0;
   const auto column = [&](const auto& given, auto* own) {
     return given.empty() || !whole ? own : given.data();
@@ -170,7 +171,12 @@ std::size_t Batch::fly(const QueryColumns& queries, const FlightColumns& flights
     }
   };
   {
-    const auto others = threads_of(std::clamp<std::size_t>(pieces, 1, std::max(jobs, 1)) - 1, work);
+    std::vector<std::jthread> others;
+    try {
+      for (std::size_t job = 1; job < std::min<std::size_t>(std::max(jobs, 1), pieces); ++job)
+        others.emplace_back(work);
+    } catch (const std::system_error&) {  // those that could be started do it all
+    }
     work();
   }
   return left;
