@@ -446,7 +446,7 @@ TEST_CASE("golden explain: a hit, inside, never, and an invalid query", "[golden
   const std::string single = explained("grazing-binary32", "\"outcome\":\"hit\"", " --svg " + picture);
   const std::string decision = single.substr(single.find("The hard decision"));
   CHECK(contains(folder.read("tie.svg"),
-                 fmt::format("{:.3g} ulps in each", std::stod(between(decision, ", by ", " ulps.")))));
+                 fmt::format("of this flight: {:.3g}<", std::stod(between(decision, ", by ", " ulps.")))));
   CHECK(contains(explained("bad-queries", "\"tags\":[\"v-zero\"]"), "It is not a valid query: "));
   const std::string id = first_id("grazing", "\"outcome\":\"hit\"");
   const std::string page = folder.file("page.html");
