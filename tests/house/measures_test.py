@@ -16,7 +16,7 @@ NO_PRODUCTION = ("tests", "docs", "oracle/proof", "build", "fuzz/planted")
 TYPE = re.compile(r"^ *(?:template <.*> *)?(?:struct|class|enum(?: class)?) +\w+(?: final)?(?: *:[^;{]*)? *\{", re.MULTILINE)
 
 LIMITS = {"lines of production C++": 68_400, "type definitions": 815, "names of types in two files": 19, "libraries": 38,
-          "subcommands": 24, "options": 195}
+          "subcommands": 24, "options": 190}
 
 
 NAMED = re.compile(r"^ *(?:template <.*> *)?(?:struct|class|enum(?: class)?) +(\w+)(?: final)?(?: *:(?!:)[^;{]*)? *\{", re.MULTILINE)
