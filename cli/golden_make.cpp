@@ -14,6 +14,7 @@
 #include "question/starts/free_starts.hpp"
 #include "report/files/scene_file.hpp"
 #include "report/files/whole_file.hpp"
+#include "src/exchange/exchange_json.hpp"
 #include "src/exchange/nearest_name.hpp"
 
 namespace lorentz::cli {
@@ -102,8 +103,22 @@ std::string smoke_of(const std::vector<std::string>& files) {
 
 // Throws InputError if the folder has an index or checksums that did not come from here.
 void check_folder(const fs::path& folder) {
-  const fs::path index = folder / "index.json";
-  if (fs::exists(index) && text_of_file(index.string()).find("\"sets\":[") != std::string::npos) return;
+  const auto is_index = [](const fs::path& file) {
+    try {
+      const std::string text = text_of_file(file);
+      json::Document document;
+      document.open(text);
+      bool has_sets = false;
+      json::each_member(document.object(), [&](std::string_view key, json::Value value) {
+        has_sets |= key == "sets" && value.type() == json::Type::array;
+        skip(value);
+      });
+      return has_sets;
+    } catch (const NotJson&) {
+      return false;
+    }
+  };
+  if (fs::exists(folder / "index.json") && is_index(folder / "index.json")) return;
   for (const char* name : {"index.json", "SHA256SUMS"})
     if (fs::exists(folder / name))
       throw InputError((folder / name).string() +
