@@ -75,9 +75,10 @@ bool move_to_edge(const std::function<double()>& off_edge, const Scene& scene, c
       semiaxes_of(scene.lattices[answer.obstacle.lattice].atoms[answer.obstacle.atom], scene.dimension);
   Vec y = coordinates(axes, answer.detail->normal), w = coordinates(dual_of(axes, scene.dimension), query.v);
   if (scene.dimension == 2) y[2] = w[2] = 0;
-  for (Vec* one : {&y, &w}) {  // whatever the unit
-    const double largest = std::max({std::fabs((*one)[0]), std::fabs((*one)[1]), std::fabs((*one)[2])});
-    for (double& component : *one) component /= largest;
+  for (Vec* one : {&y, &w}) {  // whatever the unit, and the same bits
+    int exponent = 0;
+    std::frexp(largest_component(*one), &exponent);
+    *one = times_power_of_two(*one, -exponent);
   }
   const double length = std::sqrt(dot(y, y)), along = dot(y, w) / length / dot(w, w);
   for (int i = 0; i < 3; ++i) y[i] = y[i] / length - along * w[i];
