@@ -44,7 +44,7 @@ struct Bench {
   const AnswererOptions asking{.timeout = options.longest_wait(), .listener = terminal()};
 };
 
-// What the engines claim to answer, except where that depends on the answer.
+// What the engines claim to answer, with the exact answers.
 std::vector<Question> questions_in(const Bench& bench, const Cell& like,
                                    const std::shared_ptr<Place>& place) {
   const starts::Kind kind = like.difficulty == "drawn" ? starts::Kind::uniform
@@ -52,7 +52,10 @@ std::vector<Question> questions_in(const Bench& bench, const Cell& like,
   std::vector<Question> questions =
       question::questions_of(place, starts::free_starts(place->scene(), kind, bench.options.seed,
                                                         bench.options.count, bench.claim.precision));
-  std::erase_if(questions, [&](const Question& question) { return !place->takes(question.query); });
+  answer_exactly(questions, bench.asking.listener);
+  std::erase_if(questions, [&](const Question& question) {
+    return !place->takes(question.query) || !place->takes(question.query, question.exact);
+  });
   return questions;
 }
 
@@ -117,8 +120,7 @@ class Errors {
       in_conditions_.push_back(ulps / condition);
     const int rank = judgement.verdict == oracle::Verdict::wrong       ? 3
                      : judgement.verdict == oracle::Verdict::ill_posed ? 2
-                     : judgement.ulps                                  ? 1
-                                                                       : 0;
+                                                                       : judgement.ulps.has_value();
     const double size = rank > 1 ? judgement.departs : ulps;
     if (rank < rank_ || (rank == rank_ && !(size > size_)) || rank == 0) return;
     rank_ = rank, size_ = size, question_ = question;
@@ -131,10 +133,8 @@ class Errors {
   std::optional<report::Worst> worst(const Cell& cell) const {
     if (rank_ == 0) return std::nullopt;
     report::Worst worst;
-    worst.verdict = rank_ == 3          ? "wrong"
-                    : rank_ == 2        ? "ill-posed"
-                    : worst_.wrong_time ? "wrong-time"
-                                        : "agree";
+    constexpr const char* kVerdicts[] = {"", "agree", "ill-posed", "wrong"};
+    worst.verdict = worst_.wrong_time ? "wrong-time" : kVerdicts[rank_];
     worst.ulps = worst_.ulps;
     worst.query = report::hexadecimal_query(question_.query, question_.place->scene());
     worst.command = command_of(cell, worst.query) + shell_quoted(cell.engine);
@@ -174,7 +174,7 @@ void examine_into(Cell& cell, Examination& examination, std::span<const Question
   cell.queries = row.tally.queries;
   cell.counts = row.tally.counts;
   cell.ulps = report::histogram_of(row.tally.ulps);
-  cell.skipped = row.tally[Count::unsupported] == cell.queries;  // the speed of refusals means nothing
+  if (row.tally[Count::unsupported] == cell.queries) cell.skipped = "unsupported";  // at no speed
   cell.mean_path = mean_path(questions);
   cell.conditions = report::histogram_of(errors.in_conditions());
   cell.calls = errors.calls();
@@ -202,28 +202,24 @@ std::vector<Cell> measured_cells(const Bench& bench, const Cell& like, bool& fai
   const auto place = std::make_shared<Place>(
       rounded_scene(load_scene(like.scene, like.radius), bench.claim.precision, like.scene), bench.claim);
   std::vector<Question> questions = questions_in(bench, like, place);
-  std::size_t outside = bench.options.count - questions.size();
+  const std::size_t outside = bench.options.count - questions.size();
+  const std::string_view too_few =
+      questions.size() < kFewestQueries ? "outside the domain" : report::kTooSlow;
   std::vector<std::size_t> counts;
   for (const EngineInfo& engine : bench.engines)
     counts.push_back(affordable(bench, questions, engine, failed));
   const std::size_t most = *std::max_element(counts.begin(), counts.end());
   questions.resize(most < kFewestQueries ? 0 : most);
-  answer_exactly(questions, bench.asking.listener);
-  outside += std::erase_if(
-      questions, [&](const Question& question) { return !place->takes(question.query, question.exact); });
   for (Question& question : questions) question.condition = condition_of(question);
   std::vector<std::size_t> racing;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     Cell& cell = cells.emplace_back(like);
-    cell.dimension = place->scene().dimension, cell.engine = bench.engines[i].name;
-    counts[i] = std::min(counts[i], questions.size());
-    if ((cell.skipped = counts[i] < kFewestQueries)) {
-      cell.queries = cell.counts[Count::unsupported] = outside;
-      continue;
-    }
+    cell.dimension = place->scene().dimension, cell.engine = bench.engines[i].name, cell.outside = outside;
+    if (counts[i] < kFewestQueries) cell.skipped = too_few;
+    if (!cell.skipped.empty()) continue;
     Examination examination(bench.engines[i], bench.asking, bench.options.tolerance());
     examine_into(cell, examination, std::span(questions).first(counts[i]), bench.options.tolerance());
-    if (!cell.skipped && !examination.failed()) racing.push_back(i);
+    if (cell.skipped.empty() && !examination.failed()) racing.push_back(i);
     examination.finish();
     failed |= examination.failed();
   }

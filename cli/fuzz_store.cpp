@@ -7,6 +7,7 @@
 #include "cli/fuzz.hpp"
 #include "cli/output.hpp"
 #include "report/claim_words.hpp"
+#include "report/files/messages.hpp"
 #include "report/reason.hpp"
 #include "report/table.hpp"
 #include "src/exchange/json_writer.hpp"
@@ -120,8 +121,9 @@ int show(const Store& store, const ShowOptions& options) {
                        : text_of(*options.id, one.finding, manifest_of(store, one).claim));
     return kDone;
   }
-  throw InputError(fmt::format("{}: no finding is called {}; `lorentz fuzz show --json` has the names",
-                               options.store, json_quoted(*options.id)));
+  throw InputError(
+      fmt::format("{}: no finding is called {}; `lorentz fuzz show --store {} --json` has the names",
+                  options.store, json_quoted(*options.id), shell_quoted(options.store)));
 }
 
 int run_fuzz_store(const ShowOptions& options) {

@@ -54,8 +54,9 @@ bool GivenQueries::next_row(GivenQuery& given) {
     rows_.clear();
     row_ = flaw_ = 0;
     if (!columns_->next(rows_, kRowsTogether)) {
-      if (bad_rows_ > kMostComplaints)
-        say("{}: {} more bad rows", columns_->name(), bad_rows_ - kMostComplaints);
+      const std::size_t more = bad_rows_ > kMostComplaints ? bad_rows_ - kMostComplaints : 0;
+      if (more > 0) say("{}: {} more bad rows", columns_->name(), more);
+      bad_rows_ -= more;  // said once
       return false;
     }
   }

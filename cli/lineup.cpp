@@ -34,7 +34,7 @@ std::optional<double> margin_of(const Question& question) {
 std::string words_of_time(const Question& question, const Answer& given, bool other_quantity) {
   const std::string_view quantity = judge::quantity_of(question, given);
   if (!quantity.empty()) return fmt::format("{}, not the time of the entry", quantity);
-  return other_quantity ? "another quantity than the time of that collision"
+  return other_quantity ? "another quantity than a time of that collision"
                         : "a wrong time of the right obstacle";
 }
 

@@ -43,9 +43,10 @@ std::uint64_t whole_number(const std::string& text, const char* option, std::uin
       real = parse_number(text);
     } catch (const InputError&) {
     }
-    if (real > 0x1p53)
-      throw InputError(fmt::format("{}: {} is above 2^53; write all its digits", option, json_quoted(text)));
-    good = real >= 0 && real <= 0x1p53 && real == std::floor(real);
+    if (real >= 0x1p53 && most >= std::uint64_t{1} << 53)
+      throw InputError(
+          fmt::format("{}: {} is 2^53 or more; write all its digits", option, json_quoted(text)));
+    good = real >= 0 && real < 0x1p53 && real == std::floor(real);
     if (good) value = static_cast<std::uint64_t>(real);
   }
   if (!good || value < least || value > most)

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "fuzz/campaign/examiner.hpp"
 #include "src/problem/same_answer.hpp"
@@ -108,7 +107,7 @@ constexpr CauseWords kCauseWords[]{
     {"no-obstacle", "names an obstacle that does not exist",
      "names an obstacle that the scene does not have"},
     {"not-the-time", "another quantity as the time",
-     "gives, for the right obstacle, something else than the time at which it is entered",
+     "gives times of the right obstacle that are so far off that they are another quantity",
      SentenceEnd::along},
     {"wrong-time", "wrong time",
      "gives times of the right obstacle that are off by more than rounding of the inputs explains",
@@ -122,20 +121,6 @@ static_assert(std::size(kCauseWords) == static_cast<std::size_t>(Cause::answers_
 
 const CauseWords& words_for(Cause cause) {
   return kCauseWords[static_cast<std::size_t>(cause)];
-}
-
-// The answer names the right obstacle, with a wrong time.
-Diagnosis of_wrong_time(const Question& question, const Answer& given, bool other_quantity) {
-  return {other_quantity ? Cause::not_the_time : Cause::wrong_time, Severity::wrong_time,
-          question::radii_off(question, given), quantity_of(question, given)};
-}
-
-// When the line leaves the obstacle that is hit: turned round, it meets its exit first.
-double exit_time(const Question& question) {
-  const Query& query = question.query;
-  const Query turned{query.x, {-query.v[0], -query.v[1], -query.v[2]}, {}};
-  const std::string time = question.place->margins().crossing(turned, question.exact.obstacle).time_decimal;
-  return -std::strtod(time.c_str(), nullptr);
 }
 
 }  // namespace
@@ -153,14 +138,16 @@ std::string_view quantity_of(const Question& question, const Answer& given) {
   const Vec& v = question.query.v;
   if (is(*entry * std::hypot(v[0], v[1], v[2]))) return kDistance;
   if (question.has_limit() && is(*entry / question.max_time)) return kFraction;
-  const double exit = exit_time(question);
+  const double exit = question::exit_time(question);
   return is(exit) ? kExit : is(*entry / 2 + exit / 2) ? kNearest : std::string_view();
 }
 
 std::optional<Diagnosis> diagnosis_of(const Question& question, const Answer& given,
                                       const oracle::Judgement& judgement) {
   using oracle::Verdict;
-  if (judgement.wrong_time) return of_wrong_time(question, given, judgement.other_quantity);
+  if (judgement.wrong_time)
+    return Diagnosis{judgement.other_quantity ? Cause::not_the_time : Cause::wrong_time, Severity::wrong_time,
+                     question::radii_off(question, given), quantity_of(question, given)};
   if (judgement.verdict == Verdict::error) return Diagnosis{Cause::refused, Severity::error};
   if (judgement.verdict == Verdict::missing) return Diagnosis{Cause::no_answer, Severity::error};
   const bool is_excused = judgement.verdict == Verdict::ill_posed;

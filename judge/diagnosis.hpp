@@ -31,7 +31,7 @@ enum class Cause {
   inside_another,     ///< it does, but also in one that comes before it in the order (lattice, atom, cell)
   tie,                ///< two are entered at the same time, and the later one in this order is named
   no_obstacle,        ///< the scene has no such lattice or atom
-  not_the_time,       ///< the right obstacle, with something else than the time of its entry
+  not_the_time,       ///< the right obstacle, with another quantity as a time
   wrong_time,         ///< the right obstacle, with a time that is off by more than rounding explains
   refused,            ///< a valid question was answered with an error
   no_answer,          ///< an external engine died, fell silent, or left the question out

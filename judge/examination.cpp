@@ -28,6 +28,14 @@ question::AnswererOptions ended_by(question::AnswererOptions options, std::funct
   return options;
 }
 
+// The first question that is in the engine's domain.
+std::optional<Question> first_question(const JudgeOrder& order) {
+  JudgePlan plan(order);
+  for (PlannedRow& row : plan.rows())
+    if (auto question = row.source()) return question;
+  return std::nullopt;
+}
+
 }  // namespace
 
 TimedExamination::TimedExamination(const JudgeOrder& order, question::AnswererOptions options,
@@ -40,19 +48,17 @@ std::vector<double> TimedExamination::warm_up() {
   constexpr std::size_t kTries = 3;
   constexpr double kFast = 0.05;
   std::vector<double> seconds;
-  Outside outside = 0;
-  const auto question =
-      question_in(place_for(unit_scene(order_.claim.domain.dimension_2 ? 2 : 3, 0.25), order_.claim),
-                  {{0.5, 0, 0}, {1, 0, 0}, {}}, "the first question", outside);
-  if (!order_.engine.runs_apart() || !question) return seconds;
+  if (!order_.engine.runs_apart()) return seconds;
+  const std::optional<Question> question = first_question(order_);
+  if (!question) return seconds;
   while (seconds.size() < kTries && !is_over() && (seconds.empty() || seconds.back() > kFast)) {
     std::optional<Reply> reply;
     seconds.push_back(ask({&*question, 1}, [&](const Judged& judged) { reply = judged.reply; }));
     if (!examination_.failed()) continue;
     if (!reply || !reply->was_asked())
       reply = {Answer::error("the engine gave no answer while there was time"), Origin::fault};
-    ExaminedRow& row = results_.row(
-        {.name = "first question", .explanation = "along a row of a simple lattice, before anything else"});
+    ExaminedRow& row =
+        results_.row({.name = "first question", .explanation = "one question, before anything else"});
     take({*question, *reply, {oracle::Verdict::missing}}, row);
     break;
   }

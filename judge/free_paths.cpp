@@ -42,7 +42,7 @@ void FlownScene::add(const question::Question& question, const Answer& given) {
   if (!time || std::isnan(*time) || !exact) return;
   is_limited_ |= question.place->claim().domain.flight != Domain::Range();
   // Directions are of unit length; the domain may have other speeds, by powers of two.
-  const double speed = std::exp2(std::round(std::log2(length(question.query.v))));
+  const double speed = std::exp2(std::round(std::log2(length_of_any(question.query.v))));
   // Rounding must not carry a path across a point of the curve.
   constexpr double kSame = 0x1p-30;
   given_.push_back(speed * (std::fabs(*time - *exact) <= kSame * *exact ? *exact : *time));

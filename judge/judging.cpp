@@ -201,9 +201,10 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
   report.processor_ns = speeds[0].processor_ns;
   report.processor_ns_of_reduction = speeds[1].processor_ns;
   std::vector<std::string> names;
-  for (const NamedPlace* place : chosen) names.push_back(place->name);
-  report.speed_of = fmt::format("{} drawn flights in each of {}, in turn with reduction",
-                                questions.size() / chosen.size(), fmt::join(names, "; "));
+  for (const NamedPlace* place : chosen)
+    if (std::ranges::count(questions, place->name, &Question::where)) names.push_back(place->name);
+  report.speed_of =
+      fmt::format("{} drawn flights in {}, in turn with reduction", questions.size(), fmt::join(names, "; "));
 }
 
 // If the order has no timeout, it is much longer than any answer should take here, and a small part of the

@@ -87,10 +87,11 @@ class Retold {
         question_in(place, retold(random, *place, plain),
                     fmt::format("{}, {}", row_words_of(how_).name, places_[which].name), outside_);
     if (!question || how_ != Retelling::limited) return question;
-    const double time = question->exact.time.value_or(1 / length(question->query.v));
+    const double time = question->exact.time.value_or(1 / length_of_any(question->query.v));
     question->max_time = rounded(time * random.octave(-2, 2), place->claim().precision);
-    if (!place->claim().domain.limits) return ++outside_, std::nullopt;
-    return question->max_time > 0 ? question : std::nullopt;  // 0 is no limit
+    const bool is_limit = question->max_time > 0 && std::isfinite(question->max_time);
+    if (!is_limit || !place->claim().domain.limits) return ++outside_, std::nullopt;
+    return question;
   }
 
   const std::vector<NamedPlace>& places_;

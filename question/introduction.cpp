@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "src/exchange/exchange_json.hpp"
 
@@ -16,23 +17,31 @@ constexpr double kToIntroduce = 10, kLongest = 1e6;  // seconds
 constexpr std::chrono::milliseconds kToEnd{1000};
 
 // Reads the object with this key in the object that the line is. Returns false if there is none, or the line has an id,
-// as answers have.
+// as answers have, which may have members of any name; a value of another kind is meant only in the first place.
 template <class Read>
 bool read_member(std::string_view line, std::string_view key, const Read& read) {
   if (line.find('"' + std::string(key) + '"') == line.npos)
     return false;  // as the lines of a million answers
-  bool is_there = false, has_id = false;
+  std::optional<std::string> member;
+  bool has_id = false, is_first = true;
   try {
     json::Document document;
     document.open(line);
     json::each_member(document.object(), [&](std::string_view name, json::Value value) {
-      is_there |= name == key, has_id |= name == "id";
-      name == key ? json::each_member(value, read) : skip(value);
+      has_id |= name == "id";
+      const bool is_meant = std::exchange(is_first, false) || value.type() == json::Type::object;
+      if (name == key && is_meant)
+        member = value.raw();
+      else
+        skip(value);
     });
+    if (!member || has_id) return false;
+    document.open(*member);
+    json::each_member(document.object(), read);
+    return true;
   } catch (const NotJson& error) {
     throw InputError(fmt::format("{}: {}", key, error.what()));
   }
-  return is_there && !has_id;
 }
 
 double not_negative(json::Value value, const char* what, bool is_finite = false) {

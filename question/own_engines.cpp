@@ -20,9 +20,10 @@ void add_detail(const Query& query, const Scene& scene, Answer& answer) {
   const Detail detail = collision_detail(scene, query, answer);
   // No detail is added outside the range of binary64. The oracle has it.
   const Vec all = sum(sum(detail.point, detail.exit_point), sum(detail.normal, detail.exit_normal));
-  if (!std::isfinite(all[0] + all[1] + all[2] + detail.impact_parameter)) return;
+  const double exit = exit_time(scene, query, answer);
+  if (!std::isfinite(all[0] + all[1] + all[2] + detail.impact_parameter) || !std::isnormal(exit)) return;
   answer.detail = detail;
-  if (!answer.exit_time) answer.exit_time = exit_time(scene, query, answer);
+  if (!answer.exit_time) answer.exit_time = exit;
 }
 
 namespace {

@@ -137,9 +137,12 @@ inline std::vector<Question> questions_of(const std::shared_ptr<Place>& place,
 /// A ball's radius, or the smallest of an ellipsoid's principal semiaxes.
 double smallest_semiaxis(const Atom& atom, int dimension);
 
+/// When the line leaves the obstacle that is hit, to 17 digits.
+double exit_time(const Question& question);
+
 /// |t' - t| |v| / r: the error of the time as a distance along the ray, in radii of the right obstacle (for
-/// an ellipsoid its smallest semiaxis); for times near 0 this says more than ulps. Nothing unless both answers have
-/// finite times.
+/// an ellipsoid its smallest semiaxis); for times near 0 this says more than ulps. The larger of entry and exit, if
+/// both are given. Nothing unless both answers have finite times.
 std::optional<double> radii_off(const Question& question, const Answer& given);
 
 /// Returns the next question, or nothing at the end.

@@ -23,22 +23,16 @@ std::string radius_of(const Cell& cell) {
   return text;
 }
 
-bool same_queries(const Cell& a, const Cell& b) {
-  return a.scene == b.scene && a.radius == b.radius && a.difficulty == b.difficulty;
-}
-
 std::string table_of(const std::vector<Cell>& cells) {
   Table table({"queries", "engine", "number", "ns", "quartiles", "undecided", "ill-posed", "wrong",
                "wrong time", "mean ulp", "99 % ulp", "max ulp"});
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Cell& cell = cells[i];
-    const std::string what =
-        i > 0 && same_queries(cell, cells[i - 1])
-            ? ""
-            : fmt::format("{}, r = {}, {}", cell.scene, radius_of(cell), cell.difficulty);
-    if (cell.skipped) {
-      table.add({what, cell.engine, "-", cell.counts[Count::unsupported] > 0 ? "unsupported" : "too slow", "",
-                 "", "", "", "", "", "", ""});
+  std::string before;
+  for (const Cell& cell : cells) {
+    const std::string its = fmt::format("{}, r = {}, {}", cell.scene, radius_of(cell), cell.difficulty);
+    const std::string what = its == before ? "" : its;
+    before = its;
+    if (!cell.skipped.empty()) {
+      table.add({what, cell.engine, "-", std::string(cell.skipped), "", "", "", "", "", "", "", ""});
       continue;
     }
     const auto number = [&](Count count) { return std::to_string(cell.counts[count]); };
@@ -56,10 +50,7 @@ std::string table_of(const std::vector<Cell>& cells) {
 class Summary {
  public:
   void add(const Cell& cell) {
-    if (cell.skipped) {
-      ++(cell.counts[Count::unsupported] > 0 ? beyond_ : skipped_);
-      return;
-    }
+    if (!cell.skipped.empty()) return void(++(cell.skipped == kTooSlow ? skipped_ : beyond_));
     if (cell.speed) {
       fastest_ = std::min(fastest_.value_or(cell.speed->ns_median), cell.speed->ns_median);
       slowest_ = std::max(slowest_, cell.speed->ns_median);
@@ -74,8 +65,8 @@ class Summary {
 
   std::string conclusion(const std::string& name) const {
     if (queries_ == 0)
-      return fmt::format("{}: too slow for {} cells of this table, {} unsupported\n", name, skipped_,
-                         beyond_);
+      return fmt::format("{}: too slow for {} cells of this table, {} outside of what is answered\n", name,
+                         skipped_, beyond_);
     std::string text = name + ": " + wrong_text();
     const std::string others = counted_text(
         counts_, {Count::ill_posed, Count::undecided, Count::unsupported, Count::error, Count::missing});
@@ -88,7 +79,8 @@ class Summary {
       text += fmt::format("; times at worst {:.3g} ulps off, {:.3g} times the condition", max_ulp_,
                           max_condition_);
     if (skipped_ > 0) text += fmt::format("; too slow for {} {}", skipped_, skipped_ == 1 ? "cell" : "cells");
-    if (beyond_ > 0) text += fmt::format("; {} {} unsupported", beyond_, beyond_ == 1 ? "cell" : "cells");
+    if (beyond_ > 0)
+      text += fmt::format("; {} {} outside of what is answered", beyond_, beyond_ == 1 ? "cell" : "cells");
     return text + '\n';
   }
 
@@ -148,7 +140,7 @@ std::string bench_csv(const std::vector<Cell>& cells) {
       "ill_posed_low,ill_posed_high,wrong_low,wrong_high,wrong_time_low,wrong_time_high,"
       "condition_99_percent,max_condition\n";
   for (const Cell& cell : cells) {
-    if (cell.skipped) continue;
+    if (!cell.skipped.empty()) continue;
     csv += fmt::format(
         "{},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.6g},{}", csv_field(cell.scene), radius_of(cell),
         cell.difficulty, csv_field(cell.engine), cell.queries,

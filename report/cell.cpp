@@ -53,21 +53,23 @@ auto members_of(const Histogram& its) {
 
 void append_json(std::string& out, const Cell& cell) {
   // null for everything that was not measured
-  const auto measured = [&](const auto& value) { return cell.skipped ? std::nullopt : std::optional(value); };
+  const bool is_skipped = !cell.skipped.empty();
+  const auto measured = [&](const auto& value) { return is_skipped ? std::nullopt : std::optional(value); };
   json::append(out, [&](json::Members& object) {
     object.add("scene", cell.scene, "radius", cell.radius, "dimension", cell.dimension, "difficulty",
-               cell.difficulty, "engine", cell.engine, "queries", cell.queries, "skipped", cell.skipped);
+               cell.difficulty, "engine", cell.engine, "queries", cell.queries, "outside_domain",
+               cell.outside, "skipped", is_skipped);
     for (const question::CountName& name : question::names_counted(question::Counted::examinations))
-      object.add_named(name.key, cell.skipped && name.count != question::Count::unsupported
+      object.add_named(name.key, is_skipped && name.count != question::Count::unsupported
                                      ? std::nullopt
                                      : std::optional(share_of(cell.counts[name.count], cell.queries)));
     object.add("ns",
-               cell.speed && !cell.skipped
+               cell.speed && !is_skipped
                    ? std::optional([&](json::Members& ns) { add_times(ns, *cell.speed); })
                    : std::nullopt,
                "mean_path", measured(cell.mean_path), "ulps", measured(members_of(cell.ulps)), "conditions",
                measured(members_of(cell.conditions)), "calls", measured(cell.calls), "worst",
-               cell.worst && !cell.skipped
+               cell.worst && !is_skipped
                    ? std::optional([&](json::Members& worst) { add_worst(worst, *cell.worst); })
                    : std::nullopt);
   });

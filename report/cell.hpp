@@ -32,13 +32,16 @@ struct Worst {
   std::string command;         ///< a shell line that shows it
 };
 
+inline constexpr std::string_view kTooSlow = "too slow";
+
 struct Cell {
   std::string scene;
   std::optional<double> radius = {};  ///< nothing: the scene's own sizes
   int dimension = 2;
   std::string difficulty = {}, engine = {};
   std::size_t queries = 0;
-  bool skipped = false;                       ///< too slow, or all unsupported: nothing was measured
+  std::size_t outside = 0;                    ///< drawn queries that are outside of the engines' domain
+  std::string_view skipped = {};              ///< why nothing was measured, such as kTooSlow
   std::optional<question::Speed> speed = {};  ///< empty if the program failed
   double mean_path = 0;                       ///< mean time of the flights that hit; 0 if none does
   question::Counts counts = {};               ///< of Counted::examinations

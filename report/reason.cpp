@@ -57,9 +57,9 @@ namespace {
 // The case that the answer is wrong because of the obstacle that it names.
 std::optional<Dispute> about_named(const oracle::Approach& approach, const Answer& given,
                                    const std::string& name, bool is_left) {
+  if (is_left) return Dispute{approach.start_gap, name + " is the obstacle that the flight leaves"};
   if (given.outcome == Outcome::inside)
     return approach.start_gap >= 0 ? std::optional(about_start(approach, name)) : std::nullopt;
-  if (is_left) return Dispute{approach.start_gap, name + " is the obstacle that the flight leaves"};
   if (approach.start_gap >= 0 && !approach.ahead)
     return Dispute{approach.start_gap, name + " lies behind the start"};
   return approach.gap >= 0 ? std::optional(about_line(approach, name, "")) : std::nullopt;

@@ -4,12 +4,14 @@
 #include "fuzz/campaign/shrink.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <string>
 #include <unordered_set>
 #include <vector>
 
+#include <lorentz/exchange.hpp>
 #include <lorentz/geometry.hpp>
 #include "fuzz/families/family.hpp"
 
@@ -347,20 +349,11 @@ class Shrinker {
 
   bool is_spent() const { return tries_left_ <= 0 || (budget_.is_up && budget_.is_up()); }
 
-  static std::uint64_t hash_of(Shrunk& one) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    const auto add = [&](std::uint64_t bits) { hash = (hash ^ bits) * 0x100000001b3, hash ^= hash >> 29; };
-    for_each_number(one.scene, one.query, [&](double& x) { add(std::bit_cast<std::uint64_t>(x)); });
-    for (const Lattice& lattice : one.scene.lattices) {
-      add(0x1a77 + lattice.atoms.size());
-      for (const Atom& atom : lattice.atoms) add(atom.semiaxes.size());
-    }
-    if (const auto& from = one.query.from) {
-      add(static_cast<std::uint64_t>(64 * from->lattice + from->atom + 1));
-      for (const Integer& n : from->cell)
-        for (const char digit : n.decimal()) add(static_cast<std::uint64_t>(digit));
-    }
-    return hash;
+  static std::size_t hash_of(const Shrunk& one) {
+    std::string text;
+    append_scene_line(text, one.scene);
+    append_query_line(text, "0", one.query, one.scene);
+    return std::hash<std::string>()(text);
   }
 
   Shrunk best_;
@@ -371,7 +364,7 @@ class Shrinker {
   int tries_ = 0;
   long score_ = 0;
   double flight_ = -1;  // of the best case; not known for the given one
-  std::unordered_set<std::uint64_t> seen_;
+  std::unordered_set<std::size_t> seen_;
 };
 
 }  // namespace

@@ -57,6 +57,15 @@ namespace lorentz {
   return {std::scalbn(a[0], exponent), std::scalbn(a[1], exponent), std::scalbn(a[2], exponent)};
 }
 
+/// The mean of the vectors' exponents: lengths in this unit may be multiplied, for the longest and the shortest are as
+/// far from 1. No vector may be 0.
+[[gnu::always_inline]] inline int mean_exponent(const std::array<Vec, 3>& vectors, int dimension) {
+  int sum = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i)
+    sum += std::ilogb(largest_component(vectors[i]));
+  return sum / dimension;
+}
+
 /// The time at which the line x + t v enters the ball of radius r around the origin, from the textbook
 /// quadratic t = -B - sqrt(B^2 - C) with B = x.v / v^2 and C = (x^2 - r^2) / v^2. It may be negative. Nothing
 /// if B^2 < C.

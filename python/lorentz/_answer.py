@@ -126,7 +126,7 @@ class Answer:
 
     @property
     def obstacle(self) -> Obstacle | None:
-        """(lattice, atom, cell): the start_from of a query that continues from here."""
+        """(lattice, atom, cell): the start_from of a query that continues from a hit."""
         if self.lattice is None or self.atom is None or self.cell is None:
             return None
         return self.lattice, self.atom, self.cell
@@ -156,7 +156,7 @@ class Answer:
         """Reads a line of that format. Raises Error if the line is invalid."""
         try:
             return Answer._from_fields(json.loads(line, object_pairs_hook=_each_once))
-        except (AttributeError, KeyError, OverflowError, TypeError, ValueError) as error:
+        except (AttributeError, KeyError, OverflowError, RecursionError, TypeError, ValueError) as error:
             raise Error(f"answer: {line!r:.80} has not the form of docs/formats.md: {error!r}") from None
 
     @staticmethod
@@ -213,6 +213,8 @@ def _read_obstacle(fields: dict[str, Any]) -> tuple[int, int, tuple[int, ...]]:
     cell = items(fields["cell"], "cell")
     lattice, atom, *numbers = (int(n) if isinstance(n, str) and re.fullmatch("-?[0-9]+", n) else integer(rational(n), "number")
                                for n in (fields["lattice"], fields["atom"], *cell))
+    if lattice < 0 or atom < 0:
+        raise ValueError("lattice and atom are not below 0")
     return lattice, atom, tuple(numbers)
 
 

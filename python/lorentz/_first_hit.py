@@ -114,7 +114,7 @@ def first_hit(scene: SceneLike, x: Any, v: Any, radius: float | None = None, *, 
         max_time: a number, or shape (N,). The outcome is LATER if no obstacle is entered before it.
         start_from: the obstacle that a query leaves, which it ignores: one (lattice, atom, cell) for all,
             columns of the three (a lattice below 0 means none), or a list of N obstacles and None. With
-            Answers, each query leaves the obstacle that was hit.
+            Answers (or an Answer in place of an obstacle), each query leaves the obstacle that was hit.
         on_error: ``"raise"`` or ``"mark"``. With ``"mark"`` a row that is not a query, or that the engine
             does not support, has the outcome ERROR.
 

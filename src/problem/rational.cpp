@@ -77,7 +77,8 @@ std::optional<Rational> decimal(std::string_view text, bool negative) {
 std::optional<Rational> hexadecimal(std::string_view text, bool negative) {
   const auto power = take_exponent(text, "pP");
   std::string digits(text);
-  const int exponent = power.value_or(0) - 4 * take_point(digits);
+  int exponent = power.value_or(0) - 4 * take_point(digits);
+  for (; digits.size() > 1 && digits.ends_with('0'); digits.pop_back()) exponent += 4;
   std::uint64_t whole = 0;
   const auto end = digits.data() + digits.size();
   const auto [read, status] = std::from_chars(digits.data(), end, whole, 16);

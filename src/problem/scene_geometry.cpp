@@ -16,10 +16,7 @@ using std::numbers::pi;
 // then the singular values.
 std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension) {
   std::array<Vec, 3> a = semiaxes_of(atom, dimension);
-  double size = 0;
-  for (const Vec& column : a) size = std::max(size, largest_component(column));
-  int exponent = 0;
-  std::frexp(size, &exponent);
+  const int exponent = mean_exponent(a, dimension);
   for (Vec& column : a) column = times_power_of_two(column, -exponent);
   constexpr int kSweeps = 60;
   bool turned = true;
@@ -28,7 +25,7 @@ std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension) {
     for (int i = 0; i < dimension; ++i)
       for (int k = i + 1; k < dimension; ++k) {
         const double aii = dot(a[i], a[i]), akk = dot(a[k], a[k]), aik = dot(a[i], a[k]);
-        if (std::fabs(aik) <= 1e-17 * std::sqrt(aii * akk)) continue;
+        if (aik == 0 || std::fabs(aik) <= 1e-17 * std::sqrt(aii * akk)) continue;
         turned = true;
         const double zeta = (akk - aii) / (2 * aik);
         const double t = std::copysign(1.0, zeta) / (std::fabs(zeta) + std::hypot(1.0, zeta));
@@ -137,18 +134,6 @@ double surface_of(const Atom& atom, int dimension) {
          (z * carlson_rf(x, y, z) - (x - z) * (y - z) * carlson_rd(x, y, z) / 3 + std::sqrt(x * y / z));
 }
 
-namespace {
-
-// The exponent of a power of two of about the cell's size. It is computed from exponents alone, because the
-// cell's volume may be outside the range of binary64.
-int size_exponent(const Lattice& lattice, int dimension) {
-  int sum = 0;
-  for (int i = 0; i < dimension; ++i) sum += std::ilogb(largest_component(lattice.vectors[i]));
-  return sum / dimension;
-}
-
-}  // namespace
-
 Scene scaled(Scene scene, int exponent) {
   for (Lattice& lattice : scene.lattices)
     for (Vec& u : lattice.vectors) u = times_power_of_two(u, exponent);
@@ -162,7 +147,7 @@ Scene scaled(Scene scene, int exponent) {
 
 std::optional<AtomShares> shares_of(const Scene& given) {
   if (!is_crystal(given)) return std::nullopt;
-  const int exponent = size_exponent(given.lattices[0], given.dimension), d = given.dimension;
+  const int exponent = mean_exponent(given.lattices[0].vectors, given.dimension), d = given.dimension;
   AtomShares shares{std::scalbn(1.0, exponent), {}, {}};
   for (const Lattice& lattice : scaled(given, -exponent).lattices) {
     const double cell = cell_volume(lattice, d);

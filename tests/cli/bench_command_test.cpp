@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <regex>
 
 using namespace lorentz::test;
 
@@ -70,7 +71,29 @@ TEST_CASE("bench counts wrong times apart from wrong answers", "[cli][bench_comm
   const std::string solid = folder.never(R"({"engine":{"dimensions":[3]}})");
   const Run none =
       folder.lorentz("bench --scene square --radius 0.1 --count 64 --difficulty drawn -e " + solid);
-  CHECK(contains(none.out, "too slow for 0 cells of this table, 1 unsupported"));
+  CHECK(contains(none.out, "too slow for 0 cells of this table, 1 outside of what is answered"));
+}
+
+TEST_CASE("bench asks engines what lies in their domain, and counts the rest", "[cli][bench_command]") {
+  const Folder folder;
+  const std::string engine =
+      folder.write("engine",
+                   "read -r first || { echo '{\"engine\":{\"domain\":{\"flight\":[0,5]}}}'; exit; }\n"
+                   "{ echo \"$first\"; cat; } | tee -a " +
+                       folder.file("asked") + " | " LORENTZ_PROGRAM " first-hit --engine certified\n");
+  const std::string bench = "bench --scene square --radius 0.1 --difficulty drawn --json --count ";
+  const Run run = folder.lorentz(bench + "200 -e reduction -e 'cmd:sh " + engine + "'");
+  CHECK(run.status == 0);
+  std::smatch counts;
+  REQUIRE(std::regex_search(run.out, counts, std::regex(R"("queries":(\d+),"outside_domain":(\d+),)")));
+  CHECK(std::stoi(counts[1]) + std::stoi(counts[2]) == 200);
+  CHECK((std::stoi(counts[1]) > 40 && std::stoi(counts[2]) > 40));
+  const std::string answers = folder.lorentz("first-hit " + folder.file("asked")).out;
+  const std::regex time(R"("time":([0-9.e-]+))");
+  for (std::sregex_iterator one(answers.begin(), answers.end(), time), end; one != end; ++one)
+    CHECK(std::stod((*one)[1]) <= 5);
+  const Run none = folder.lorentz(bench + "40 -e 'cmd:sh " + engine + "'");
+  CHECK(contains(none.out, R"("queries":0,"outside_domain":)"));
 }
 
 TEST_CASE("bench fails if an engine does, at once or later", "[cli][bench_command]") {
@@ -93,7 +116,8 @@ TEST_CASE("bench takes scenes with semiaxes at their own size", "[cli][bench_com
   INFO(run.out << run.err);
   CHECK(run.status == 0);
   CHECK(contains(folder.read("c"), "ellipse,own,drawn,reduction,"));
-  CHECK(contains(run.out, "published-float: too slow for 0 cells of this table, 3 unsupported"));
+  CHECK(contains(run.out,
+                 "published-float: too slow for 0 cells of this table, 3 outside of what is answered"));
   CHECK(lines(folder.read("c")) == 4);  // the time that a refusal takes is not a figure
   CHECK(folder.lorentz("bench --scene ellipse --radius 0.1 --engine reduction --count 32").status == 2);
 }

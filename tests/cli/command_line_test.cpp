@@ -220,7 +220,7 @@ TEST_CASE("Counts and seeds out of range, scenes that cannot be drawn from", "[c
   }
   CHECK(folder.lorentz("compare --engine reduction --count 1e2 --seed 18446744073709551615").status == 0);
   CHECK(contains(folder.lorentz("compare --seed 1e17").err,
-                 "--seed: \"1e17\" is above 2^53; write all its digits"));
+                 "--seed: \"1e17\" is 2^53 or more; write all its digits"));
 }
 
 TEST_CASE("Names of scenes: the catalogue, files, and neither", "[cli][command_line]") {

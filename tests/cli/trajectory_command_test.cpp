@@ -1,5 +1,6 @@
 // lorentz trajectory, as its users call it.
 #include <catch2/catch.hpp>
+#include <regex>
 
 #include "report/page.hpp"
 #include "tests/support/command_line.hpp"
@@ -90,6 +91,11 @@ TEST_CASE("trajectory: an engine held against it", "[cli][trajectory]") {
   const Run exact =
       folder.lorentz("trajectory --scene square --radius 1/10 --collisions 5 --engine oracle " + starts);
   CHECK(contains(last_line(exact.out), R"("diverged":null)"));
+  // No engine is blamed for a time beyond binary64, nor for one that is rounded up to the next collision.
+  for (const std::string how :
+       {"--x 1/2,1/2 --v 1,0 --time 1e309", "--x 1/2,0 --v 1,0 --time 0.3999999999999999999"})
+    CHECK(std::regex_search(folder.lorentz("trajectory --scene square --radius 1/10 -e reduction " + how).out,
+                            std::regex(R"("end":"time","collisions":0,.*"diverged":null)")));
 }
 
 TEST_CASE("trajectory: an engine that names the next obstacle of a column departs there",

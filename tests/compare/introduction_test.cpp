@@ -117,6 +117,10 @@ TEST_CASE("The time of an engine's own calls is read", "[compare][introduction]"
        {R"({"engine_time":{"seconds":-1,"queries":1}})", R"({"engine_time":{"queries":-1}})",
         R"({"engine_time":{"seconds":"inf","queries":1}})"})
     CHECK_THROWS_AS(own_time_in(bad), InputError);
+  // An answer may have members of any name and kind; no introduction, either, is a text with this key.
+  for (const char* its : {"0.001", "null", R"("5 ms")", R"({"seconds":-1})"})
+    CHECK_FALSE(own_time_in(R"({"id":2,"outcome":"later","engine_time":)" + std::string(its) + '}'));
+  CHECK_FALSE(introduction_in(R"({"status":"ready","engine":"mine 1.0"})"));
   std::string unknown;
   const auto see = [&](const std::string& key) { unknown += key; };
   CHECK(own_time_in(R"({"engine_time":{"seconds":2,"querys":1}})", see)->seconds == 2);

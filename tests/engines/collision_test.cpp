@@ -182,6 +182,20 @@ TEST_CASE("An ellipsoid's normal is the gradient of its quadratic form, by finit
   }
 }
 
+TEST_CASE("Exits of slender ellipses: across, and at both ends", "[engines][collision]") {
+  for (const int p : {100, 255, 256, 400, 500}) {
+    const double large = std::ldexp(1, p), small = std::ldexp(1, -p);
+    const Scene scene = one_ellipsoid(2, {{large, 0, 0}, {0, small, 0}});
+    const Query across{{0, -4 * small, 0}, {0, small, 0}, {}}, along{{-4 * large, 0, 0}, {large, 0, 0}, {}};
+    INFO(p);
+    for (const Query& query : {across, along}) {
+      CHECK(exit_time(scene, query, Answer::hit({}, 3)) == 5);
+      CHECK(collision_detail(scene, query, Answer::hit({}, 3)).exit_normal ==
+            (query.v[0] > 0 ? Vec{1, 0, 0} : Vec{0, 1, 0}));
+    }
+  }
+}
+
 TEST_CASE("Collision detail has the same bits at any size and speed", "[engines][collision]") {
   Draw draw(1305);
   INFO("seed 1305");

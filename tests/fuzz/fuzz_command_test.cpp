@@ -496,7 +496,9 @@ TEST_CASE("Bad options are refused before any work, with what would do", "[fuzz]
   refused("-e published -e walk", "--engine: name one");
   refused("--count 1 --store /no/such/folder/store", "/no/such/folder/store", 3);
   folder.lorentz("fuzz -t grazing --count 1 --store " + folder.file("store"));
-  refused("show 1/grazing/5 --store " + folder.file("store"), "no finding is called \"1/grazing/5\"");
+  refused("show 1/grazing/5 --store " + folder.file("store"),
+          "no finding is called \"1/grazing/5\"; `lorentz fuzz show --store " + folder.file("store") +
+              " --json`");
 }
 
 // An engine whose numbers are all binary32, at its door and in its times; else it is exact.

@@ -247,7 +247,7 @@ TEST_CASE("golden check: says whether a wrong time is the exit, another quantity
     const std::string left = told("a['time'] = " + exit);
     INFO(left);
     CHECK(contains(left, "the time of the exit from that obstacle, not the time of the entry: off by "));
-    CHECK(contains(told("a['time'] = 1e9"), "another quantity than the time of that collision: off by "));
+    CHECK(contains(told("a['time'] = 1e9"), "another quantity than a time of that collision: off by "));
     CHECK(contains(told("a['time'] *= 1 + 1e-9"), "a wrong time of the right obstacle: off by "));
   }
 }

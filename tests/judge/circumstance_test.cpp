@@ -297,7 +297,7 @@ TEST_CASE("Where all times are wrong, circumstances are found among right obstac
       }).all(rows(200));
   REQUIRE(all.size() == 2);
   CHECK(contains(all[0].explanation(), ", only where |v| is not 1 (all 50, and none of the right answers)"));
-  CHECK(contains(all[1].summary(), "something else than the time"));
+  CHECK(contains(all[1].summary(), "that they are another quantity"));
 }
 
 TEST_CASE("Examples of everyday sizes come first", "[judge][findings]") {

@@ -132,6 +132,15 @@ TEST_CASE("An error of a time is told in radii along the ray, for an ellipsoid i
       sentence_of(Cause::wrong_time, 0.003) ==
       "gives times of the right obstacle that are off by more than rounding of the inputs explains, by up to "
       "0.003 radii along the ray");
+  const Question through = asked(0.25, {0.5, 0, 0}, {1, 0, 0});
+  Answer wrong_exit = through.exact;  // 0.25, and right is 0.75
+  for (const double exit : {1.0, 0.75 + 1e-12}) {
+    wrong_exit.exit_time = exit;
+    CHECK(diagnosed(through, wrong_exit)->by_radii == Approx(4 * (exit - 0.75)).epsilon(1e-3));
+    CHECK(cause(through, wrong_exit) == (exit == 1 ? "not-the-time" : "wrong-time"));
+  }
+  wrong_exit.exit_time = INFINITY;
+  CHECK_FALSE(diagnosed(through, wrong_exit)->by_radii);
   Scene slender = unit_scene(2, 0.25);
   // Sheared: the smallest semiaxis is not a column's length.
   slender.lattices[0].atoms[0] = Atom{{}, 0, {{0.25, 0, 0}, {0.25, 0.0625, 0}}};

@@ -192,8 +192,7 @@ TEST_CASE("The first 500 questions of each row are compared, and a row without a
   CHECK(more.results().rows[0].tally.speed.ns_per_query == 0);
 }
 
-TEST_CASE("The first question to another program is at an empty place, in its domain",
-          "[judge][examination]") {
+TEST_CASE("The first question to another program is in its domain, if anything is", "[judge][examination]") {
   const Folder folder;
   const std::atomic<bool> stop = false;
   JudgeOrder order = order_of(
@@ -205,10 +204,12 @@ TEST_CASE("The first question to another program is at an empty place, in its do
     examination.finish();
     return folder.read("asked");
   };
-  CHECK(contains(asked(), R"("x":[0.5,0],"v":[1,0])"));
-  order.claim.domain.dimension_2 = false, order.claim.domain.speed = {10, 20};
-  CHECK(contains(asked(), R"("x":[0.5,0,0],"v":[16,0,0])"));
-  order.claim.domain.balls = false;
+  CHECK(contains(asked(), R"("radius":0.1)"));
+  order.claim.domain.dimension_2 = false, order.claim.domain.radius.high = 0.05;
+  CHECK((contains(asked(), R"({"dimension":3,)") && !contains(asked(), R"("radius":0.1)")));
+  order.claim.domain.balls = false, order.claim.domain.radius = {};
+  CHECK(contains(asked(), R"("semiaxes":)"));
+  order.claim.domain.dimension_3 = false;
   CHECK(asked().empty());
 }
 

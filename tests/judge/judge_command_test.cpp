@@ -226,6 +226,9 @@ TEST_CASE("judge: starting takes no part in the speed, free paths that are cut s
   CHECK(slow.status == 0);
   CHECK(contains(slow.out, "\nStart: "));
   CHECK_FALSE(contains(slow.out, "not asked: drawn square"));
+  const Run small = folder.lorentz(judge + " starts 700' --timeout 60 --domain radius=..0.1");
+  INFO(small.out);
+  CHECK(contains(small.out, "\nStart: "));
   const Run cut = folder.lorentz(judge + " cuts 20'");
   INFO(cut.out << cut.err);
   CHECK(contains(cut.out, "; P(free path > "));

@@ -38,6 +38,11 @@ TEST_CASE("Rational numbers from texts") {
     CHECK(told(std::string("0x1.80000000000000") + mark + "-1") == "double 0.750000");
   CHECK(std::get<double>(*rational_from("0xF.FFFFFFFFFFFF8p1020")) == std::numeric_limits<double>::max());
   CHECK(std::get<double>(*rational_from("0x.4p-1072")) == 0x1p-1074);
+  for (const char* one :
+       {"0x1.00000000000000000p0", "0x0.00000000000000000800p69", "0x10000000000000000p-64"})
+    CHECK(told(one) == "double 1.000000");
+  for (const char* zero : {"0x0", "0x.0", "0x00.000p5", "-0x0p-7"})
+    CHECK(std::get<double>(*rational_from(zero)) == 0);
   for (const char* text :
        {"",   "-",     "1/0",  "1/", "/3",     "1/-3", "1//3", "1/3/5",   "a",   "1e",
         "e5", "1.2.3", "1 /3", "0x", "0x1.8p", "inf",  "nan",  "1e99999", "--1", "0x1.00000000000001p0",

@@ -133,6 +133,8 @@ TEST_CASE("Filling does not depend on the unit of length, up to the ends of bina
   Scene needle = unit_scene(3, 1);
   needle.lattices[0].atoms[0] = {{}, 0, {Vec{0.1, 0, 0}, Vec{0, 1e-170, 0}, Vec{0, 0, 1e-170}}};
   CHECK_FALSE(filling_of(needle).has_value());
+  needle.lattices[0].atoms[0].semiaxes = {Vec{1e160, 0, 0}, Vec{0, 1e-170, 0}, Vec{0, 0, 1e-160}};
+  CHECK(principal_semiaxes(needle.lattices[0].atoms[0], 3) == std::array{1e160, 1e-160, 1e-170});
 }
 
 TEST_CASE("Dual vectors of lengths far apart, whichever is the shortest", "[problem][scene_geometry]") {

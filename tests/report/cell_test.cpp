@@ -73,7 +73,7 @@ TEST_CASE("Cells are written with null for what was not measured", "[report][cel
   cell.speed = lorentz::question::Speed{1.75, 1.5, 1, 2};
   CHECK(has(R"("ns":{"median":1.5,"q1":1,"q3":2,"mean":1.75})"));
   CHECK(has(R"("worst":{"verdict":"wrong","ulps":null,"query":{"x":)"));
-  cell.skipped = true;
+  cell.skipped = lorentz::report::kTooSlow;
   CHECK((has(R"("ns":null,"mean_path":null,"ulps":null)") && has(R"("worst":null)")));
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("The table of cells has each number in its column, and the conclusion 
   cell.ulps = histogram_of({0, 1, 8});
   cell.speed = lorentz::question::Speed{17, 20, 19, 21};
   Cell slow = cell;
-  slow.difficulty = "grazing", slow.skipped = true;
+  slow.difficulty = "grazing", slow.skipped = lorentz::report::kTooSlow;
   const std::string text = bench_text({cell, slow}, {"mine"});
   INFO(text);
   CHECK(std::regex_search(text, std::regex("drawn +mine +50 +20 +19-21 +0 +0 +0 +0 +3 +8 +8\\n")));

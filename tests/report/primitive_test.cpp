@@ -29,6 +29,10 @@ TEST_CASE("A line that touches a ball is said to miss it, by nothing", "[report]
   const auto left = report::dispute_of(oracle::Margins(square), square, leaving, Answer::never(),
                                        Answer::hit({0, 0, {1, 0, 0}}, 0.5), {});
   CHECK(left->text == "lattice 0, atom 0, cell (1, 0) is the obstacle that the flight leaves");
+  const Query within{{0.9, 0.125, 0}, {1, 0, 0}, ObstacleId{0, 0, {1, 0, 0}}};
+  const Answer inside = Answer::inside({0, 0, {1, 0, 0}});
+  CHECK(report::dispute_of(oracle::Margins(square), square, within, Answer::never(), inside, {})->text ==
+        left->text);
   const auto words = [&](double y) {
     return primitive(square, {{0.5, y, 0}, {1, 0, 0}, {}}, {0, 0, {1, 0, 0}}).cpp;
   };

@@ -51,7 +51,7 @@ function verdict(record, answer, k, bits) {
 }
 
 const answers = new Map();
-for (const answer of lines(answerFile).filter((line) => line.id)) {
+for (const answer of lines(answerFile).filter((line) => typeof line?.id === "string")) {
   if (answers.has(answer.id)) refuse(`${answerFile}: the id ${answer.id} comes twice`);
   answers.set(answer.id, answer);
 }

@@ -40,9 +40,7 @@ class Chord {
     checked(answer.obstacle, scene);
     const Atom& atom = scene.lattices[answer.obstacle.lattice].atoms[answer.obstacle.atom];
     std::array<Vec, 3> axes = semiaxes_of(atom, scene.dimension);
-    double size = 0;
-    for (const Vec& axis : axes) size = std::max(size, largest_component(axis));
-    std::frexp(size, &unit_);
+    unit_ = mean_exponent(axes, scene.dimension);
     for (Vec& axis : axes) axis = times_power_of_two(axis, -unit_);
     if (!atom.is_ball()) to_ball_ = dual_of(axes, scene.dimension);
     size_ = atom.is_ball() ? axes[0][0] * axes[0][0] : 1;
