@@ -190,7 +190,7 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
   question::RaceOptions options{kRounds, terms.answerer};
   options.answerer.enough = [&] { return terms.stop || until.left() == 0; };
   const std::vector<question::Question> questions = questions_to_race_in(chosen, report.seed, count);
-  if (questions.empty()) return;
+  if (questions.size() < 32) return;  // so few say nothing
   const std::vector<question::Speed> speeds =
       question::race(questions, {report.engine, question::engine_named("reduction")}, options);
   const bool is_cut = report.engine.runs_apart() && options.answerer.enough();
