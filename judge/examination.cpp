@@ -28,14 +28,6 @@ question::AnswererOptions ended_by(question::AnswererOptions options, std::funct
   return options;
 }
 
-// The first question that is in the engine's domain.
-std::optional<Question> first_question(const JudgeOrder& order) {
-  JudgePlan plan(order);
-  for (PlannedRow& row : plan.rows())
-    if (auto question = row.source()) return question;
-  return std::nullopt;
-}
-
 }  // namespace
 
 TimedExamination::TimedExamination(const JudgeOrder& order, question::AnswererOptions options,
@@ -49,7 +41,10 @@ std::vector<double> TimedExamination::warm_up() {
   constexpr double kFast = 0.05;
   std::vector<double> seconds;
   if (!order_.engine.runs_apart()) return seconds;
-  const std::optional<Question> question = first_question(order_);
+  std::optional<Question> question;
+  JudgePlan plan(order_);
+  for (PlannedRow& row : plan.rows())
+    if (!question && !is_over()) question = row.source();
   if (!question) return seconds;
   while (seconds.size() < kTries && !is_over() && (seconds.empty() || seconds.back() > kFast)) {
     std::optional<Reply> reply;

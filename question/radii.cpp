@@ -23,14 +23,17 @@ double exit_time(const Question& question) {
 
 std::optional<double> radii_off(const Question& question, const Answer& given) {
   const Answer& exact = question.exact;
+  const StartInside rule = question.place->claim().inside;
+  // By these rules, exits are not judged.
+  const bool has_exit = given.exit_time && rule != StartInside::zero && rule != StartInside::exit;
   const auto is_told = [](std::optional<double> time) { return time && std::isfinite(*time); };
-  if (!is_told(exact.time) || !is_told(given.time) || (given.exit_time && !is_told(given.exit_time)))
+  if (!is_told(exact.time) || !is_told(given.time) || (has_exit && !is_told(given.exit_time)))
     return std::nullopt;
   const Scene& scene = question.place->scene();
   const Atom& atom = scene.lattices[exact.obstacle.lattice].atoms[exact.obstacle.atom];
   const Vec& v = question.query.v;
   double off = std::fabs(*given.time - *exact.time);
-  if (given.exit_time) off = std::max(off, std::fabs(*given.exit_time - exit_time(question)));
+  if (has_exit) off = std::max(off, std::fabs(*given.exit_time - exit_time(question)));
   return off / smallest_semiaxis(atom, scene.dimension) * std::hypot(v[0], v[1], v[2]);
 }
 

@@ -57,8 +57,7 @@ namespace lorentz {
   return {std::scalbn(a[0], exponent), std::scalbn(a[1], exponent), std::scalbn(a[2], exponent)};
 }
 
-/// The mean of the vectors' exponents: lengths in this unit may be multiplied, for the longest and the shortest are as
-/// far from 1. No vector may be 0.
+/// The mean of the vectors' exponents, the unit in which products of their lengths are the safest. No vector may be 0.
 [[gnu::always_inline]] inline int mean_exponent(const std::array<Vec, 3>& vectors, int dimension) {
   int sum = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i)

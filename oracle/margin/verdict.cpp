@@ -1,7 +1,6 @@
 #include <lorentz/verdict.hpp>
 
 #include <cmath>
-#include <utility>
 
 #include <lorentz/errors.hpp>
 #include "oracle/margin/departure.hpp"
@@ -113,8 +112,10 @@ struct Judge::Impl {
     const double exit =
         exact.exit_time ? *exact.exit_time : rounded_time(query, exact.obstacle, ChordEnd::exit);
     judge_time(query, {exact.obstacle, ChordEnd::exit, exit}, *given.exit_time, ulps, of_exit);
-    const auto badness = [](const Judgement& one) { return std::pair(one.wrong_time, one.departs); };
-    return badness(of_exit) > badness(judgement) ? of_exit : judgement;
+    judgement.wrong_time |= of_exit.wrong_time;
+    judgement.other_quantity |= of_exit.other_quantity;
+    judgement.departs = std::max(judgement.departs, of_exit.departs);
+    return judgement;
   }
 
   // When the line enters or leaves an obstacle, correctly rounded.

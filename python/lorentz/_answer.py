@@ -214,7 +214,7 @@ def _read_obstacle(fields: dict[str, Any]) -> tuple[int, int, tuple[int, ...]]:
     lattice, atom, *numbers = (int(n) if isinstance(n, str) and re.fullmatch("-?[0-9]+", n) else integer(rational(n), "number")
                                for n in (fields["lattice"], fields["atom"], *cell))
     if lattice < 0 or atom < 0:
-        raise ValueError("lattice and atom are not below 0")
+        raise ValueError("lattice or atom is below 0")
     return lattice, atom, tuple(numbers)
 
 

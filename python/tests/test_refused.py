@@ -110,7 +110,7 @@ REFUSED: list[tuple[str, Callable[[], Any]]] = [
     ("answer: .*KeyError", lambda: lorentz.Answer.from_line("{}")),
     ("answer: ", lambda: lorentz.Answer.from_line("x")),
     ("answer: .*RecursionError", lambda: lorentz.Answer.from_line("[" * 100_000)),
-    ("answer: .*not below 0", lambda: lorentz.Answer.from_line(
+    ("answer: .*is below 0", lambda: lorentz.Answer.from_line(
         '{"outcome":"inside","lattice":0,"atom":-1,"cell":[0,0]}')),
     ("answer: .*the outcome 'banana'", lambda: lorentz.Answer.from_line('{"outcome":"banana"}')),
     ("answer: .*not an integer", lambda: lorentz.Answer.from_line(HIT % ("27.5", "1"))),

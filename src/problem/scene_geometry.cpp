@@ -16,7 +16,9 @@ using std::numbers::pi;
 // then the singular values.
 std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension) {
   std::array<Vec, 3> a = semiaxes_of(atom, dimension);
-  const int exponent = mean_exponent(a, dimension);
+  double size = 0;
+  for (const Vec& column : a) size = std::max(size, largest_component(column));
+  const int exponent = std::ilogb(size);
   for (Vec& column : a) column = times_power_of_two(column, -exponent);
   constexpr int kSweeps = 60;
   bool turned = true;
@@ -25,7 +27,7 @@ std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension) {
     for (int i = 0; i < dimension; ++i)
       for (int k = i + 1; k < dimension; ++k) {
         const double aii = dot(a[i], a[i]), akk = dot(a[k], a[k]), aik = dot(a[i], a[k]);
-        if (aik == 0 || std::fabs(aik) <= 1e-17 * std::sqrt(aii * akk)) continue;
+        if (std::fabs(aik) <= 1e-17 * std::sqrt(aii * akk)) continue;
         turned = true;
         const double zeta = (akk - aii) / (2 * aik);
         const double t = std::copysign(1.0, zeta) / (std::fabs(zeta) + std::hypot(1.0, zeta));

@@ -12,7 +12,7 @@
 namespace lorentz {
 
 /// The lengths of an obstacle's principal semiaxes, longest first: the singular values of its matrix. In 2D
-/// the third is zero.
+/// the third is zero. One that is 10^307 times shorter than the longest loses digits, then all.
 std::array<double, 3> principal_semiaxes(const Atom& atom, int dimension);
 
 /// True if the scene is a single obstacle.

@@ -91,7 +91,7 @@ TEST_CASE("trajectory: an engine held against it", "[cli][trajectory]") {
   const Run exact =
       folder.lorentz("trajectory --scene square --radius 1/10 --collisions 5 --engine oracle " + starts);
   CHECK(contains(last_line(exact.out), R"("diverged":null)"));
-  // No engine is blamed for a time beyond binary64, nor for one that is rounded up to the next collision.
+  // No engine is blamed for a time beyond binary64, nor, on its first flight, for one that is rounded up to a collision.
   for (const std::string how :
        {"--x 1/2,1/2 --v 1,0 --time 1e309", "--x 1/2,0 --v 1,0 --time 0.3999999999999999999"})
     CHECK(std::regex_search(folder.lorentz("trajectory --scene square --radius 1/10 -e reduction " + how).out,

@@ -133,8 +133,16 @@ TEST_CASE("Filling does not depend on the unit of length, up to the ends of bina
   Scene needle = unit_scene(3, 1);
   needle.lattices[0].atoms[0] = {{}, 0, {Vec{0.1, 0, 0}, Vec{0, 1e-170, 0}, Vec{0, 0, 1e-170}}};
   CHECK_FALSE(filling_of(needle).has_value());
-  needle.lattices[0].atoms[0].semiaxes = {Vec{1e160, 0, 0}, Vec{0, 1e-170, 0}, Vec{0, 0, 1e-160}};
-  CHECK(principal_semiaxes(needle.lattices[0].atoms[0], 3) == std::array{1e160, 1e-160, 1e-170});
+  const auto axes = [&](const Vec& a, const Vec& b, const Vec& c) {
+    needle.lattices[0].atoms[0].semiaxes = {a, b, c};
+    return principal_semiaxes(needle.lattices[0].atoms[0], 3);
+  };
+  CHECK(axes({1e130, 0, 0}, {0, 1e-170, 0}, {0, 0, 1e-160}) == std::array{1e130, 1e-160, 1e-170});
+  const auto skew = axes({1e160, 0, 0}, {1e-100, 1e-100, 0}, {0, 0, 1e-100}),
+             flat = axes({1e160, 0, 0}, {1e160, 1e160, 0}, {0, 0, 1e-160});
+  for (int i = 1; i < 3; ++i) CHECK(skew[i] == Approx(1e-100).epsilon(1e-12));
+  CHECK(flat[0] * 1e-160 == Approx((std::sqrt(5) + 1) / 2));
+  CHECK(flat[1] * 1e-160 == Approx((std::sqrt(5) - 1) / 2));
 }
 
 TEST_CASE("Dual vectors of lengths far apart, whichever is the shortest", "[problem][scene_geometry]") {
