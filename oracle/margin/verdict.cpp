@@ -112,6 +112,7 @@ struct Judge::Impl {
     const double exit =
         exact.exit_time ? *exact.exit_time : rounded_time(query, exact.obstacle, ChordEnd::exit);
     judge_time(query, {exact.obstacle, ChordEnd::exit, exit}, *given.exit_time, ulps, of_exit);
+    if (!judgement.wrong_time && of_exit.wrong_time) judgement.ulps = of_exit.ulps;
     judgement.wrong_time |= of_exit.wrong_time;
     judgement.other_quantity |= of_exit.other_quantity;
     judgement.departs = std::max(judgement.departs, of_exit.departs);

@@ -527,6 +527,8 @@ TEST_CASE("An exit is judged like a time, by its own condition", "[oracle][verdi
     CHECK_FALSE(judgement(std::floor(4 * condition)).wrong_time);
     CHECK(judgement(std::ceil(4 * condition + 1)).wrong_time);
     CHECK(judgement(-std::ceil(4 * condition + 1)).departs == Approx(4).epsilon(0.1));
+    CHECK(judgement(std::ceil(4 * condition + 1)).ulps == std::ceil(4 * condition + 1));
+    if (x != 1) CHECK(judgement(std::floor(4 * condition)).ulps == 0);
     CHECK(judgement(0x1p31 * condition).other_quantity);
     Answer right_exit = exact;  // the wrong time is not excused by it
     if (x != 1) {
