@@ -39,7 +39,7 @@ constexpr double other_quantity_from(NumberFormat precision) {
 struct Judgement {
   Verdict verdict = Verdict::missing;
   /// If the obstacle hit is right and a finite time is given: |t - t_exact| / ulp(t_exact), with the rounded
-  /// t_exact. Of the exit, if its time alone is wrong.
+  /// t_exact. If only the exit's time is wrong: the same for that.
   std::optional<double> ulps = {};
   /// For ill_posed and wrong: the least number of ulps by which the inputs must move to make the answer
   /// right. For wrong it is a lower bound, because the first reason to reject the answer ends the search; it

@@ -76,7 +76,7 @@ void Rival::finish(const oracle::Arrival& truth, double until) {
   if (diverged_ || truth.end == JourneyEnd::collisions || truth.end == JourneyEnd::undecided) return;
   const bool at_time = truth.end == JourneyEnd::time;
   const Stop right = at_time ? Stop::time : truth.end == JourneyEnd::never ? Stop::never : Stop::inside;
-  // Below the time that was rounded, and finite: `never` is no end at a time.
+  // Below the time that was rounded, and finite: a flight that never ends reaches it.
   if (trajectory_->advance(at_time ? std::nextafter(until, 0) : kForEver) || trajectory_->stop() != right)
     diverged_ = truth.collisions + 1;
   path_.push_back(trajectory_->place());
