@@ -52,10 +52,9 @@ std::vector<Question> questions_in(const Bench& bench, const Cell& like,
   std::vector<Question> questions =
       question::questions_of(place, starts::free_starts(place->scene(), kind, bench.options.seed,
                                                         bench.options.count, bench.claim.precision));
+  std::erase_if(questions, [&](const Question& one) { return !place->takes(one.query); });
   answer_exactly(questions, bench.asking.listener);
-  std::erase_if(questions, [&](const Question& question) {
-    return !place->takes(question.query) || !place->takes(question.query, question.exact);
-  });
+  std::erase_if(questions, [&](const Question& one) { return !place->takes(one.query, one.exact); });
   return questions;
 }
 
@@ -203,8 +202,7 @@ std::vector<Cell> measured_cells(const Bench& bench, const Cell& like, bool& fai
       rounded_scene(load_scene(like.scene, like.radius), bench.claim.precision, like.scene), bench.claim);
   std::vector<Question> questions = questions_in(bench, like, place);
   const std::size_t outside = bench.options.count - questions.size();
-  const std::string_view too_few =
-      questions.size() < kFewestQueries ? "outside the domain" : report::kTooSlow;
+  const std::string_view why = questions.size() < kFewestQueries ? "outside the domain" : report::kTooSlow;
   std::vector<std::size_t> counts;
   for (const EngineInfo& engine : bench.engines)
     counts.push_back(affordable(bench, questions, engine, failed));
@@ -215,7 +213,7 @@ std::vector<Cell> measured_cells(const Bench& bench, const Cell& like, bool& fai
   for (std::size_t i = 0; i < counts.size(); ++i) {
     Cell& cell = cells.emplace_back(like);
     cell.dimension = place->scene().dimension, cell.engine = bench.engines[i].name, cell.outside = outside;
-    if (counts[i] < kFewestQueries) cell.skipped = too_few;
+    if (counts[i] < kFewestQueries) cell.skipped = why;
     if (!cell.skipped.empty()) continue;
     Examination examination(bench.engines[i], bench.asking, bench.options.tolerance());
     examine_into(cell, examination, std::span(questions).first(counts[i]), bench.options.tolerance());

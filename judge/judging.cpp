@@ -170,12 +170,14 @@ std::vector<question::Question> questions_to_race_in(const std::vector<const Nam
   return all;
 }
 
+constexpr std::size_t kFewestToRace = 32, kMostToRace = 2000;  // fewer say nothing
+
 std::size_t affordable(const JudgeReport& report, int rounds, double seconds) {
-  constexpr double kFewest = 32, kMost = 2000;
   double slowest = 1;
   for (const ExaminedRow& row : report.rows)
     if (!row.is_hard) slowest = std::max(slowest, row.tally.speed.ns_per_query);
-  return static_cast<std::size_t>(std::clamp(1e9 * seconds / rounds / slowest, kFewest, kMost));
+  return static_cast<std::size_t>(
+      std::clamp<double>(1e9 * seconds / rounds / slowest, kFewestToRace, kMostToRace));
 }
 
 void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Terms& terms) {
@@ -190,7 +192,7 @@ void race(JudgeReport& report, const std::vector<NamedPlace>& places, const Term
   question::RaceOptions options{kRounds, terms.answerer};
   options.answerer.enough = [&] { return terms.stop || until.left() == 0; };
   const std::vector<question::Question> questions = questions_to_race_in(chosen, report.seed, count);
-  if (questions.size() < 32) return;  // so few say nothing
+  if (questions.size() < kFewestToRace) return;
   const std::vector<question::Speed> speeds =
       question::race(questions, {report.engine, question::engine_named("reduction")}, options);
   const bool is_cut = report.engine.runs_apart() && options.answerer.enough();

@@ -141,6 +141,14 @@ TEST_CASE("An error of a time is told in radii along the ray, for an ellipsoid i
   }
   wrong_exit.exit_time = INFINITY;
   CHECK_FALSE(diagnosed(through, wrong_exit)->by_radii);
+  for (const StartInside rule : {StartInside::miss, StartInside::zero, StartInside::exit}) {
+    Claim claim;
+    claim.inside = rule;
+    Question by_rule = through;
+    by_rule.place = std::make_shared<Place>(unit_scene(2, 0.25), claim);
+    wrong_exit.exit_time = 1;
+    CHECK(question::radii_off(by_rule, wrong_exit) == Approx(rule == StartInside::miss ? 1 : 0));
+  }
   Scene slender = unit_scene(2, 0.25);
   // Sheared: the smallest semiaxis is not a column's length.
   slender.lattices[0].atoms[0] = Atom{{}, 0, {{0.25, 0, 0}, {0.25, 0.0625, 0}}};
