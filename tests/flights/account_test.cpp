@@ -9,6 +9,7 @@
 #include <lorentz/errors.hpp>
 #include "question/cases/random.hpp"
 #include "statistics/flights/account.hpp"
+#include "statistics/flights/report.hpp"
 #include "statistics/flights/run.hpp"
 
 using namespace lorentz;
@@ -75,4 +76,21 @@ TEST_CASE("Accounts of one plan add up, in any order", "[flights]") {
   CHECK(abc.tally.hits == 3010);
   CHECK(abc.done.size() == 15);
   CHECK_THROWS_AS(abc.add(a), std::invalid_argument);
+}
+
+TEST_CASE(
+    "Paths below 64 spacings from surfaces are one bin of the fit, and the bin from 64 on is not among them",
+    "[flights]") {
+  FlightsReport report;
+  report.plan.scene = unit_scene(2, 1e-3);
+  report.plan.from = Ensemble::surface;
+  const auto statistic_with_one_at = [&](double t) {
+    report.account = Account::begun(report.plan);
+    for (int i = 0; i < 10'000; ++i) report.account.tally.count_hit(0.2 * i);
+    report.account.tally.count_hit(t);
+    return FlightsFindings(report).fit.statistic;
+  };
+  const double below = statistic_with_one_at(std::nextafter(64, 0));
+  CHECK(statistic_with_one_at(3) == below);
+  CHECK(statistic_with_one_at(64) != below);
 }

@@ -143,3 +143,25 @@ TEST_CASE("Golden: given questions are records once each", "[golden]") {
   CHECK(contains(whole.text, "\"source_id\":\"bad\""));
   CHECK(elsewhere.lorentz("golden verify " + elsewhere.write("whole", whole.text)).status == 0);
 }
+
+TEST_CASE("Golden: a question whose proof no checker goes through is left out, and counted once",
+          "[golden][golden_production]") {
+  // A layer of balls, each a thousand cells large: a million obstacles are near the ray.
+  Scene layer = unit_scene(3, 1000);
+  layer.lattices[0].rank = 2;
+  layer.lattices[0].vectors[2] = {};
+  golden::GivenQuestions given({.name = "given", .version = "0"});
+  const auto add = [&](const Scene& scene, const Query& query) {
+    given.add({scene, golden::question_of(query, scene), query, {}, ""});
+  };
+  add(layer, {{0.5, 0.25, 2000}, {0.1, 0.3, -1}, {}});
+  // Of two batches, so that the first question could come again in the second.
+  const std::uint64_t kept = cases::kCasesPerScene + 8;
+  for (std::uint64_t i = 0; i < kept; ++i)
+    add(unit_scene(2, 0.2), {{0.5, 0.3 + 1e-3 * static_cast<double>(i), 0}, {1, 0.25, 0}, {}});
+  const Production made = produced({.count = given.questions.size(), .given = &given});
+  CHECK(made.counts.left_out == 1);
+  CHECK(made.counts.records == kept);
+  CHECK(contains(made.text, fmt::format("\"count\":{},", kept)));
+  CHECK_FALSE(contains(made.text, scene_line(layer)));
+}
