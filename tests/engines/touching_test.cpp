@@ -182,3 +182,28 @@ TEST_CASE("Balls of half the shortest vector do not overlap, in any lattice",
   // engine, which takes such components as zero, does not know, and takes them as overlapping.
   CHECK(strides(2, {{1, 0x1p-600, 0}, {0, 1, 0}}, 0.5));
 }
+
+TEST_CASE("Cells beyond 64 bits among obstacles that overlap their translates along one vector",
+          "[engines][reduction][touching]") {
+  Draw draw(7203);
+  INFO("seed 7203");
+  int hits = 0;
+  for (int i = 0; i < 400; ++i) {
+    // Rows at a distance of 10, counted in a skewed cell: a row far away has a number in the other vector that is
+    // larger than 2^63.
+    const double skew = (i % 2 ? -1 : 1) * (1e6 + static_cast<double>(draw.below(40'000)));
+    const double row =
+        (draw.one_in(2) ? -1 : 1) * static_cast<double>(16'000'000'000'000 + draw.below(1'000'000));
+    Scene scene = unit_scene(2, 0.75);
+    const int along = i % 4 / 2;
+    scene.lattices[0].vectors[along] = {1, 0}, scene.lattices[0].vectors[1 - along] = {skew, 10};
+    const Query query{{draw.between(-1, 1), 10 * row + 5, 0}, draw.vec(2, -1, 1), {}};
+    const Answer given = Reduction(scene).first_hit(query), exact = oracle::Oracle(scene).first_hit(query);
+    INFO(stream(scene, query) << line(given, 2) << line(exact, 2));
+    if (given.outcome != Outcome::hit) continue;
+    ++hits;
+    REQUIRE(given.obstacle == exact.obstacle);
+    REQUIRE_FALSE(exact.obstacle.cell[along].fits_int64());
+  }
+  CHECK(hits > 380);
+}
