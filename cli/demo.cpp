@@ -61,7 +61,8 @@ algorithm is wrong: docs/published.md. To go on:
 
 class DemoReport {
  public:
-  void add(const std::string& what, int dimension, std::vector<Question> questions) {
+  void add(const std::string& what, std::vector<Question> questions) {
+    const int dimension = questions.front().place->scene().dimension;
     answer_exactly(questions, terminal());
     lineup_.begin(what);
     const AskedPart part{std::move(questions)};
@@ -111,15 +112,15 @@ class DemoReport {
 
 int run_demo() {
   DemoReport report;
-  report.add("the paper's example, r = 0.1", 2, paper_example());
+  report.add("the paper's example, r = 0.1", paper_example());
   using enum starts::Kind;
   for (const double r : {0.3, 0.1, 1e-2, 1e-3})
-    report.add(fmt::format("2D, drawn, r = {}", r), 2, drawn(uniform, 2, r, 5000));
+    report.add(fmt::format("2D, drawn, r = {}", r), drawn(uniform, 2, r, 5000));
   for (const double r : {0.3, 0.2, 0.1})  // on these flights the published algorithm skips discs
-    report.add(fmt::format("2D, leaving a disc, r = {}", r), 2, drawn(surface, 2, r, 20000));
+    report.add(fmt::format("2D, leaving a disc, r = {}", r), drawn(surface, 2, r, 20000));
   for (const double r : {0.3, 0.1, 1e-2})
-    report.add(fmt::format("3D, drawn, r = {}", r), 3, drawn(uniform, 3, r, 5000));
-  report.add("3D, drawn, r = 0.001", 3, drawn(uniform, 3, 1e-3, 100));
+    report.add(fmt::format("3D, drawn, r = {}", r), drawn(uniform, 3, r, 5000));
+  report.add("3D, drawn, r = 0.001", drawn(uniform, 3, 1e-3, 100));
   report.show();
   return kDone;
 }

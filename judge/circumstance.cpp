@@ -120,8 +120,7 @@ Features features_of(const Question& question, const std::optional<ObstacleId>& 
       scene.lattices[static_cast<std::size_t>(hit.lattice)].atoms[static_cast<std::size_t>(hit.atom)];
   its.flight_in_radii = flown / smallest_semiaxis(atom, scene.dimension);
   its.depth = -question.place->margins().approach(query, hit).gap;
-  its.chord =
-      2 * smallest_semiaxis(atom, scene.dimension) * std::sqrt(its.depth * std::max(0.0, 2 - its.depth));
+  its.chord = 2 * smallest_semiaxis(atom, scene.dimension) * std::sqrt(its.depth * (2 - its.depth));
   return its;
 }
 

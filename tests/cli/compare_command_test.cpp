@@ -111,6 +111,13 @@ TEST_CASE("compare shows the first wrong answers, and by how much", "[cli][compa
                  "the line misses lattice 0, atom 0, cell (1, 1) by 3 of its radii\n"));
   CHECK(contains(logged(R"("outcome":"hit","lattice":0,"atom":0,"cell":[0,0],"time":0)"),
                  "lattice 0, atom 0, cell (0, 0) lies behind the start\n"));
+  const auto on_surface = folder.write(  // of the disc behind
+      "on", kScene + R"({"id":"good","x":[0.25,0],"v":[1,0]})" + "\n");
+  const auto behind =
+      folder.write("b", R"({"id":"good","outcome":"hit","lattice":0,"atom":0,"cell":[0,0],"time":0})"
+                        "\n");
+  CHECK(contains(folder.lorentz("compare --queries " + on_surface + " --answers mine=" + behind).out,
+                 "lattice 0, atom 0, cell (0, 0) lies behind the start\n"));
   CHECK(contains(logged(R"("outcome":"inside","lattice":0,"atom":0,"cell":[0,0])"),
                  "x lies outside of lattice 0, atom 0, cell (0, 0) by 1 of its radii\n"));
 }

@@ -675,6 +675,18 @@ TEST_CASE("A program's stderr is ours, however much it is", "[compare][command_e
   check_all_but_fifth(run.out, "");
 }
 
+TEST_CASE("A program that complains without end keeps us neither from its answers nor from the end",
+          "[compare][command_engine]") {
+  const Folder folder;
+  const auto queries = folder.write("q", stream());
+  const Run run =
+      folder.run("timeout 300 " LORENTZ_PROGRAM
+                 " first-hit --engine 'cmd:yes complaint >&2 & exec " LORENTZ_PROGRAM " first-hit' " +
+                 queries + " 2>/dev/null");
+  CHECK(run.status == 0);
+  CHECK(run.out == folder.lorentz("first-hit " + queries).out);
+}
+
 TEST_CASE("Ids of the user's, bad lines and scenes around another program", "[compare][command_engine]") {
   const Folder folder;
   const std::string solid =
