@@ -187,6 +187,15 @@ TEST_CASE("Findings are told in groups, the engine's own faults first", "[judge]
   CHECK(contains(report.json(), R"("primitive":{"origin":["0x1p-1","0x0p+0"],)"));
 }
 
+TEST_CASE("The speed of each row is its mean, in the table and as JSON", "[judge][verdict_line]") {
+  JudgeReport report = report_of({row(false, 1000), row(true, 300)});
+  report.rows[0].tally.speed = {.ns_per_query = 1812, .ns_median = 1700};
+  CHECK(contains(report.json(), R"("max_ulp":null,"ns_per_query":1812})"));
+  CHECK(contains(report.json(), R"("max_ulp":null,"ns_per_query":null})"));
+  CHECK(contains(report.text(true), "1812"));
+  CHECK_FALSE(contains(report.text(true), "1700"));
+}
+
 TEST_CASE("Answers to invalid questions are counted apart, told last, and count if they are to",
           "[judge][verdict_line]") {
   JudgeReport report = report_of({row(false, 1000), row(true, 300)});
