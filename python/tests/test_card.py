@@ -36,7 +36,7 @@ def same(there, here):
     view = there.cell.__cuda_array_interface__
     assert view["shape"] == here.cell.shape and view["strides"] == (8, 8 * len(here))
 
-for name, radius in (("square", 1e-5), ("fcc", 0.1), ("perovskite", 0.02)):
+for name, radius in (("square", 1e-5), ("fcc", 0.1), ("perovskite", 0.02), ("superposition-pi-7", 0.02)):
     scene = lorentz.Scene(name, radius)
     x, v, _ = lorentz.draw_starts(scene, 20000, seed=3)
     x[:3] = 0  # inside of an obstacle
