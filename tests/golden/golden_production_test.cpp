@@ -154,8 +154,8 @@ TEST_CASE("Golden: a question whose proof no checker goes through is left out, a
   const auto add = [&](const Scene& scene, const Query& query) {
     given.add({scene, golden::question_of(query, scene), query, {}, ""});
   };
-  // Two batches, and one such question in each: none of them may come again in the other batch.
-  const std::uint64_t all = cases::kCasesPerScene + 8;
+  // Three batches, and one such question in each of two: none of them may come again in another batch.
+  const std::uint64_t all = 2 * cases::kCasesPerScene + 8;
   for (std::uint64_t i = 0; i < all; ++i) {
     if (i == 0 || i == cases::kCasesPerScene + 3)
       add(layer, {{0.5, 0.25, 2000 + static_cast<double>(i)}, {0.1, 0.3, -1}, {}});
