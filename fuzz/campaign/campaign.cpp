@@ -72,7 +72,6 @@ bool run(const Plan& plan, const Bounds& bounds, const MakeAnswerer& make_answer
     journal.ended();
   } catch (...) {
     ledger.stop_all();
-    workers.join();
     throw;
   }
   workers.join();

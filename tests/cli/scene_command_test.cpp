@@ -59,8 +59,10 @@ TEST_CASE("scene show: contacts, filling and mean free path, or why there are no
   const Run fcc = folder.lorentz("scene show fcc");
   CHECK(fcc.status == 0);
   CHECK(fcc.err.empty());
-  for (const char* part : {"cell volume  0.25", "sphere of radius 0.28", "none touch, none overlap",
-                           "0.3678092903", "0.6416854364", "horizon"})
+  for (const char* part :
+       {"cell volume  0.25", "sphere of radius 0.28", "none touch, none overlap",
+        "filling        0.3678092903 of space", "horizon",
+        "mean free path 0.6416854364 between hits: 4 (1 - filling) / (surface per volume "})
     CHECK(contains(fcc.out, part));
   // (2, 0) touches and (1, 0) overlaps: the warning is of the worse.
   CHECK(contains(folder.lorentz("horizon square --radius 1").err, "overlap their own translates"));

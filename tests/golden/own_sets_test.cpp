@@ -90,6 +90,19 @@ TEST_CASE("The index of the committed sets is what the program makes of them", "
   CHECK(golden::index_of(folder, names) == text);
 }
 
+TEST_CASE("Sums are of all files beside a set, but of themselves, and of itineraries", "[golden][own_sets]") {
+  const Folder folder;
+  fs::create_directories(folder.file("sets/itineraries")), fs::create_directories(folder.file("sets/smoke"));
+  folder.write("sets/itineraries/one.json", "1"), folder.write("sets/smoke/two", "2");
+  REQUIRE(folder.lorentz("golden make --set ties --count 3 -o " + folder.file("sets/ties.ndjson")).status ==
+          0);
+  for (int i = 0; i < 2; ++i) golden::write_index(folder.file("sets"), {"ties.ndjson"});
+  const std::string sums = folder.read("sets/SHA256SUMS");
+  CHECK(std::ranges::count(sums, '\n') == 3);
+  for (const char* name : {"  index.json\n", "  smoke/two\n", "  ties.ndjson\n"}) CHECK(contains(sums, name));
+  CHECK(folder.run("cd " + folder.file("sets") + " && sha256sum --quiet --check SHA256SUMS").status == 0);
+}
+
 TEST_CASE("The index says how numbers are written", "[golden][own_sets]") {
   const Folder folder;
   const std::string scene =
