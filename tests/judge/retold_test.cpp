@@ -112,6 +112,19 @@ TEST_CASE("Exact answers to retold flights are those of the plain ones, retold",
   }
 }
 
+TEST_CASE("Where a flight is mirrored, so is the place of the discs", "[judge][questions]") {
+  Scene scene = unit_scene(2, 0.2);
+  scene.lattices[0].atoms[0].position = {0.25, 0.125, 0};
+  const std::vector<NamedPlace> places{{"aside", place_for(scene, {})}};
+  const auto plain = all_of(Retelling::plain, places), told = all_of(Retelling::mirrored, places);
+  REQUIRE((plain.size() > kCount / 2 && told.size() == plain.size()));
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    CAPTURE(i);
+    check_mirrored(told[i], plain[i]);
+    REQUIRE(plain[i].place->scene().lattices[0].atoms[0].position == scene.lattices[0].atoms[0].position);
+  }
+}
+
 TEST_CASE("Retold flights stay in the claim's domain, and an engine without limits is asked none",
           "[judge][questions][claim]") {
   Claim claim;
