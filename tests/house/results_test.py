@@ -38,7 +38,7 @@ class Results(unittest.TestCase):
     def test_each_stored_file_counts(self):
         """A changed figure changes the page."""
         page = printed(SOURCE)
-        for name, old, new in [("fuzz/planted/results.tsv", "\tnot found", "\tleaving"), ("tests/mutants/results.tsv", "\t28\t0", "\t27\t0"),
+        for name, old, new in [("fuzz/planted/results.tsv", "\tnot found", "\tleaving"), ("tests/mutants/results.tsv", "\t29\t0", "\t28\t0"),
                                ("tests/billion/results.tsv", "50399942", "50399941"), ("tests/bench/ratios.tsv", "8.017", "9.017"),
                                ("docs/results/golden.tsv", "\tpublished\t96\t51", "\tpublished\t96\t50"),
                                ("docs/results/figures.toml", "4478284", "4478285"),
