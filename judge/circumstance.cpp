@@ -52,7 +52,10 @@ void measure_from(const Question& question, const ObstacleId& obstacle, Features
   const Vec away = plus(centre, -1, question.query.x);
   its.distance = std::hypot(away[0], away[1], away[2]) / smallest_semiaxis(atom, scene.dimension);
   its.centre = std::hypot(centre[0], centre[1], centre[2]);
-  its.start_gap = std::fabs(question.place->margins().approach(question.query, obstacle).start_gap);
+  const oracle::Approach approach = question.place->margins().approach(question.query, obstacle);
+  its.start_gap = std::fabs(approach.start_gap);
+  if (question.exact.outcome == Outcome::hit && question.exact.obstacle == obstacle)
+    its.depth = -approach.gap;
 }
 
 // Sets where x lies among the cells of the first lattice that repeats; among single obstacles only the signs.
@@ -119,7 +122,8 @@ Features features_of(const Question& question, const std::optional<ObstacleId>& 
   const Atom& atom =
       scene.lattices[static_cast<std::size_t>(hit.lattice)].atoms[static_cast<std::size_t>(hit.atom)];
   its.flight_in_radii = flown / smallest_semiaxis(atom, scene.dimension);
-  its.depth = -question.place->margins().approach(query, hit).gap;
+  if (std::isnan(its.depth))
+    its.depth = -question.place->margins().approach(query, question.exact.obstacle).gap;
   its.chord = 2 * smallest_semiaxis(atom, scene.dimension) * std::sqrt(its.depth * (2 - its.depth));
   return its;
 }

@@ -101,8 +101,8 @@ def mutants():
     rate = 100 * sums["killed"] / (sums["mutants"] - sums["equivalent"])
     missed = [f"{row['folder']} {n}" for row in rows if (n := int(row["mutants"]) - int(row["killed"]) - int(row["equivalent"]))]
     return (f"{made}.\n\nOf {sums['mutants']} mutants the tests killed {sums['killed']}; {sums['equivalent']} change nothing that a user "
-            f"could see. That is {rate:.0f} % of the others. Survivors: {', '.join(missed)}. The tests knew nothing of this draw; since then "
-            "tests were written for most of the survivors.\n")
+            f"could see. That is {rate:.0f} % of the others. Survivors: {', '.join(missed)}. Tests were written for this draw; another "
+            "draw shows what tests see that know nothing of it:\n\n" + figures("mutants_of_another_seed"))
 
 
 def ratios():

@@ -112,17 +112,6 @@ TEST_CASE("An engine is asked no more where it is slow, or does none of the firs
   CHECK((given_up.is_beyond_engine() && !given_up.was_answered()));
 }
 
-TEST_CASE("Where answers come soon, more questions are asked at once", "[judge][examination]") {
-  const std::atomic<bool> stop = false;
-  JudgeOrder order = order_of(question::engine_named("reduction"));
-  int stretches = 0;
-  order.on_progress = [&](const std::string&) { ++stretches; };
-  TimedExamination examination(order, {}, stop);
-  examination.run({"row", ""}, drawn_in({2}, 400), kForEver);
-  CHECK(examination.results().rows[0].tally.queries == 400);
-  CHECK(stretches < 50);  // 15 without an interruption; a hundred if each had four questions
-}
-
 TEST_CASE("Counted questions: each row asks its number, in slow scenes, too", "[judge][examination]") {
   const std::atomic<bool> stop = false;
   const std::string slow =
